@@ -28,7 +28,7 @@ namespace
 {
 
 ///@{
-/// The exact techniques that lights have at rest which leave it to the pass.
+/// The exact techniques of lights at rest that leave their technique to the pass.
 constexpr const char* restingHard = "silhouette";
 constexpr const char* restingSoft = "penumbra";
 ///@}
@@ -41,7 +41,7 @@ constexpr Evaluation evaluationOf()
                                                           : Evaluation::ScreenCpu;
 }
 
-/// @param of what instances are made of
+/// @param of arguments of the instances' constructor
 template <typename Estimator, typename... Of>
 EstimatorEntry makeEntry(TechniqueInfo info, const Of&... of)
 {
@@ -208,7 +208,7 @@ const TechniqueEntry* findTechnique(const std::string& name)
 namespace
 {
 
-/// What the setting `technique` takes.
+/// Return the values of the setting `technique`.
 std::vector<std::string> choosableNames()
 {
   std::vector<std::string> names = namesOf(registry());
@@ -227,7 +227,7 @@ std::string techniqueNames()
 namespace
 {
 
-/// What chooses a technique.
+/// Return the settings that choose a technique.
 const SettingsTable& choiceSettings()
 {
   static const SettingsTable table = { "The technique",
@@ -246,7 +246,7 @@ const SettingsTable& choiceSettings()
   return table;
 }
 
-/// The tables of all techniques, those of the first ones first.
+/// Return the tables of all techniques, in the techniques' order, each once.
 std::vector<const SettingsTable*> allTables()
 {
   std::vector<const SettingsTable*> tables = { &choiceSettings(), &lightAreaSettings() };
@@ -331,14 +331,14 @@ std::string whoHas(const std::string& settingName)
 namespace
 {
 
-/// The registry's name of the technique that settings lead to.
+/// Return the registry's name of the technique that settings select.
 std::string nameOfTechnique(const ShadowSettings& settings)
 {
   const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
   return isAutomatic(settings) ? restingHard : name == automaticTechnique ? plainTechnique : name;
 }
 
-/// Whether a light leaves its technique to the pass, and its shadows may be soft.
+/// True if a light leaves its technique to the pass and its shadows may be soft.
 bool restsSoftly(const ShadowLight& light)
 {
   return isAutomatic(light) && (light.area || light.texture);
@@ -360,15 +360,14 @@ const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
   const TechniqueEntry* technique = findTechnique(name);
   if (!technique)
   {
-    throw CompositionError(
-      "the technique '" + name + "' is asked for; there are: " + techniqueNames());
+    throw CompositionError("there is no technique '" + name + "'; available: " + techniqueNames());
   }
   const EstimatorEntry* estimator =
     settings.estimator.empty() ? technique->estimator : findEstimator(settings.estimator);
   if (!estimator)
   {
     throw CompositionError(
-      "the estimator '" + settings.estimator + "' is asked for; there are: " + estimatorNames());
+      "there is no estimator '" + settings.estimator + "'; available: " + estimatorNames());
   }
   return settings.asPublished && !estimator->info.asPublished.empty()
     ? *findEstimator(estimator->info.asPublished)
@@ -396,7 +395,7 @@ const EstimatorEntry& compose(ShadowLight& light)
   {
     light.projection = findTechnique(light.technique)->projection;
   }
-  // What an estimator never can comes before what it cannot with these numbers.
+  // An estimator's own refusals come before those of single values.
   std::vector<std::string> refusals = { info.refused ? info.refused(light) : std::string() };
   for (const SettingsTable* table : info.settings)
   {

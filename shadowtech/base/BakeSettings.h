@@ -5,18 +5,19 @@
 namespace gnomon
 {
 
-/// When a stale map is baked that a technique can do without.
+/// When a stale map is baked, if the technique works without it.
 enum class BakeTime
 {
-  Settled, ///< after some frames in which nothing that it depends on changed (BakeBackoff)
+  Settled, ///< after some frames without changes to its inputs (BakeBackoff)
   Always   ///< at once
 };
+/// The settings of optional maps.
 struct BakeSettings
 {
   BakeTime time = BakeTime::Settled;
 };
 
-/// Of techniques whose map is optional.
+/// Return the settings of techniques whose map is optional.
 inline const SettingsTable& bakeSettings()
 {
   static const SettingsTable table = { "Optional maps",

@@ -6,15 +6,15 @@
 namespace gnomon
 {
 
-/// What a vector holds on the heap, in use or not.
+/// Return a vector's bytes on the heap, unused capacity included.
 template <typename Value>
 std::size_t bytesOf(const std::vector<Value>& vector)
 {
   return vector.capacity() * sizeof(Value);
 }
 
-/// What a hash table of the standard library holds on the heap: its nodes, each with a pointer to
-/// the next and, for keys whose hash is slow, the hash; and its buckets.
+/// Return the bytes on the heap of a hash table of the standard library. Each node has a pointer to
+/// the next node and, for keys whose hash is slow, the hash; the buckets are pointers.
 template <typename Table>
 std::size_t bytesOfTable(const Table& table)
 {

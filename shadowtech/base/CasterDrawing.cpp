@@ -13,12 +13,12 @@ namespace gnomon
 namespace
 {
 
-/// Depths are compared with this slack, too, as a share of the distance to the camera, which
-/// positions are rounded in proportion to: eight roundings. So is the receiver's plane, in
+/// A second slack of depth comparisons, as a share of the distance to the camera, because positions
+/// are rounded in proportion to it: eight roundings. It also covers the receiver's plane, in
 /// proportion to how far it is followed.
 constexpr double distanceSlack = 1.0 / (1 << 21);
 
-/// The texture unit of a hole's mask; those behind it are the shader's.
+/// The texture unit of the mask of holes; the shader's textures use the units after it.
 constexpr int cutoutUnit = 0;
 
 /// The most planes that clip casters (GlStateGuard).
@@ -101,7 +101,7 @@ void drawCasters(std::size_t number, const MapInput& input, CasterShader shader)
   picture.clipFromCentred = view.clipFromCentred();
   picture.selection.maySee = [&view](const Bounds& centred) { return view.maySee(centred); };
   picture.selection.backOnly = shader.backOnly;
-  if (std::isfinite(view.beginsAt)) // casters may lie before the light's beginning
+  if (std::isfinite(view.beginsAt)) // clip casters in front of the light's start
   {
     picture.keptFromCentred.push_back(distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt));
   }

@@ -10,49 +10,51 @@
 namespace gnomon
 {
 
-/// Depths are compared with this slack, as a share of the map's depth range: four roundings of a
-/// float (2^-24) in the transformations on either side, and as much again for the rasteriser.
+/// The slack of depth comparisons, as a share of the map's depth range. It covers four roundings of
+/// a float (2^-24) in the transformations on either side, and as much again for the rasteriser.
 constexpr float roundingSlack = 1.0f / (1 << 20);
 
-/// What casters are drawn with.
+/// The fragment shader that casters are drawn with.
 struct CasterShader
 {
   std::string fragmentGlsl; ///< the source
   std::vector<std::string> defines;
   std::vector<Uniform> uniforms = {};
-  bool backOnly = false; ///< of two-sided surfaces, only the side that faces away
+  bool backOnly = false; ///< draw only the far side of two-sided surfaces
 };
 
-/// How casters become a picture: of what a view of the light sees, or of their shadows.
+/// How casters are projected into a picture: into a light's view, or as shadows onto a plane.
 struct CasterPicture
 {
   glm::dmat4 clipFromCentred{ 1.0 };
-  /// Planes (n, d) in centred coordinates: what has n.p + d < 0 is clipped away. At most two.
+  /// Planes (n, d) in centred coordinates that clip away n.p + d < 0. At most two.
   std::vector<glm::dvec4> keptFromCentred;
   CasterSelection selection;
 };
 
-/// Makes OpenGL ready to draw casters into a framebuffer's layers of this size. A GlStateGuard is
-/// the caller's business.
+/// Prepare OpenGL to draw casters into a framebuffer's layers of this size. The caller holds a
+/// GlStateGuard.
 void beginCasters(GLuint framebuffer, int sizeTexels);
 
-/// Draws the casters into what is attached to the bound framebuffer. Those with holes are drawn by
-/// a shader of their own: main() ends with discardHoles() (cutout.glsl).
+/// Draw the casters into the attachments of the bound framebuffer. Casters with holes have their
+/// own variant of the shader, so main() must end with discardHoles() (cutout.glsl).
 void drawCasters(const CasterPicture& picture, const OccluderBuffers& buffers,
   ShaderLibrary& shaders, CasterShader shader);
 
-/// Draws the casters, as the view of this number sees them, into what is attached to the
-/// framebuffer.
+/// Draw the casters as a view sees them into the framebuffer's attachments.
 ///
-/// What a texel holds is the fragment shader's business. It is built with PERSPECTIVE or WARPED for
-/// such views. With DEPTH_LINEAR among its defines it gets the map's linear depth as
-/// `in float depthLinear`; the depth buffer has that by itself only where LightView::depthIsAffine.
-/// Where it is across the light, caster_map.glsl tells. The last fit of views that await it
-/// (MapInput::viewFits) is applied here and there, and so is a warp that was chosen.
+/// The fragment shader decides what a texel holds. It is compiled with PERSPECTIVE or WARPED for
+/// such views. If its defines have DEPTH_LINEAR, it reads the map's linear depth as `in float
+/// depthLinear`; the depth buffer is linear only if LightView::depthIsAffine. caster_map.glsl gives
+/// the fragment's place across the light. This function and caster_map.glsl apply the fit that was
+/// found on the GPU (MapInput::viewFits), and the chosen warp.
+///
+/// @param number the view's index in MapInput::views
 void drawCasters(std::size_t number, const MapInput& input, CasterShader shader);
 
-/// The uniform of map_visibility.glsl that says what rounding does to the depths that are compared.
-/// @param followed how many times farther than to its own texel a receiver's plane is followed
+/// Return the uniform of map_visibility.glsl with the rounding of compared depths.
+/// @param followed how far a receiver's plane is followed, in units of the distance to its own
+/// texel
 Uniform depthSlacks(double followed = 1.0);
 
 } // namespace gnomon

@@ -5,9 +5,9 @@
 namespace gnomon
 {
 
-/// Has shaders find other channels of a texture in its first two, for as long as it lives: what
-/// reads an image of one channel reads one of several channels, too. A GlStateGuard is the caller's
-/// business.
+/// Swizzle a texture, so that shaders find two chosen channels in red and green. A shader for
+/// images of one channel thus reads any channel. The destructor restores red and green. The caller
+/// holds a GlStateGuard.
 class ChannelView
 {
 public:

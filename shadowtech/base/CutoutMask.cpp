@@ -8,8 +8,7 @@ namespace gnomon
 namespace
 {
 
-/// A texture coordinate brought to where the texture is, with what lies next to it: into [0, 1],
-/// or, if there is a border, [-1, 2].
+/// Wrap a texture coordinate into [0, 1], or [-1, 2] if there is a border.
 float reduced(float coordinate, TextureWrap wrap)
 {
   float result = 0.0f;
@@ -31,12 +30,12 @@ float reduced(float coordinate, TextureWrap wrap)
       result = std::clamp(coordinate, -1.0f, 2.0f);
       break;
   }
-  return result >= -1.0f && result <= 2.0f ? result : 0.0f; // what is not finite has no place
+  return result >= -1.0f && result <= 2.0f ? result : 0.0f; // not finite
 }
 
 constexpr int border = -1;
 
-/// The texel at an index that is out of range by no more than the size.
+/// Return the texel at an index that is out of range by no more than the size.
 int texelAt(int index, int size, TextureWrap wrap)
 {
   if (wrap == TextureWrap::Repeat)
@@ -47,7 +46,7 @@ int texelAt(int index, int size, TextureWrap wrap)
   {
     return index >= 0 && index < size ? index : border;
   }
-  return std::clamp(index, 0, size - 1); // of a mirrored texture, the neighbour is the texel itself
+  return std::clamp(index, 0, size - 1); // a mirrored texture repeats its edge texel
 }
 
 } // namespace
@@ -74,7 +73,7 @@ bool CutoutMask::isDrawn(const glm::vec2& textureCoordinates) const
   const glm::vec2 first = glm::floor(fromCentre);
   const int x = static_cast<int>(first.x);
   const int y = static_cast<int>(first.y);
-  // A texel counts if its weight is above 0: the first one always has some, the next one only
+  // A texel counts if its weight is above 0. The first one always has a weight, the next one only
   // beyond the first one's centre.
   const bool nextColumn = fromCentre.x > first.x;
   const bool nextRow = fromCentre.y > first.y;

@@ -9,7 +9,7 @@
 namespace gnomon
 {
 
-/// What a texture shows beyond [0, 1].
+/// How a texture continues outside of [0, 1].
 enum class TextureWrap
 {
   ClampToEdge,
@@ -18,13 +18,13 @@ enum class TextureWrap
   ClampToBorder
 };
 
-/// Where a texture leaves something of a surface: VTK draws no fragment whose alpha is 0. All of a
-/// texture that shadows need. It never changes once made, so that surfaces may share it.
+/// Where a texture cuts holes into a surface: VTK draws no fragment whose alpha is 0. Shadows need
+/// nothing else of a texture. A mask is immutable, so surfaces may share it.
 ///
-/// Filtered alpha is 0 only where every texel with a weight above 0 has alpha 0. So an interpolated
-/// texture's holes are smaller than its empty texels, by half a texel all round. Mipmaps are left
-/// out: which level VTK reads depends on how far away the camera is, and a shadow cannot; the mask
-/// is that of the finest level.
+/// Filtered alpha is 0 only where all texels with a weight above 0 have alpha 0. So the holes of an
+/// interpolated texture are smaller than its empty texels, by half a texel all round. The mask is
+/// that of the finest mipmap level: VTK chooses levels by the camera's distance, which a shadow
+/// must not depend on.
 struct CutoutMask
 {
   int width = 0;  ///< texels
@@ -33,11 +33,11 @@ struct CutoutMask
   std::vector<std::uint8_t> texels;
   TextureWrap wrap = TextureWrap::Repeat; ///< in both directions
   bool interpolated = false;              ///< bilinearly; else the nearest texel counts
-  bool borderDrawn = false;               ///< ClampToBorder: whether the border has alpha above 0
+  bool borderDrawn = false;               ///< ClampToBorder: the border has alpha above 0
 
-  /// Whether something is drawn at these texture coordinates, as OpenGL would filter the texels
-  /// (core profile 4.5, section 8.14), but with weights that are not rounded. Any coordinates have
-  /// an answer, NaN too.
+  /// True if the texture has alpha above 0 at these coordinates. The filter is OpenGL's (core
+  /// profile 4.5, section 8.14), but with unrounded weights. All coordinates are allowed, NaN
+  /// included.
   bool isDrawn(const glm::vec2& textureCoordinates) const;
 
   bool operator==(const CutoutMask& other) const

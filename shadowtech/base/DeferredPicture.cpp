@@ -23,7 +23,7 @@ GLint ofAttachment(GLenum attachment, GLenum parameter)
   return value;
 }
 
-/// Whether the picture's colours are plain 8-bit fixed-point numbers.
+/// True if the picture's colours are plain 8-bit fixed-point numbers.
 bool isEightBit()
 {
   return ofAttachment(outputs[0], GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE) == 8 &&
@@ -96,7 +96,7 @@ void DeferredPicture::allocate(const glm::ivec2& extent, bool eightBit)
     return;
   }
   const GlStateGuard guard;
-  this->extent_ = glm::ivec2(0); // in case that there is no memory
+  this->extent_ = glm::ivec2(0); // in case the allocation fails
   if (!isSameExtent)
   {
     allocateTexture(this->fragments_, { GL_RG32F, GL_RG, 2 }, extent.x, extent.y, 0,
@@ -113,14 +113,14 @@ void DeferredPicture::allocate(const glm::ivec2& extent, bool eightBit)
 }
 
 //------------------------------------------------------------------------------
-/// Copies the picture so far into the colours in shadow, for fragments that blend.
+/// Copy the picture so far into the colours in shadow, because fragments may blend with it.
 void DeferredPicture::copyPicture() const
 {
   const glm::ivec2& from = this->origin_;
   const glm::ivec2& to = this->extent_;
   if (this->eightBit_ && GNOMON_HAS_GL(VERSION_4_3))
   {
-    // Copies bytes, where a blit of software OpenGL would draw.
+    // This copies bytes; software OpenGL would draw a blit.
     const bool isTexture =
       ofAttachment(outputs[0], GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_TEXTURE;
     const auto picture =

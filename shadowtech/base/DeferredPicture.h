@@ -15,39 +15,40 @@ namespace gnomon
 
 class ShaderLibrary;
 
-/// What is drawn along with a picture so that its shadows can follow: which triangle each pixel
-/// shows, and its colour were the one light that casts hidden. While it is attached the picture
-/// itself is drawn as if nothing hid the light.
+/// Images drawn along with a picture, for shading its shadows afterwards: the triangle of each
+/// pixel, and the pixel's colour if the one casting light were hidden. While they are attached, the
+/// picture itself is drawn without shadows.
 class DeferredPicture
 {
 public:
-  /// Why it cannot be attached to the framebuffer that is bound, as a clause; empty if it can.
+  /// Return why the images cannot be attached to the bound framebuffer, as a clause; empty if they
+  /// can.
   static std::string whyUnsupported();
 
-  /// Attaches its images to the framebuffer that is bound, where the viewport is. The fragment
-  /// shader's outputs go
-  /// - 0: to the picture, as without;
+  /// Attach the images to the bound framebuffer, for the current viewport. The fragment shader's
+  /// outputs go
+  /// - 0: to the picture, as without this class;
   /// - 1: to the fragments, xy as in ReceiverImages, if they are wanted;
-  /// - 2: to the colours in shadow, blended as the picture's.
-  /// @param withFragments false: they stay those of the last picture
+  /// - 2: to the colours in shadow, blended like the picture's.
+  /// @param withFragments false: reuse the fragments of the last picture
   /// @throws TextureMemoryError before anything is attached
   void attach(bool withFragments);
 
-  /// Leaves the framebuffer as it was.
+  /// Restore the framebuffer.
   void detach();
 
-  /// Reads the fragments back.
+  /// Read the fragments back.
   void read(ReceiverImages& images) const;
-  /// Reads window depths back, one a pixel of the viewport, from the framebuffer that is bound.
+  /// Read window depths back from the bound framebuffer, one per pixel of the viewport.
   void readDepths(std::vector<float>& depths) const;
 
-  /// Keeps where the picture has shadows.
-  /// @param visibility of each pixel of the viewport
+  /// Cache which tiles of the picture have shadows.
+  /// @param visibility of each pixel of the viewport, in [0, 1]
   void keepShadows(const std::vector<float>& visibility);
 
-  /// Gives the pixels in shadow their colours, in the framebuffer that is bound. Those between
-  /// light and shadow get a mixture of both colours, as the framebuffer's format rounds it.
-  /// @param layers whose layer 0 is the visibility that was kept
+  /// Draw the colours in shadow into the bound framebuffer, at the pixels in shadow. Pixels between
+  /// light and shadow get a mixture of both colours, rounded by the framebuffer's format.
+  /// @param layers array texture whose layer 0 is the visibility given to keepShadows()
   void darken(const TextureBinding& layers, ShaderLibrary& shaders);
 
   /// The viewport's size in pixels.
@@ -60,18 +61,18 @@ private:
 
   GlTexture fragments_;
   GlTexture inShadow_;
-  GlFramebuffer framebuffer_; ///< of both, to clear and to read
+  GlFramebuffer framebuffer_; ///< of both images, for clearing and reading
   glm::ivec2 extent_{ 0 };    ///< of the images: up to the viewport's upper right corner
-  bool eightBit_ = false;     ///< whether colours are 8-bit fixed point, as the picture's
+  bool eightBit_ = false;     ///< colours are 8-bit fixed point, as in the picture
   glm::ivec2 origin_{ 0 };    ///< of the viewport
   glm::ivec2 size_{ 0 };      ///< of the viewport
-  bool blending_ = false;     ///< of the fragments, whether it was on
+  bool blending_ = false;     ///< was on for output 1 before attach()
 
-  GlBuffer corners_; ///< of the triangles that cover the tiles with shadows, in pixels
+  GlBuffer corners_; ///< of triangles over the tiles with shadows, in pixels
   GlVertexArray tiles_;
-  GLsizei cornersInPart_ = 0; ///< of tiles of which some is lit, which come first
-  GLsizei cornersWhole_ = 0;  ///< and of others
-  bool mixes_ = false;        ///< whether some pixels are between light and shadow
+  GLsizei cornersInPart_ = 0; ///< of partly lit tiles, which come first
+  GLsizei cornersWhole_ = 0;  ///< of the other tiles
+  bool mixes_ = false;        ///< some pixels are between light and shadow
 };
 
 } // namespace gnomon

@@ -6,8 +6,8 @@
 namespace gnomon
 {
 
-/// The project's .glsl files as they were when it was built, by path from the project's root, e.g.
-/// "shadowtech/nsm/nsm_estimator.glsl". The definition is generated (cmake/GnomonEmbedGlsl.cmake).
+/// Return the project's .glsl files as of its build, by path from the project's root, e.g.
+/// "shadowtech/base/shadow_ray.glsl". cmake/GnomonEmbedGlsl.cmake generates the definition.
 const std::map<std::string, std::string>& embeddedShaders();
 
 } // namespace gnomon

@@ -1,6 +1,6 @@
 #pragma once
 
-// OpenGL as VTK loads it (GNOMON_HAS_GL tells what there is), and owners of GL names.
+// OpenGL as VTK loads it (GNOMON_HAS_GL tests for a version), and owners of GL names.
 #include "lights/vtkGnomonVersions.h"
 
 #include GNOMON_VTK_GL_HEADER
@@ -10,8 +10,9 @@
 namespace gnomon
 {
 
-/// While one of these is alive, GL names that go out of scope are forgotten instead of deleted:
-/// their context is gone, and the names may mean something else in the one that is current.
+/// While an object of this class is alive, handles drop their GL names instead of deleting them.
+/// The names' context is gone, and in the current context the same names may belong to other
+/// objects.
 class GlContextLost
 {
 public:
@@ -23,8 +24,7 @@ public:
   inline static thread_local bool lost = false;
 };
 
-/// Owns one GL name. Its context must be current when the name is created and when it is given
-/// back.
+/// Owns one GL name. Its context must be current when the name is created and when it is deleted.
 template <typename Kind>
 class GlHandle
 {
@@ -47,7 +47,7 @@ public:
   GlHandle(const GlHandle&) = delete;
   GlHandle& operator=(const GlHandle&) = delete;
 
-  /// The name, created on first use.
+  /// Return the name, created on first use.
   GLuint create()
   {
     if (!this->name_)

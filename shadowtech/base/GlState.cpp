@@ -12,7 +12,7 @@ void setEnabled(GLenum name, GLboolean enabled)
   enabled ? glEnable(name) : glDisable(name);
 }
 
-/// Binds a texture again, unless it was deleted meanwhile, which unbinds it for good.
+/// Rebind a texture, unless it was deleted meanwhile, which unbinds it for good.
 void bindAgain(GLenum target, GLint texture)
 {
   const auto name = static_cast<GLuint>(texture);

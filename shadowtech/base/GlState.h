@@ -10,9 +10,8 @@
 namespace gnomon
 {
 
-/// Remembers the OpenGL state that Gnomon's own drawing touches and puts it back at the end of its
-/// scope. VTK keeps a copy of most of that state (vtkOpenGLState); since what it knows is true
-/// again afterwards, it need not be told.
+/// Saves the OpenGL state that Gnomon's own drawing changes, and restores it at the end of its
+/// scope. So VTK's copy of that state (vtkOpenGLState) stays true and need not be updated.
 class GlStateGuard
 {
 public:
@@ -21,7 +20,7 @@ public:
   GlStateGuard(const GlStateGuard&) = delete;
   GlStateGuard& operator=(const GlStateGuard&) = delete;
 
-  /// Texture units whose 2D and 2D array bindings are put back.
+  /// The number of texture units whose 2D and 2D array bindings are restored.
   static constexpr int textureUnits = 12;
 
 private:
@@ -43,12 +42,11 @@ private:
   std::array<GLint, textureUnits> texture2D_, texture2DArray_;
 };
 
-/// Reads depths, one a pixel, of a part of a framebuffer.
+/// Read window depths of a part of a framebuffer, one per pixel.
 void readDepths(
   GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size, std::vector<float>& depths);
 
-/// Remembers the buffers that compute shaders read and write, and puts them back at the end of its
-/// scope.
+/// Saves the shader storage buffer bindings, and restores them at the end of its scope.
 class StorageBindingsGuard
 {
 public:

@@ -53,7 +53,7 @@ Bounds instancesBounds(const glm::vec3* positionsSource, std::size_t vertexCount
     const glm::dvec3 centre = matrix * glm::dvec4(source.centre(), 1.0);
     const glm::dvec3 reach =
       glm::abs(matrix[0]) * half.x + glm::abs(matrix[1]) * half.y + glm::abs(matrix[2]) * half.z;
-    // Most lie within the box so far, as the box of their source's box shows.
+    // Most instances lie within the box so far, by the box around the image of their source's box.
     Bounds extended = bounds;
     extended.add(centre - reach);
     extended.add(centre + reach);

@@ -9,21 +9,18 @@
 namespace gnomon
 {
 
-/// How wide a filter averages, of every technique that does.
+/// The width of a filter's kernel, for all techniques with a filter.
 struct KernelSettings
 {
-  int sizeTexels = 3; ///< the side of a kernel's square, the diameter of its disc
-  /// The width across the light, in world units, of a positional light at distance 1; 0:
+  int sizeTexels = 3; ///< side of a square kernel, diameter of a disc
+  /// The width across the light in world units, of a positional light at distance 1; 0: use
   /// sizeTexels.
   double widthAcross = 0.0;
 };
+/// Return the settings of techniques with a filter.
 const SettingsTable& kernelSettings();
 
-/// What a filter's kernel is measured in (kernel_units.glsl). One of `kernel_size` units is
-/// - a texel of a uniform projection;
-/// - of a warped one, whose texels are longer across the light one way than the other, as large as
-///   a texel, but of a shape that is even across the light (KernelShape.h);
-/// - the share of `kernel_width` across the light, if that is asked for.
+/// The unit of a filter's kernel (kernel_units.glsl). The kernel is `kernel_size` units wide.
 enum class KernelUnits
 {
   Texels,
@@ -31,19 +28,22 @@ enum class KernelUnits
   Across
 };
 
+/// Return the unit of a light's kernel.
 KernelUnits kernelUnits(const ShadowLight& light);
 
-/// How far a kernel reaches: the texels around its points, and a square and a disc of its units.
+/// How far a kernel reaches: the texels read around each of its points, and its square and disc in
+/// kernel units.
 struct KernelExtent
 {
   double squareTexels; ///< half the side
   double square;       ///< half the side, in units
   double disc;         ///< the radius, in units
 };
+/// Return how far a kernel reads around a point of a light's map.
 MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent);
 
 ///@{
-/// What kernel_units.glsl needs: in front of it, and as a uniform.
+/// Return what kernel_units.glsl needs: the defines in front of it, and its uniform.
 std::string kernelDefines(const ShadowLight& light);
 Uniform kernelUnit(const MapReach& reach);
 ///@}

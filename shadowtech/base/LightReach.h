@@ -12,11 +12,13 @@ namespace gnomon
 {
 
 /// @file
-/// What light_reach.glsl needs to know of a light.
+/// Defines and uniforms of light_reach.glsl for a light.
 
+/// Return the defines that select a light's bounds: SPOT or BOX.
 std::vector<std::string> lightReachDefines(const ShadowLight& light);
 
-/// @param viewFromCentred the camera's, rigid
+/// Return the uniforms, for points in the camera's view coordinates.
+/// @param viewFromCentred of the camera, rigid
 std::vector<Uniform> lightReachUniforms(
   const ShadowLight& light, const glm::dvec3& centreWorld, const glm::dmat4& viewFromCentred);
 

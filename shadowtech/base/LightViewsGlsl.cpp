@@ -9,7 +9,7 @@ namespace gnomon
 namespace
 {
 
-/// Of uniform views, whose map is a scale and an offset: texel = xy * across + zw.
+/// Return a uniform view's map as scale and offset: texel = xy * across + zw.
 glm::vec4 scaleAndOffset(const glm::dmat3& texelFromAcross)
 {
   return { texelFromAcross[0].x, texelFromAcross[1].y, texelFromAcross[2].x, texelFromAcross[2].y };
@@ -49,8 +49,8 @@ std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
     { "lightBox_LIGHT", glm::vec3(views.box) } };
   if (views.awaitFit)
   {
-    // Also where there is no view and so no fit: the sampler must not keep the unit of an earlier
-    // frame, which a sampler of another kind may have now.
+    // Set the sampler even without a view and so without a fit. Otherwise it would keep the unit of
+    // an earlier frame, which a sampler of another type may use in this one.
     uniforms.push_back({ "viewFits_LIGHT", TextureBinding{ GL_TEXTURE_2D, viewFits.texture } });
   }
   for (std::size_t i = 0; i < views.views.size(); ++i)

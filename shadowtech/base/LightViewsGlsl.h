@@ -11,13 +11,13 @@
 namespace gnomon
 {
 
-/// The definitions that light_views.glsl, included by a technique's source, needs in front of it.
-/// @param asksPixels whether the source asks how many texels a pixel covers
+/// Return the defines that light_views.glsl needs in front of it.
+/// @param asksPixels true if the source asks how many texels a pixel covers
 std::string lightViewsDefines(const ShadowLight& light, bool asksPixels = false);
 
-/// The uniforms of light_views.glsl, also those that only other kinds of light use.
+/// Return the uniforms of light_views.glsl, including those that only other kinds of light use.
 /// @param sizeTexels the side of the map's layers
-/// @param viewFits the last fits of views that await them (MapInput::viewFits)
+/// @param viewFits the fits found on the GPU, if views await them (MapInput::viewFits)
 std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
   const ReceiverSpace& space, const TextureBinding& viewFits = {});
 

@@ -18,7 +18,7 @@ namespace
 
 constexpr double missPixels = 1.0 / 64.0;
 constexpr double solidMissPixels = 1.0;
-/// A 24-bit depth buffer's last two digits, and VTK's usual polygon offset: 2 of them, and twice
+/// The last two bits of a 24-bit depth buffer, and VTK's usual polygon offset: 2 units, and twice
 /// the slope.
 constexpr double depthNoise = 4.0 / 16777216.0;
 constexpr double offsetPixels = 2.0;
@@ -53,7 +53,8 @@ public:
   }
 
 private:
-  /// Where a centred point is seen: in pixels from the centre of pixel (0, 0), and window depth.
+  /// Return where the camera sees a centred point: in pixels from the centre of pixel (0, 0), and
+  /// the window depth.
   glm::dvec3 windowOf(const glm::dvec3& point) const
   {
     const glm::dvec4 clip = this->clipFromCentred_ * glm::dvec4(point, 1.0);
@@ -108,7 +109,7 @@ NumberCheck checkNumbers(const ReceiverImages& images, const std::vector<float>&
     {
       const glm::vec2& fragment = images.fragments[i];
       const auto surface = static_cast<std::size_t>(std::abs(fragment.x));
-      // Larger numbers than the images can hold are not the driver's fault.
+      // Numbers too large for the images are not the driver's fault.
       if (surface == 0 || surface > compared.size() || compared[surface - 1] == 0 ||
         fragment.y >= primitiveLimit)
       {

@@ -10,24 +10,27 @@
 namespace gnomon
 {
 
-/// How many pixels name a primitive that the depth buffer contradicts.
+/// The result of a check of primitive numbers against the depth buffer.
 struct NumberCheck
 {
   std::int64_t pixels = 0; ///< that were compared
-  std::int64_t wrong = 0;  ///< of these
+  std::int64_t wrong = 0;  ///< those whose number contradicts the depth buffer
 };
 
-/// Compares the primitives that a picture's pixels name with what was drawn there. Drivers count
+/// Compare the primitives that a picture's pixels name with the drawn depths. Drivers count
 /// primitives for fragment shaders, and Mesa has counted them wrongly (work item 15660).
 ///
-/// A pixel's number is wrong if its drawn surface has no primitive of that number, if the pixel's
-/// ray misses the triangle by more than 1/64 pixel, or if it meets it at another depth than was
-/// drawn. Rasterisers move corners by up to 1/256 pixel; the depth may differ by as much as 1/64
-/// pixel changes it. The picture of a solid is computed in float: its ray may miss by a pixel, and
-/// its depth is not compared.
+/// A pixel's number is wrong in three cases:
+/// - its drawn surface has no primitive of that number;
+/// - the pixel's ray misses the triangle by more than 1/64 pixel;
+/// - the ray meets it at another depth than was drawn.
 ///
-/// @param windowDepths in [0, 1], one a pixel of the images; a polygon offset of the usual size is
-/// tolerated. Empty if they may be of something else than the named surfaces: not compared.
+/// Rasterisers move corners by up to 1/256 pixel. The depth may differ by as much as 1/64 pixel
+/// changes it. VTK computes the picture of a solid in float: its ray may miss by a pixel, and its
+/// depth is not compared.
+///
+/// @param windowDepths in [0, 1], one per pixel of the images; a polygon offset of the usual size
+/// is tolerated. Empty: compare no depths, because they may belong to other surfaces.
 /// @param compared by drawn surface, 1 for those whose pixels are compared
 /// @param clipFromCentred of the camera that drew them
 NumberCheck checkNumbers(const ReceiverImages& images, const std::vector<float>& windowDepths,

@@ -33,7 +33,7 @@ Bounds verticesBounds(const Surface& surface, const Occluders& occluders)
   return bounds;
 }
 
-/// Sends some elements of an array to the same place in the bound buffer.
+/// Upload some elements of an array to a place in the bound buffer, counted in elements.
 template <typename Element>
 void send(GLenum target, const std::vector<Element>& elements, std::size_t first, std::size_t count,
   std::size_t place)
@@ -50,7 +50,7 @@ GLint wrapOf(TextureWrap wrap)
                                           : GL_REPEAT;
 }
 
-/// A mask as the red channel of a texture that is read as VTK reads its own.
+/// Return a mask as the red channel of a texture, with the filter and wrap of VTK's texture.
 GlTexture makeTexture(const CutoutMask& mask)
 {
   GlTexture texture;
@@ -69,14 +69,14 @@ GlTexture makeTexture(const CutoutMask& mask)
   return texture;
 }
 
-/// Where an element of the bound buffer lies, in the form that OpenGL takes.
+/// Return the offset of an element of the bound buffer, in the form that OpenGL expects.
 template <typename Element>
 const void* placeOf(std::size_t number)
 {
   return reinterpret_cast<const void*>(number * sizeof(Element));
 }
 
-/// Tells the bound vertex array to read a matrix for each instance from the bound buffer.
+/// Make the bound vertex array read a matrix per instance from the bound buffer.
 void readMatrices()
 {
   for (GLuint column = 0; column < 4; ++column)
@@ -89,7 +89,7 @@ void readMatrices()
   }
 }
 
-/// Draws both sides of triangles, or not the one that is culled.
+/// Cull the given face, if any.
 void cull(std::optional<GLenum> face, bool mirrored)
 {
   glFrontFace(mirrored ? GL_CW : GL_CCW);
@@ -97,7 +97,7 @@ void cull(std::optional<GLenum> face, bool mirrored)
   glCullFace(face.value_or(GL_BACK));
 }
 
-/// What is culled of a surface.
+/// Return the face to cull of a surface; none: draw both.
 std::optional<GLenum> culledFace(bool oneSided, bool backOnly)
 {
   return oneSided ? std::optional<GLenum>(GL_BACK)
@@ -116,7 +116,7 @@ void OccluderBuffers::update(const Occluders& occluders)
   {
     return;
   }
-  const GlStateGuard guard; // an index buffer that others bind must not land in this vertex array
+  const GlStateGuard guard; // index buffers bound later must not land in this vertex array
   glBindVertexArray(this->vertexArray_.create());
   glBindBuffer(GL_ARRAY_BUFFER, this->positions_.create());
   sameTopology ? this->sendMoved(occluders) : this->sendAll(occluders);
@@ -159,7 +159,7 @@ void OccluderBuffers::sendAll(const Occluders& occluders)
   std::size_t place = 0;
   for (auto first = occluders.surfaces.begin(); first != occluders.surfaces.end();)
   {
-    // Neighbours go at once.
+    // Upload neighbours at once.
     std::size_t count = 0;
     auto last = first;
     for (; last != occluders.surfaces.end() && last->casts; ++last)
@@ -176,8 +176,7 @@ void OccluderBuffers::sendAll(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-/// Sends the matrices of all instances that are drawn, and gives them to the vertex array that is
-/// bound.
+/// Upload the matrices of all drawn instances, and attach them to the bound vertex array.
 void OccluderBuffers::sendInstances(const Occluders& occluders)
 {
   std::vector<glm::mat4x3> instances{ glm::mat4x3(1.0f) };
@@ -197,8 +196,7 @@ void OccluderBuffers::sendInstances(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-/// Gives the surfaces with a cut-out their texture coordinates and masks. Masks that are still in
-/// use are not sent again.
+/// Upload texture coordinates and masks of surfaces with a cut-out. Masks still in use are reused.
 void OccluderBuffers::sendCutouts(const Occluders& occluders)
 {
   std::map<std::shared_ptr<const CutoutMask>, GlTexture> masks;
@@ -255,7 +253,7 @@ void OccluderBuffers::sendMoved(const Occluders& occluders)
     {
       part.positionsVersion = surface.positionsVersion;
       part.boundsCentred = verticesBounds(surface, occluders);
-      if (surface.isInstanced()) // whose vertices stay
+      if (surface.isInstanced()) // only its matrices changed
       {
         glBindBuffer(GL_ARRAY_BUFFER, this->instances_.name());
         send(GL_ARRAY_BUFFER, surface.centredFromSource, 0, surface.centredFromSource.size(),
@@ -311,7 +309,7 @@ void OccluderBuffers::drawParts(
 {
   std::vector<GLsizei> counts;
   std::vector<const void*> offsets;
-  GLsizei end = -1; // of the run of neighbours that is being extended
+  GLsizei end = -1; // of the current run of neighbours
   for (const Part& part : parts)
   {
     if (!selection.maySee(part.boundsCentred))

@@ -17,54 +17,54 @@ namespace gnomon
 /// Which casters are drawn, and which of their sides.
 struct CasterSelection
 {
-  /// False only if a box (centred) holds nothing that is to be drawn.
+  /// False only if nothing inside a box (centred) has to be drawn.
   std::function<bool(const Bounds&)> maySee;
-  bool backOnly = false; ///< of the two-sided surfaces, too: only what faces away from the light
-  /// Whether the picture is mirrored, so that fronts are clockwise there. Maps are: a light looks
-  /// along +z of its right-handed space.
+  bool backOnly = false; ///< draw only sides that face away from the light
+  /// True if the picture is mirrored, so that fronts are clockwise there. Maps are mirrored: a
+  /// light looks along +z of its right-handed space.
   bool mirrored = true;
 };
 
-/// The snapshot's casting surfaces on the GPU, for drawing maps and shadows.
+/// The snapshot's casting surfaces on the GPU, for baking maps and drawing shadows.
 class OccluderBuffers
 {
 public:
-  /// Brings the buffers up to date; only what changed is sent.
+  /// Upload what changed since the last call.
   void update(const Occluders& occluders);
 
-  /// Draws the casting triangles with the program in use, whose vertex shader is casters.vert.glsl.
-  /// Surfaces that cannot be seen are left out, and those with a cut-out are left to drawCutouts().
-  /// One-sided surfaces are drawn with their back faces culled, "front" being what the light sees
+  /// Draw the casting triangles with the program in use, whose vertex shader is casters.vert.glsl.
+  /// Leaves out surfaces that the selection does not see, and surfaces with a cut-out
+  /// (drawCutouts()). Culls the back faces of one-sided surfaces; the light sees fronts
   /// counter-clockwise.
   void draw(const CasterSelection& selection) const;
 
-  /// Whether there are surfaces with a cut-out.
+  /// True if there are surfaces with a cut-out.
   bool hasCutouts() const { return !this->cutouts_.empty(); }
 
-  /// Draws the casting triangles of surfaces with a cut-out, otherwise like draw(). Texture
-  /// coordinates are attribute 1, a vec2; the 2D texture of the active unit is, surface by surface,
-  /// its mask, which is 0 exactly where the surface has a hole, filtered and repeated as VTK's
-  /// texture is.
+  /// Draw the casting triangles of surfaces with a cut-out, otherwise like draw(). Texture
+  /// coordinates are attribute 1, a vec2. The 2D texture of the active unit is each surface's mask:
+  /// 0 exactly in the surface's holes, and filtered and repeated like VTK's texture.
   void drawCutouts(const CasterSelection& selection) const;
 
-  /// The number of casting surfaces that none of the views can see.
+  /// Return the number of casting surfaces that no view can see.
   int countUnseen(const std::vector<LightView>& views) const;
 
-  /// The buffer of all the snapshot's positions, three floats each; 0 before the first update.
+  /// Return the buffer of all positions of the snapshot, three floats each; 0 before the first
+  /// update.
   GLuint positions() const { return this->positions_.name(); }
 
-  /// On the GPU, and what is remembered of each surface.
+  /// Return the bytes on the GPU and of the cached lists of surfaces.
   std::size_t bytes() const;
 
 private:
-  /// One surface's indices, and the box around what they lead to.
+  /// One surface's range of indices, and the box around its triangles.
   struct Part
   {
     GLsizei first;
     GLsizei count;
-    std::uint64_t positionsVersion; ///< as sent
+    std::uint64_t positionsVersion; ///< as uploaded
     Bounds boundsCentred;
-    GLuint firstInstance = 0; ///< in instances_; 0 is the identity, which what is drawn once takes
+    GLuint firstInstance = 0; ///< in instances_; 0, the identity, if drawn once
     GLsizei instances = 0;    ///< 0: drawn once
   };
   /// A surface with a cut-out.
@@ -73,7 +73,7 @@ private:
     Part part;
     bool oneSided;
     std::shared_ptr<const CutoutMask> mask;
-    GLint baseVertex; ///< brings its indices to its first vertex, where both attributes begin
+    GLint baseVertex; ///< makes its indices relative to its first vertex
     GlBuffer textureCoordinates;
     GlVertexArray vertexArray;
   };

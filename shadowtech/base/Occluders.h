@@ -18,7 +18,7 @@ namespace gnomon
 
 /// One surface as VTK draws it: the polygons, or the strips, of one polydata under one prop (a
 /// block of a composite data set, a leaf of an assembly). Its vertices and triangles are contiguous
-/// in the snapshot. It has no triangles if all that it draws were dropped.
+/// in the snapshot. It has no triangles if all of them were dropped.
 struct Surface
 {
   std::uint32_t firstVertex = 0;
@@ -30,52 +30,53 @@ struct Surface
   bool receives = true;  ///< its pixels are shadowed; else their visibility is 1
   bool oneSided = false; ///< only triangles whose front (counter-clockwise) faces the light cast
 
-  /// What its texture leaves of it; null, as nearly always, for all of it.
+  /// The holes that its texture cuts; null, as nearly always, if it has none.
   std::shared_ptr<const CutoutMask> cutout;
-  /// Of a surface with a cut-out, one for each of its vertices. A triangle's are affine on it.
+  /// One per vertex, only if the surface has a cut-out. They are affine on each triangle.
   std::vector<glm::vec2> textureCoordinates;
 
-  /// Of a surface that VTK shades with normals of its points, one for each of its vertices, of any
-  /// length; empty for all others (SmoothFacet.h).
+  /// One normal of any length per vertex, if VTK shades the surface with normals of its points;
+  /// else empty (SmoothFacet.h).
   std::vector<glm::vec3> pointNormals;
-  /// Takes vertices from where these normals are to centred coordinates, but for the place; of a
-  /// surface with instances each instance's matrix does.
+  /// The linear part of the transformation from the normals' space to centred coordinates. A
+  /// surface with instances uses each instance's matrix instead.
   glm::mat3 centredFromNormals{ 1.0f };
-  /// How high the curved surface that these normals imply is above its triangles, at most, in
-  /// centred coordinates; 0 without normals, or of more than `mostFacets` triangles.
+  /// The largest height of the curved surface that these normals imply above its triangles, in
+  /// centred coordinates. 0 without normals, or with more than `mostFacets` triangles.
   float facetHeight = 0.0f;
 
-  Bounds boundsCentred; ///< box around all that is drawn of it
+  Bounds boundsCentred; ///< box around all that VTK draws of it
 
-  /// Changes when the triangles of this surface change (its mapper's input) or their texture
-  /// coordinates, not when it only gets another place in the list. Versions are never given twice
-  /// within a snapshot, so that a surface can be found again by this one.
+  /// Changes with this surface's triangles (its mapper's input) or their texture coordinates, not
+  /// with its place in the list. Versions are unique within a snapshot, so this one identifies a
+  /// surface.
   std::uint64_t topologyVersion = 0;
-  /// Changes when its centred positions or its normals change: with the topology, or because the
-  /// prop moved.
+  /// Changes with its centred positions or normals: with the topology, or because the prop moved.
   std::uint64_t positionsVersion = 0;
 
   /// For the n-th triangle that VTK draws of this surface, the triangle in the snapshot, counted
-  /// from firstTriangle; `noTriangle` for one that was dropped. Empty when the n-th drawn triangle
-  /// is the n-th of the surface. A triangle that a clipping plane cuts leads to its first piece,
-  /// which lies in the same plane.
+  /// from firstTriangle; `noTriangle` if it was dropped. Empty if the n-th drawn triangle is the
+  /// n-th of the surface. A triangle that a clipping plane cuts maps to its first piece, which lies
+  /// in its plane.
   std::vector<std::uint32_t> triangleOfDrawn;
 
   static constexpr std::uint32_t noTriangle = 0xffffffffu;
 
-  /// Of a surface that is drawn many times, as glyphs are: the *instances*, in the order in which
-  /// VTK draws them. Its vertices and triangles are there once, in source coordinates, and each of
-  /// these takes them to centred coordinates; what is drawn is the exact image under the matrix.
-  /// The zero matrix stands for an instance that was left out; all others are regular, and either
-  /// all or none of them mirror. Empty: drawn once, and its vertices are centred.
+  /// The *instances* of a surface that VTK draws many times (glyphs), in VTK's drawing order. The
+  /// snapshot holds the vertices and triangles once, in source coordinates. Each matrix takes them
+  /// to centred coordinates; VTK draws the exact image under the matrix. The zero matrix marks an
+  /// instance that was left out. All others are regular, and either all or none of them mirror.
+  /// Empty: drawn once, with centred vertices.
   std::vector<glm::mat4x3> centredFromSource;
-  bool mirrored = false; ///< whether they mirror, so that source coordinates show the other side
-  /// What an instance is. VTK draws a solid as one primitive; the triangles are those of meshOf().
+  bool mirrored = false; ///< they mirror: source coordinates show the other side
+  /// The shape of an instance. VTK draws a solid as one primitive; the triangles are those of
+  /// meshOf().
   Solid solid = Solid::None;
 
   bool isInstanced() const { return !this->centredFromSource.empty(); }
   static bool isLeftOut(const glm::mat4x3& instance) { return instance == glm::mat4x3(0.0f); }
-  /// How many primitives VTK draws of it, or of each of its instances, dropped ones included.
+  /// Return how many primitives VTK draws of it, or of each of its instances, dropped ones
+  /// included.
   std::uint32_t drawnCount() const
   {
     return this->solid != Solid::None ? 1
@@ -86,9 +87,9 @@ struct Surface
 
 /// Return the point that positions of a scene with this box are relative to.
 ///
-/// The centre is a function of the box alone, so that no picture depends on what the scene held
-/// in earlier frames. It lies on a grid whose step is 2 to 4 radii of the box, a power of two:
-/// - changes of the scene that are small beside it nearly always leave the centre;
+/// The centre is a function of the box alone, so that no picture depends on earlier frames. It lies
+/// on a grid whose step is 2 to 4 radii of the box, a power of two. Hence
+/// - small changes of the scene nearly always leave the centre;
 /// - centred coordinates are at most three radii large;
 /// - a box around the origin has the origin for its centre.
 ///
@@ -100,22 +101,23 @@ inline glm::dvec3 snapshotCentre(const Bounds& boundsWorld)
   {
     return glm::dvec3(0.0);
   }
-  int exponent = 0; // 2^exponent is more than the radius, and no more than twice as much
+  int exponent = 0; // radius < 2^exponent <= 2 radius
   std::frexp(radius, &exponent);
   const double step = std::ldexp(2.0, exponent);
   return glm::round(boundsWorld.centre() / step) * step;
 }
 
-/// The snapshot: every surface triangle that VTK draws, cast or only receive, in one list.
+/// The snapshot: one list of all surface triangles that VTK draws, whether they cast or only
+/// receive.
 ///
-/// Positions are *centred*: world coordinates less centreWorld, computed in double precision and
-/// then rounded to float, so that scenes far from the origin keep their precision. Those of a
-/// surface with instances are source coordinates instead (Surface::centredFromSource).
+/// Positions are *centred*: world coordinates minus centreWorld, computed in double precision and
+/// then rounded to float, so that scenes far from the origin keep their precision. Surfaces with
+/// instances have source coordinates instead (Surface::centredFromSource).
 struct Occluders
 {
-  glm::dvec3 centreWorld{ 0.0 }; ///< the collector's is snapshotCentre()
-  /// The memory goes on for at least 4 bytes behind the last position, so that every position can
-  /// be read as 16 bytes (Embree does).
+  glm::dvec3 centreWorld{ 0.0 }; ///< snapshotCentre(), in all snapshots of plugin/
+  /// The allocation extends at least 4 bytes beyond the last position: Embree reads each position
+  /// as 16 bytes.
   std::vector<glm::vec3> positionsCentred;
   std::vector<glm::uvec3> triangles; ///< indices into positionsCentred
   std::vector<Surface> surfaces;     ///< in order of their triangles
@@ -126,16 +128,16 @@ struct Occluders
   std::size_t droppedNonFinite = 0;
   std::size_t droppedZeroArea = 0;
 
-  /// Whether any caster is a solid, whose triangles do not tell exactly what it blocks.
+  /// True if a caster is a solid. Triangles describe solids only approximately.
   bool castsSolids() const
   {
     return std::any_of(this->surfaces.begin(), this->surfaces.end(),
       [](const Surface& surface) { return surface.casts && surface.solid != Solid::None; });
   }
 
-  /// Changes when surfaces come, go, change their triangles, their flags or their cut-outs.
+  /// Changes when surfaces are added or removed, or change their triangles, flags or cut-outs.
   std::uint64_t topologyVersion = 0;
-  /// Changes when any centred position changes (and with topologyVersion).
+  /// Changes with any centred position, and with topologyVersion.
   std::uint64_t positionsVersion = 0;
 };
 

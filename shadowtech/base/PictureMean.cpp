@@ -7,7 +7,7 @@ namespace gnomon
 namespace
 {
 
-/// GlStateGuard knows nothing of the bindings of textures with several samples.
+/// Unbind textures with several samples, which GlStateGuard does not restore.
 void unbind(const DrawnPicture& picture, int units)
 {
   for (int unit = 0; picture.samples > 1 && unit < units; ++unit)
@@ -53,8 +53,8 @@ void PictureMean::show(const DrawnPicture& depths, const glm::ivec2& origin)
 }
 
 //------------------------------------------------------------------------------
-/// Makes a shader that looks into a picture the one in use.
-/// @return how many texture units it uses
+/// Use a shader that reads a picture.
+/// @return the number of its texture units
 int PictureMean::use(
   const std::string& glslPath, const DrawnPicture& picture, std::vector<Uniform> uniforms)
 {

@@ -11,8 +11,8 @@
 namespace gnomon
 {
 
-/// What a picture was drawn into: images of colours and depths, with one sample per pixel or
-/// several.
+/// The images that a picture was drawn into: colours and depths, with one or several samples per
+/// pixel.
 struct DrawnPicture
 {
   TextureBinding colours;
@@ -22,22 +22,23 @@ struct DrawnPicture
 
 /// The mean of pictures that are added one after another: colours, with their alpha.
 ///
-/// A picture's pixel is that of its samples which VTK's windows show. Its colours are taken for
-/// what light there is to the power of 1 / gamma: the mean is that of the light. The memory is that
-/// of two pictures, however many are added.
+/// A pixel of several samples counts as VTK's windows show it. Colours count as light to the power
+/// of 1 / gamma, and the mean is that of the light. The memory is that of two pictures, however
+/// many are added.
 class PictureMean
 {
 public:
-  /// Forgets what was added.
+  /// Start a new mean.
+  /// @param gamma 1: colours are proportional to light
   /// @throws TextureMemoryError
   void begin(const glm::ivec2& size, double gamma);
 
-  /// Adds the next picture.
+  /// Add the next picture.
   void add(const DrawnPicture& picture);
 
-  /// Shows the mean of what was added in a part of the framebuffer that is bound, in place of its
-  /// colours and depths.
-  /// @param depths whose depths are shown, of each pixel the first sample's
+  /// Replace colours and depths in a part of the bound framebuffer by the mean of the added
+  /// pictures.
+  /// @param depths the picture whose depths are shown, of each pixel the first sample's
   void show(const DrawnPicture& depths, const glm::ivec2& origin);
 
   std::size_t pictures() const { return this->pictures_; }

@@ -10,7 +10,7 @@ PixelRays pixelRays(
   const glm::dmat4& clipFromView, const glm::dmat4& centredFromView, int width, int height)
 {
   // In clip coordinates, the lines of sight of all pixels meet at the infinite end of the z axis.
-  // Taken back to view coordinates that is the centre of projection, or the common direction.
+  // In view coordinates that is the centre of projection, or the common direction.
   const glm::dmat4 viewFromClip = glm::inverse(clipFromView);
   const glm::dvec4 meeting = viewFromClip[2];
   const glm::dvec4 perColumn = 2.0 / width * viewFromClip[0];
@@ -20,7 +20,7 @@ PixelRays pixelRays(
 
   const glm::dmat3 rotation(centredFromView);
   PixelRays rays;
-  constexpr double parallelBelow = 1e-12; // of what rounding leaves of a zero
+  constexpr double parallelBelow = 1e-12; // rounding leaves this much of a zero
   if (std::abs(meeting.w) > parallelBelow * glm::length(glm::dvec3(meeting)))
   {
     const glm::dvec3 eye = glm::dvec3(meeting) / meeting.w;
@@ -33,7 +33,7 @@ PixelRays pixelRays(
     rays.directionPerRow = rotation * fromEye(perRow) / depth;
     return rays;
   }
-  // Parallel: the origins are taken where the rays pass z = 0.
+  // Parallel: the origins lie where the rays pass z = 0.
   const glm::dvec3 direction = glm::dvec3(meeting) / -meeting.z;
   const auto atEye = [&](const glm::dvec4& point)
   {

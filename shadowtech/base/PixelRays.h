@@ -10,9 +10,9 @@ namespace gnomon
 ///
 /// Pixel (x, y), row 0 at the bottom, looks along
 ///     origin(x, y) + t direction(x, y)
-/// with both affine in x and y: with perspective the origins coincide, in parallel projection the
-/// directions do. The directions are not normalised: where t is 1, the points of all pixels lie in
-/// one plane, which for the usual cameras is at distance 1 across the viewing direction.
+/// with both affine in x and y. With perspective the origins coincide, in parallel projection the
+/// directions. Directions are not normalised: the points of all pixels at t = 1 lie in one plane,
+/// which for the usual cameras is at distance 1 across the viewing direction.
 struct PixelRays
 {
   glm::dvec3 firstOrigin{ 0.0 }; ///< of pixel (0, 0)
@@ -22,7 +22,7 @@ struct PixelRays
   glm::dvec3 directionPerColumn{ 0.0 };
   glm::dvec3 directionPerRow{ 0.0 };
 
-  /// Whether the directions coincide, not the origins.
+  /// True if the directions coincide, not the origins.
   bool parallel() const { return this->directionPerColumn == glm::dvec3(0.0); }
   glm::dvec3 origin(double x, double y) const
   {
@@ -34,8 +34,8 @@ struct PixelRays
   }
 };
 
-/// The rays of a camera with any invertible projection: perspective or parallel, sheared, off the
-/// axis, or a tile of a larger picture.
+/// Return the rays of a camera with any invertible projection: perspective or parallel, sheared,
+/// off the axis, or a tile of a larger picture.
 ///
 /// @param clipFromView the projection; view coordinates look along -z
 /// @param centredFromView rigid

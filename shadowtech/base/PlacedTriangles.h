@@ -11,11 +11,10 @@ namespace gnomon
 {
 
 /// @file
-/// The snapshot's triangles where they stand, in double precision, whether their surface is there
-/// once or as instances.
+/// The snapshot's triangles in centred coordinates and double precision, with or without instances.
 
-/// A vertex, centred.
-/// @param instance of a surface with instances; else of no meaning
+/// Return a vertex in centred coordinates.
+/// @param instance of a surface with instances; else ignored
 inline glm::dvec3 centredVertex(
   const Occluders& occluders, const Surface& surface, std::uint32_t instance, std::uint32_t vertex)
 {
@@ -25,7 +24,7 @@ inline glm::dvec3 centredVertex(
     : position;
 }
 
-/// A triangle's corners, centred.
+/// Return a triangle's corners in centred coordinates.
 inline std::array<glm::dvec3, 3> centredCorners(const Occluders& occluders, const Surface& surface,
   std::uint32_t instance, std::uint32_t triangle)
 {
@@ -35,11 +34,11 @@ inline std::array<glm::dvec3, 3> centredCorners(const Occluders& occluders, cons
     centredVertex(occluders, surface, instance, vertices.z) };
 }
 
-/// How far from its plane the points of a triangle may seem to lie: planeNoise(), and
-/// instanceNoise() where it is one.
+/// Return how far off its plane a triangle's points may seem to lie: planeNoise(), plus
+/// instanceNoise() of an instance.
 /// @param corners centred
 /// @param normal unit length
-/// @param doubleArea twice its area; > 0, infinite for the share that does not depend on it
+/// @param doubleArea twice its area; > 0; infinity gives the share that does not depend on it
 float noiseOf(const Occluders& occluders, const Surface& surface, std::uint32_t instance,
   std::uint32_t triangle, const std::array<glm::dvec3, 3>& corners, const glm::vec3& normal,
   double doubleArea);

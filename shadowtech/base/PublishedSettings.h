@@ -5,7 +5,8 @@
 namespace gnomon
 {
 
-/// Of techniques with a variant by the letter of a publication (TechniqueInfo::asPublished).
+/// Return the settings of techniques with a variant by the letter of a publication
+/// (TechniqueInfo::asPublished).
 inline const SettingsTable& publishedSettings()
 {
   static const SettingsTable table = { "Publications",

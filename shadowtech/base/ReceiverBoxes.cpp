@@ -19,7 +19,7 @@ std::size_t upTo(std::size_t count, std::size_t perGroup)
   return (count + perGroup - 1) / perGroup;
 }
 
-/// The boxes around 2 x 2 boxes each.
+/// Return the boxes around groups of 2 x 2 boxes.
 ReceiverBoxes::Level groupsOf(const ReceiverBoxes::Level& level)
 {
   ReceiverBoxes::Level groups{ upTo(level.columns, 2), upTo(level.rows, 2), {} };

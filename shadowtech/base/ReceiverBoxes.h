@@ -10,20 +10,20 @@
 namespace gnomon
 {
 
-/// The box around what a part of some receivers' picture shows, and the starts of its shadow rays,
-/// to within the rounding of float. Centred; empty if nothing is covered there.
+/// Return the box around the receivers of a part of a picture and the starts of their shadow rays,
+/// to within the rounding of float. Centred; empty if the part shows no receiver.
 /// @param first the part's first pixel
 Bounds boxOf(
   const ReceiverPixels& receivers, std::size_t first, std::size_t columns, std::size_t rows);
 
-/// Boxes around the receivers of a picture, made once for all lights: of cells of some pixels, and
-/// of groups of 2 x 2 boxes of the level below, up to the whole picture.
+/// Boxes around the receivers of a picture, built once for all lights. The lowest level has boxes
+/// of cells of some pixels; each level above groups 2 x 2 boxes, up to the whole picture.
 class ReceiverBoxes
 {
 public:
   ///@{
-  /// A cell's pixels; tiles are groups of 2 x 2 cells. Smaller cells take longer to ask about than
-  /// to trace.
+  /// A cell's size in pixels; a tile is 2 x 2 cells. Testing smaller cells takes longer than
+  /// tracing them.
   static constexpr std::size_t cellColumns = ReceiverTile::mostColumns / 2;
   static constexpr std::size_t cellRows = ReceiverTile::mostRows / 2;
   static constexpr std::size_t levelOfTiles = 1;
@@ -41,9 +41,9 @@ public:
 
   std::size_t width() const { return this->width_; }
   std::size_t height() const { return this->height_; }
-  /// Cells first, the whole picture last; no fewer than those up to the tiles.
+  /// Return the levels, cells first, the whole picture last. There is always a level of tiles.
   const std::vector<Level>& levels() const { return this->levels_; }
-  /// By pixel: 1 if it shows a surface that receives, else 0.
+  /// Return, by pixel, 1 if it shows a surface that receives, else 0.
   const std::vector<std::uint8_t>& receives() const { return this->receives_; }
   std::size_t bytes() const;
 

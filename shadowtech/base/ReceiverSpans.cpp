@@ -11,7 +11,7 @@ namespace gnomon
 namespace
 {
 
-/// Where the rays meet the triangle; of those that pass it by, inside is 0.
+/// Find where the rays meet the triangle; `inside` is 0 for rays that miss it.
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]
 #endif
@@ -61,7 +61,7 @@ void meetSpan(const SeenTriangle& seen,
   }
 }
 
-/// The receivers of a span on its triangle.
+/// Compute the receivers of a span on its triangle.
 void projectFlat(
   const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers)
 {

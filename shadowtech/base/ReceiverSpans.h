@@ -12,12 +12,12 @@
 namespace gnomon
 {
 
-/// Places in a row of the picture, one pixel's side apart, that show the same triangle.
+/// Places in a row of the picture, one pixel apart, that show the same triangle.
 struct Span
 {
   double x, y;       ///< of the first one, in the picture; whole numbers are pixels' centres
   std::size_t count; ///< at most ReceiverTile::mostColumns
-  std::size_t first; ///< where the first one's receiver goes
+  std::size_t first; ///< index of the first one's receiver
 };
 
 /// Where a ray meets a triangle's plane.
@@ -26,8 +26,9 @@ struct TrianglePoint
   double t;            ///< along the ray (PixelRays)
   glm::dvec3 position; ///< centred
   float offset;        ///< of the shadow ray
-  bool isInside;       ///< the triangle; false where a number is not finite
+  bool isInside;       ///< of the triangle; false if a number is not finite
 };
+/// Return where the ray of place (x, y) meets a triangle's plane.
 inline TrianglePoint meetTriangle(
   const SeenTriangle& seen, const PixelRays& rays, double x, double y)
 {
@@ -41,22 +42,22 @@ inline TrianglePoint meetTriangle(
       seen.insideEdge[2].row(y).at(x) >= 0.0 && along > 0.0 };
 }
 
-/// Makes the receivers of a span that shows a triangle.
-/// @param freeSegments not null where the triangle has smooth normals
+/// Compute the receivers of a span that shows a triangle.
+/// @param freeSegments not null if the triangle has smooth normals
 void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const FreeSegments* freeSegments,
   const Span& span, ReceiverPixels& receivers);
 
-/// Makes the receivers of a span that shows a solid.
+/// Compute the receivers of a span that shows a solid.
 void projectSolid(
   const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers);
 
-/// Has the shadow rays of receivers on a triangle start above the curved surface, and gives these
-/// receivers that surface's normal, where nothing is in between.
-/// @param span only the receivers' places in the arrays count
+/// Start the shadow rays of receivers on a triangle above the curved surface, and give these
+/// receivers that surface's normal, unless a caster lies in between.
+/// @param span only its indices into the arrays count
 void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const Span& span,
   ReceiverPixels& receivers);
 
-/// Leaves a span without receivers.
+/// Mark a span's pixels as not covered.
 void leaveUncovered(const Span& span, ReceiverPixels& receivers);
 
 } // namespace gnomon

@@ -15,12 +15,12 @@ void ReceiverTarget::begin(int width, int height, bool withPoints)
     this->allocate(width, height, withPoints);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
-  // Numbers, not colours: they must not be blended.
+  // The outputs are numbers, not colours: they must not be blended.
   glDisablei(GL_BLEND, 1);
   glDisablei(GL_BLEND, 2);
   const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
   const float farthest = 1.0f;
-  glClearBufferfv(GL_COLOR, 1, nothing); // says that the points, left as they are, mean nothing
+  glClearBufferfv(GL_COLOR, 1, nothing); // marks the points, which are not cleared, as invalid
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
@@ -28,7 +28,7 @@ void ReceiverTarget::begin(int width, int height, bool withPoints)
 void ReceiverTarget::allocate(int width, int height, bool withPoints)
 {
   const GlStateGuard guard;
-  this->width_ = 0; // in case that there is no memory
+  this->width_ = 0; // in case the allocation fails
   const auto allocate = [&](GlTexture& texture, const TexelFormat& format)
   { allocateTexture(texture, format, width, height, 0, "the receivers' image"); };
   allocate(this->fragments_,
@@ -45,7 +45,7 @@ void ReceiverTarget::allocate(int width, int height, bool withPoints)
   { glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0); };
   attach(GL_COLOR_ATTACHMENT0, this->fragments_);
   attach(GL_DEPTH_ATTACHMENT, this->depth_);
-  attach(GL_COLOR_ATTACHMENT1, this->points_); // nothing, without points
+  attach(GL_COLOR_ATTACHMENT1, this->points_); // detaches without points
   const GLenum outputs[3] = { GL_NONE, GL_COLOR_ATTACHMENT0,
     withPoints ? GLenum(GL_COLOR_ATTACHMENT1) : GLenum(GL_NONE) };
   glDrawBuffers(3, outputs);

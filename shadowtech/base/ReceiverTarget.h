@@ -11,33 +11,32 @@
 namespace gnomon
 {
 
-/// The framebuffer that the receivers stage draws into: images in 32-bit float, and a depth buffer
-/// of its own. Which triangle a pixel shows is always written; the point and its normal only where
-/// estimators will read them on the GPU.
+/// The framebuffer of the receivers stage: images in 32-bit float, and a depth buffer. The triangle
+/// of each pixel is always written; point and normal only if an estimator reads them on the GPU.
 class ReceiverTarget
 {
 public:
-  /// Binds the framebuffer for drawing, with the given size and cleared. The caller has opened the
+  /// Bind the framebuffer for drawing, with the given size, and clear it. The caller has opened the
   /// viewport, the scissor box and the write masks. The fragment shader's outputs go
   /// - 0: nowhere;
   /// - 1: to fragments(), xy as in ReceiverImages, and with points zw: the normal's x and y;
-  /// - 2: with points to points(), xyz: the position, w: the normal's z. Both in view coordinates,
-  ///   the normal geometric, unit, on the camera's side.
+  /// - 2: with points to points(), xyz: the position, w: the normal's z. Both are in view
+  ///   coordinates; the normal is geometric, unit, on the camera's side.
   /// @throws TextureMemoryError before anything is bound
   void begin(int width, int height, bool withPoints);
 
-  /// Binds what was bound before.
-  /// @param blending whether blending is switched on outside
+  /// Restore the framebuffers that were bound at begin().
+  /// @param blending true if blending is on outside
   void end(bool blending);
 
-  /// Uploads receivers in place of drawing them: one texel a pixel, bottom row first, with the
+  /// Upload receivers instead of drawing them: one texel per pixel, bottom row first, with the
   /// channels that begin() lists.
   void fill(int width, int height, const std::vector<glm::vec4>& fragments,
     const std::vector<glm::vec4>& points);
 
-  /// Reads the fragments back.
+  /// Read the fragments back.
   void read(ReceiverImages& images) const;
-  /// Reads the window depths back, one a pixel.
+  /// Read the window depths back, one per pixel.
   void readDepths(std::vector<float>& depths) const;
 
   GLuint fragments() const { return this->fragments_.name(); }

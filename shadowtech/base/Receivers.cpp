@@ -22,17 +22,17 @@ namespace gnomon
 namespace
 {
 
-/// A span's part that begins `skipped` places in.
+/// Return the part of a span that begins `skipped` places in.
 Span partOf(const Span& span, std::size_t skipped, std::size_t count)
 {
   return { span.x + static_cast<double>(skipped), span.y, count, span.first + skipped };
 }
 
-/// The receivers of spans, or what is known of them without.
+/// Computes the receivers of spans, or decides them without.
 class SpanMaking
 {
 public:
-  /// @param known where not null, gets what is decided of each receiver
+  /// @param known if not null, set to each receiver's certainty
   SpanMaking(const Drawn& drawn, ReceiverPixels& receivers, std::vector<Certainty>* known)
     : rays_(drawn.images.rays)
     , receivers_(receivers)
@@ -63,7 +63,7 @@ public:
   }
 
 private:
-  /// Below that many pixels it is no dearer to look at each.
+  /// Spans with fewer pixels are projected: asking about their halves would not be cheaper.
   static constexpr std::size_t shortestAsked = 12;
 
   void project(const SeenTriangle& seen, const Span& span)
@@ -71,7 +71,7 @@ private:
     projectSpan(seen, this->rays_, this->freeSegments_, span, this->receivers_);
   }
 
-  /// Leaves out receivers of which everything is known: their numbers mean nothing.
+  /// Leave out decided receivers. Of their numbers only the surface is set.
   void leaveOut(const Span& span, Certainty certainty)
   {
     std::fill_n(&this->receivers_.surface[span.first], span.count, ReceiverPixels::notCovered);
@@ -96,7 +96,7 @@ private:
     this->makeByHalves(seen, partOf(span, half, span.count - half));
   }
 
-  /// What is known of a span whose pixels all lie inside the triangle, and so in a line.
+  /// Return what is known of a span whose pixels all lie inside the triangle, and so on a line.
   Certainty askAbout(const SeenTriangle& seen, const Span& span) const
   {
     ReceiverSegment segment;
@@ -110,7 +110,7 @@ private:
       position = point.position;
       segment.leastOffset = std::min(segment.leastOffset, point.offset * 0.999999f);
       segment.mostOffset = std::max(segment.mostOffset, point.offset * 1.000001f);
-      // Affine numbers that are not negative at both ends are not between them.
+      // Affine functions that are not negative at both ends are not negative in between.
       return point.isInside;
     };
     return meet(0, segment.firstCentred) && meet(span.count - 1, segment.lastCentred)
@@ -125,22 +125,22 @@ private:
   const FreeSegments* freeSegments_;
 };
 
-/// A tile's place in the picture.
+/// A tile's pixels in the picture.
 struct Rectangle
 {
   std::size_t firstColumn, firstRow, columns, rows;
 };
 
-/// Whether two fragments' numbers are the same, bit by bit.
+/// True if two fragments have the same bits.
 bool isSame(const glm::vec2& a, const glm::vec2& b)
 {
   return std::memcmp(&a, &b, sizeof(a)) == 0;
 }
 
-/// The receivers of a tile.
-/// @param known where not null, gets what is decided of each; null where there is no decider
-/// @param first where the first one goes
-/// @param perRow and how much farther on those of the next row
+/// Compute the receivers of a tile.
+/// @param known if not null, set to each receiver's certainty; null without a decider
+/// @param first index of the first receiver
+/// @param perRow step of the index from a row to the next
 void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache,
   ReceiverPixels& receivers, std::vector<Certainty>* known, std::size_t first, std::size_t perRow)
 {
@@ -154,7 +154,7 @@ void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache
     std::size_t column = tile.firstColumn;
     while (column < lastColumn)
     {
-      // Neighbours mostly share their triangle, and so what was looked up for it.
+      // Neighbours mostly share their triangle, so it is looked up once.
       const std::size_t firstColumn = column;
       const glm::vec2 fragment = fragments[firstColumn];
       do
@@ -187,9 +187,9 @@ void copyTile(const ReceiverPixels& picture, const Rectangle& tile, ReceiverPixe
   }
 }
 
-/// All tiles of a picture, by several threads at once.
-/// @param skipped by tile: 1 for those that are left out; null: none
-/// @param visitTile with something of the thread's own
+/// Visit all tiles of a picture, by several threads at once.
+/// @param skipped by tile: 1 for tiles that are left out; null: none
+/// @param visitTile called with a tile and the thread's own Local
 template <typename Local, typename VisitTile>
 void visitRectangles(std::size_t width, std::size_t height,
   const std::vector<std::uint8_t>* skipped, const VisitTile& visitTile)
@@ -217,7 +217,7 @@ void visitRectangles(std::size_t width, std::size_t height,
     });
 }
 
-/// What a thread needs to make receivers of tiles.
+/// A thread's storage for computing receivers of tiles.
 struct TileMaking
 {
   SeenTriangles cache;

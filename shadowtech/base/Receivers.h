@@ -19,10 +19,10 @@ namespace gnomon
 struct Drawn;
 struct Occluders;
 
-/// The points that a camera sees, one per pixel, on the CPU and ready for shadow rays.
+/// The points that a camera sees, one per pixel, on the CPU, in the form that shadow rays need.
 ///
-/// Row 0 is the *bottom* row, as in OpenGL; pixel (x, y) is at y * width + x. One array per number,
-/// so that sixteen neighbours load as one vector.
+/// Row 0 is the *bottom* row, as in OpenGL; pixel (x, y) is at y * width + x. Each coordinate has
+/// its own array, so that sixteen neighbours load as one vector.
 struct ReceiverPixels
 {
   int width = 0;
@@ -32,14 +32,14 @@ struct ReceiverPixels
   std::vector<float> positionX, positionY, positionZ;
   /// The triangle's geometric normal, unit length, on the side that the camera sees.
   std::vector<float> normalX, normalY, normalZ;
-  /// How far the shadow ray starts off the surface, along the normal (ShadowRay.h); 0 where nothing
-  /// is covered.
+  /// The distance of the shadow ray's start from the surface, along the normal (ShadowRay.h); 0 if
+  /// nothing is covered.
   std::vector<float> offset;
-  /// Occluders::surfaces index; `notCovered` where the camera sees no surface of the snapshot.
+  /// Occluders::surfaces index; `notCovered` if the camera sees no surface of the snapshot.
   std::vector<std::uint32_t> surface;
-  /// `isLifted` where the normal is that of the curved surface above the triangle that the corners'
-  /// normals imply, and the offset goes beyond it (SmoothFacet.h); `isBlocked` where a caster is in
-  /// between; else 0.
+  /// `isLifted` if the normal is that of the curved surface that the corners' normals imply above
+  /// the triangle, and the offset extends beyond it (SmoothFacet.h). `isBlocked` if a caster is in
+  /// between. Else 0.
   std::vector<std::uint8_t> lifted;
   static constexpr std::uint8_t isLifted = 1;
   static constexpr std::uint8_t isBlocked = 2;
@@ -64,8 +64,8 @@ struct ReceiverPixels
     this->surface.resize(this->size());
     this->lifted.resize(this->size());
   }
-  /// Memory that this holds: the floats' arrays and the surfaces' have the same type size, and grow
-  /// alike.
+  /// Return the bytes on the heap. The arrays of floats and of surfaces have elements of the same
+  /// size, and grow alike.
   std::size_t bytes() const { return 8 * bytesOf(this->positionX) + bytesOf(this->lifted); }
 };
 inline constexpr std::array<std::vector<float> ReceiverPixels::*, 7> ReceiverPixels::planes = {
@@ -74,21 +74,21 @@ inline constexpr std::array<std::vector<float> ReceiverPixels::*, 7> ReceiverPix
   &ReceiverPixels::offset
 };
 
-/// What the receivers stage reads back: which triangle VTK drew in each pixel. Where on the
-/// triangle follows from the pixel's ray, more precisely than anything interpolated in float.
+/// The triangles that VTK drew, by pixel, as the receivers stage reads them back. The pixel's ray
+/// gives the place on the triangle, more precisely than interpolation in float.
 struct ReceiverImages
 {
   int width = 0;
   int height = 0;
-  /// x: the drawn surface + 1, negative where the prop does not receive, 0 where nothing was drawn;
-  /// y: VTK's primitive number, as the drawn surface counts them (DrawnSurface).
+  /// x: the drawn surface + 1, negative if the prop does not receive, 0 if nothing was drawn;
+  /// y: VTK's primitive number within the drawn surface (DrawnSurface).
   std::vector<glm::vec2> fragments;
   PixelRays rays;
 };
 
-/// How the fragments of one drawn surface find the snapshot. VTK draws a surface per mapper (or
-/// mapper helper) and prop; composite helpers draw several blocks with one program and number the
-/// primitives through them.
+/// Maps the fragments of one drawn surface to surfaces of the snapshot. VTK draws a surface per
+/// mapper (or mapper helper) and prop. Composite helpers draw several blocks with one program and
+/// number the primitives through them.
 struct DrawnSurface
 {
   struct Block
@@ -108,13 +108,13 @@ struct DrawnSurface
   bool operator==(const DrawnSurface& other) const { return this->blocks == other.blocks; }
 };
 
-/// Who knows whether anything that casts is between two points. Asked from several threads at once.
+/// Tests segments between points against the casters. Called from several threads at once.
 class FreeSegments
 {
 public:
   virtual ~FreeSegments() = default;
   /// @param from, to centred
-  /// @param free gets 1 for each pair with nothing in between, else 0
+  /// @param free set to 1 for each pair without a caster in between, else 0
   virtual void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
     std::uint8_t* free) const = 0;
 };
@@ -125,62 +125,62 @@ struct ReceiverTile
   static constexpr std::size_t mostColumns = 64;
   static constexpr std::size_t mostRows = 16;
 
-  std::size_t firstColumn, firstRow; ///< where it begins in the picture
-  /// Its own receivers alone, which is fewer than the most at the picture's right and upper border.
+  std::size_t firstColumn, firstRow; ///< its lower left pixel in the picture
+  /// The tile's receivers: fewer than the most at the picture's right and upper border.
   const ReceiverPixels& receivers;
-  /// What a decider says of each receiver by its triangle and line; Uncertain without one. A
-  /// receiver that is decided so is left out of `receivers`, as if its pixel showed nothing.
+  /// Each receiver's certainty by its triangle and line; Uncertain without a decider. Receivers
+  /// decided so are left out of `receivers`, as if their pixels showed nothing.
   const std::vector<Certainty>& known;
 };
 
-/// The receivers of a picture, made of what the receivers stage read back when somebody asks for
-/// them: the points where the pixels' rays meet the triangles that were drawn there, with geometric
-/// normals and shadow ray offsets.
+/// The receivers of a picture, computed on demand from the images of the receivers stage. A
+/// receiver is the point where the pixel's ray meets the drawn triangle, with the geometric normal
+/// and the shadow ray's offset.
 ///
-/// Rasterisers move corners by up to 1/256 pixel, and so draw triangles in pixels whose rays pass
-/// them by. The receiver is then the point of the triangle that is closest to the ray as the camera
-/// sees it. Pixels whose triangle cannot be found count as not covered.
+/// Rasterisers move corners by up to 1/256 pixel, and so draw triangles in pixels whose rays miss
+/// them. The receiver is then the point of the triangle that the camera sees closest to the ray.
+/// Pixels whose triangle cannot be found count as not covered.
 ///
-/// Shadow rays of facets that are shaded as if they were curved start above the curved surface, if
-/// somebody can say that nothing is in between: what is there may be on the light's side of another
-/// surface.
+/// Shadow rays of facets with smooth shading start above the curved surface, if a FreeSegments
+/// shows that nothing is in between. Otherwise the start might lie beyond another surface, on its
+/// lit side.
 class Receivers
 {
 public:
-  /// @param stored where all() keeps the receivers; empty until then
+  /// @param stored where all() caches the receivers; empty until then
   /// @param freeSegments of the same snapshot; null: all receivers stay on their triangles
   Receivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
     const Occluders& occluders, ReceiverPixels& stored, const FreeSegments* freeSegments = nullptr);
-  /// Receivers that are there: they may stand for themselves.
+  /// Wrap receivers that exist already. The conversion is implicit, so they can be passed directly.
   Receivers(const ReceiverPixels& stored);
 
   const FreeSegments* freeSegments() const { return this->freeSegments_; }
   std::size_t width() const { return this->width_; }
   std::size_t height() const { return this->height_; }
 
-  /// The receivers of all tiles, each for as long as it is visited; tiles are visited by several
-  /// threads at once. They never leave the processor's cache, unless all() has been called: who
-  /// works pixel by pixel asks here.
-  /// @param decider decides receivers by their triangles and lines; null: none is decided so. It is
-  /// not asked about receivers that all() has made.
-  /// @param skipped by tile, row by row: 1 for those that are not visited; null: all are
+  /// Visit all tiles, by several threads at once. A tile's receivers are valid during its visit.
+  /// They stay in the processor's cache unless all() has been called, so code that works pixel by
+  /// pixel should prefer this function to all().
+  /// @param decider decides receivers by their triangles and lines; null: decides none. It is not
+  /// called for receivers that all() has computed.
+  /// @param skipped by tile, row by row: 1 for tiles that are not visited; null: visits all
   void visitTiles(const std::function<void(const ReceiverTile&)>& visit,
     const ReceiverDecider* decider = nullptr,
     const std::vector<std::uint8_t>* skipped = nullptr) const;
 
-  /// What receivers are made of. Not for receivers that stand for themselves.
+  /// Return the data that receivers are computed from. Not for wrapped receivers.
   Drawn drawn(const ReceiverDecider* decider = nullptr) const;
 
-  /// The whole picture, for who looks at a pixel's neighbours. Made once.
+  /// Return the whole picture, for code that reads a pixel's neighbours. Computed once.
   const ReceiverPixels& all();
 
 private:
-  const ReceiverImages* images_ = nullptr; ///< these three: null where the receivers are there
+  const ReceiverImages* images_ = nullptr; ///< these three are null for wrapped receivers
   const std::vector<DrawnSurface>* drawnSurfaces_ = nullptr;
   const Occluders* occluders_ = nullptr;
   const FreeSegments* freeSegments_ = nullptr;
   ReceiverPixels* toFill_ = nullptr;
-  const ReceiverPixels* stored_ = nullptr; ///< null until they are there
+  const ReceiverPixels* stored_ = nullptr; ///< null until computed
   std::size_t width_, height_;
 };
 

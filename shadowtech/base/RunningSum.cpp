@@ -13,7 +13,7 @@ void RunningSum::begin(int width, int height, const char* what)
   {
     return;
   }
-  this->width_ = 0; // in case that there is no memory
+  this->width_ = 0; // in case the allocation fails
   const TexelFormat format = this->channels_ == 1 ? TexelFormat{ GL_R32F, GL_RED, 1 }
                                                   : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
   glActiveTexture(GL_TEXTURE0);

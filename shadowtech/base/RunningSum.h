@@ -11,8 +11,8 @@
 namespace gnomon
 {
 
-/// An image of 32-bit floats that several draws add to: each reads the sum of those before
-/// (running_sum.glsl) and writes the new one. A GlStateGuard is the caller's business.
+/// An image of 32-bit floats that accumulates draws: each draw reads the sum so far
+/// (running_sum.glsl) and writes the new one. The caller holds a GlStateGuard.
 class RunningSum
 {
 public:
@@ -22,28 +22,28 @@ public:
   {
   }
 
-  /// Starts at 0.
-  /// @param what names it in the error
+  /// Restart the sum at 0.
+  /// @param what names the image in the error
   /// @throws TextureMemoryError
   void begin(int width, int height, const char* what);
 
-  /// Gives the memory back.
+  /// Free the memory.
   void clear();
 
-  /// The uniforms of running_sum.glsl.
+  /// Return the uniforms of running_sum.glsl, which reads the sum so far.
   std::vector<Uniform> before() const;
 
-  /// Fills the image with the output of the program in use, which has added to the sum before.
+  /// Draw the new sum by the program in use.
   void fill();
 
-  /// The sum, once anything was added.
+  /// Return the sum's texture, after the first fill().
   GLuint texture() const { return this->images_[this->newest_].name(); }
   std::size_t bytes() const;
   int channels() const { return this->channels_; }
 
 private:
   int channels_;
-  std::array<GlTexture, 2> images_; ///< the newest sum, and what the next one will be drawn into
+  std::array<GlTexture, 2> images_; ///< the newest sum and the next one's target
   std::size_t newest_ = 0;
   bool isEmpty_ = true;
   ScreenPass screenPass_;

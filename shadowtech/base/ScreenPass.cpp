@@ -39,7 +39,7 @@ void ScreenPass::attach(const std::vector<Image>& images, int width, int height)
         GL_DRAW_FRAMEBUFFER, buffers.back(), image.texture, image.level, image.layer);
     }
   }
-  // Those of earlier calls beyond these are no longer attached.
+  // Detach the surplus images of earlier calls.
   const auto outputs = static_cast<GLuint>(buffers.size());
   for (GLuint i = outputs; i < this->attached_; ++i)
   {
@@ -71,7 +71,7 @@ void ScreenPass::fillQuads(const std::vector<Image>& images, int width, int heig
 void ScreenPass::fillBound(const glm::ivec2& origin, const glm::ivec2& size)
 {
   glViewport(origin.x, origin.y, size.x, size.y);
-  glEnable(GL_DEPTH_TEST); // without which no depth is written
+  glEnable(GL_DEPTH_TEST); // without the test OpenGL writes no depths
   glDepthFunc(GL_ALWAYS);
   glDepthMask(GL_TRUE);
   this->draw(1);
@@ -84,7 +84,7 @@ void ScreenPass::openState(GLuint outputs)
   glDisable(GL_STENCIL_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_COLOR_LOGIC_OP);
-  for (GLenum i = 0; i < 2; ++i) // what casters may be clipped by
+  for (GLenum i = 0; i < 2; ++i) // the planes that may clip casters
   {
     glDisable(GL_CLIP_DISTANCE0 + i);
   }

@@ -11,36 +11,35 @@
 namespace gnomon
 {
 
-/// Calls a fragment shader once for every pixel of an image. A GlStateGuard is the caller's
-/// business.
+/// Runs a fragment shader once for every pixel of an image. The caller holds a GlStateGuard.
 class ScreenPass
 {
 public:
-  /// The program of a fragment shader's source, made the one in use.
+  /// Use and return the program of a fragment shader's source.
   static GLuint use(ShaderLibrary& shaders, const std::string& fragmentGlsl,
     const std::vector<std::string>& defines = {});
-  /// The same with a vertex shader that places quads (fillQuads()).
+  /// Use and return a program with its own vertex shader, which places quads (fillQuads()).
   static GLuint use(ShaderLibrary& shaders, const std::string& vertexGlsl,
     const std::string& fragmentGlsl, const std::vector<std::string>& defines);
 
   struct Image
   {
     GLuint texture;
-    int layer = -1; ///< of an array; negative for a texture that is none
+    int layer = -1; ///< of an array; negative: the texture is no array
     int level = 0;  ///< of an array with several
   };
-  /// Fills images with the outputs of the program in use, each with the one at its place.
+  /// Draw the outputs of the program in use into images; image i gets output i.
   void fill(const std::vector<Image>& images, int width, int height);
 
-  /// Fills parts of images: the vertex shader of the program in use places four corners of each
+  /// Draw into parts of images. The vertex shader of the program in use places four corners of each
   /// quad, in rows (gl_VertexID, gl_InstanceID).
   void fillQuads(const std::vector<Image>& images, int width, int height, int quads);
 
-  /// Fills a part of the framebuffer that is bound with the colours and depths (gl_FragDepth) that
-  /// the program in use gives.
+  /// Draw colours and depths (gl_FragDepth) of the program in use into a part of the bound
+  /// framebuffer.
   void fillBound(const glm::ivec2& origin, const glm::ivec2& size);
 
-  /// Has every fragment reach its pixels as it is, of outputs from 0 on; the depth test is apart.
+  /// Disable all state that drops or changes fragments of outputs from 0 on, except the depth test.
   static void openState(GLuint outputs);
 
 private:
@@ -48,7 +47,7 @@ private:
   void draw(GLuint outputs);
 
   GlFramebuffer framebuffer_;
-  GLuint attached_ = 0; ///< images of the framebuffer
+  GLuint attached_ = 0; ///< number of images
   GlVertexArray noAttributes_;
 };
 

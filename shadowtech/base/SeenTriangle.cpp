@@ -14,8 +14,8 @@ namespace gnomon
 namespace
 {
 
-/// The least that a facet's curved surface is above it, in pixels' sides, for its receivers to be
-/// on that. Below it the steps of a terminator are no longer than a few pixels.
+/// The least height of a facet's curved surface, in pixels' sides, that starts shadow rays on it.
+/// Below it the steps of a terminator are no longer than a few pixels.
 constexpr double leastHeightPixels = 0.25;
 
 bool isFinite(const glm::dvec3& vector)
@@ -63,7 +63,7 @@ TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   std::uint32_t instance = 0;
   if (surface.isInstanced())
   {
-    // Blocks without primitives were left above, so that there is a count to divide by.
+    // Blocks without primitives returned above, so the divisor is not 0.
     instance = drawn / surface.drawnCount();
     drawn %= surface.drawnCount();
     if (instance >= surface.centredFromSource.size() ||
@@ -128,15 +128,16 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
     rays.parallel() ? alongNormal(areaVector).first : planeDistance(areaVector).first;
   if (!(std::abs(side) > 0.0 && std::isfinite(side)))
   {
-    // No area, not finite, or seen along its plane: alongNormal stays 0, so that no ray meets it.
-    // No shadow ray either, as if its area were endless.
+    // No area, not finite, or seen along its plane: alongNormal stays 0, so no ray meets the
+    // triangle. Shadow rays cannot meet it either, so its noise is that of an infinite area:
+    // storage alone.
     seen.planeDistance = seen.alongNormal = {};
     seen.insideEdge = {};
     seen.normal = glm::vec3(0.0f);
     seen.noise = noise(seen, glm::vec3(1.0f), std::numeric_limits<double>::infinity());
     return;
   }
-  // The camera is on the side to which the area's vector does not point.
+  // The area's vector points away from the camera if side > 0.
   if (drawn.freeSegments)
   {
     seen.smoothNormals = cornerNormals(
@@ -148,7 +149,7 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
       seen.smoothNormals.reset();
     }
   }
-  // Deciders know triangles, and not what is above them.
+  // Deciders know flat triangles only.
   if (drawn.decider && !surface.isInstanced() && !seen.smoothNormals)
   {
     seen.known = drawn.decider->ofTriangle(
@@ -187,8 +188,8 @@ glm::dvec3 closestToRay(const std::array<glm::dvec3, 3>& corners, const glm::dve
   {
     const glm::dvec3 from = corners[i] - origin;
     const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
-    // The plane in which the camera sees the edge. The ray is turned or moved into it, and meets
-    // the edge at from + u edge. An edge seen end-on has no such plane; any of its points will do.
+    // The camera sees the edge in this plane. The ray is turned or moved into it, and meets the
+    // edge at from + u edge. An edge seen end-on has no such plane; any of its points will do.
     const glm::dvec3 across = parallel ? glm::cross(direction, edge) : glm::cross(from, edge);
     const double acrossSquared = glm::dot(across, across);
     double u = 0.0;

@@ -20,7 +20,7 @@ struct Occluders;
 
 constexpr std::uint32_t notFound = 0xffffffffu;
 
-/// Where a fragment's triangle is in the snapshot.
+/// A fragment's triangle in the snapshot.
 struct TriangleOfFragment
 {
   std::uint32_t surface = notFound;
@@ -53,40 +53,40 @@ struct AffineOverPixels
   AffineOverRow row(double y) const { return { this->first + y * this->perRow, this->perColumn }; }
 };
 
-/// A triangle as the pixels' rays meet it.
+/// A triangle prepared for intersection with the pixels' rays.
 ///
 /// Let O + t D be a ray, v0, v1, v2 the corners and N = (v1 - v0) x (v2 - v0). The ray meets the
-/// plane at t = N.(v0 - O) / N.D, and passes edge (vi, vj) on the side of the sign of
-/// D.((vi - O) x (vj - O)); the three of them add up to N.D. All of these are affine over the
-/// picture, as either O or D is the same for all pixels.
+/// plane at t = N.(v0 - O) / N.D. It passes edge (vi, vj) on the side of the sign of D.((vi - O) x
+/// (vj - O)); the three of them sum to N.D. All of these are affine over the picture, because
+/// either O or D is the same for all pixels.
 struct SeenTriangle
 {
-  AffineOverPixels planeDistance; ///< N.(v0 - O)
-  AffineOverPixels alongNormal;   ///< N.D; both negated where the camera sees the triangle's back
+  AffineOverPixels planeDistance;             ///< N.(v0 - O)
+  AffineOverPixels alongNormal;               ///< N.D; both negated if the camera sees the back
   std::array<AffineOverPixels, 3> insideEdge; ///< not negative inside
   std::array<glm::dvec3, 3> corners;          ///< centred
-  glm::vec3 normal{ 0.0f }; ///< unit, on the camera's side; zero for a triangle without one
-  float noise = 0.0f;       ///< planeNoise()
+  glm::vec3 normal{ 0.0f };                   ///< unit, on the camera's side; zero if there is none
+  float noise = 0.0f;                         ///< planeNoise()
   std::uint32_t surface = notFound;
   bool finite = false;
   Certainty known =
-    Certainty::Uncertain; ///< of all its receivers; else the numbers above mean nothing
-  /// The corners' normals (SmoothFacet), where its receivers are to be on the curved surface.
+    Certainty::Uncertain; ///< of all its receivers; if decided, the above is invalid
+  /// The corners' normals (SmoothFacet), if the shadow rays start on the curved surface.
   std::optional<std::array<glm::vec3, 3>> smoothNormals;
-  /// What is seen in place of a triangle. Then the numbers above mean nothing, but for the surface.
+  /// The solid that is seen instead of a triangle. If set, all above is invalid except the surface.
   std::optional<PlacedSolid> solid;
 };
 
-/// The largest primitive number that the images can hold exactly.
+/// Floats hold primitive numbers below this one exactly.
 constexpr float primitiveLimit = 16777216.0f;
-/// The triangle that a fragment names; `notFound` where there is none of that name.
+/// Return the triangle that a fragment names; `notFound` if there is none.
 TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   const std::vector<DrawnSurface>& drawnSurfaces, const Occluders& occluders);
 
-/// Whether all of a picture's rays have finite numbers.
+/// True if all of a picture's rays have finite numbers.
 bool isFinite(const PixelRays& rays);
 
-/// How large pixels are where a triangle is seen.
+/// The size of pixels on triangles.
 class Footprints
 {
 public:
@@ -97,9 +97,8 @@ public:
   {
     if (!rays.parallel())
     {
-      // A pixel's side is t times that of directionPerRow where its ray, or the plane across it,
-      // has its receiver: at distance d of it t is no more than d over the shortest direction's
-      // length.
+      // A pixel's side is t times that of directionPerRow, at its receiver or in the plane across
+      // it. At distance d, t is at most d over the shortest direction's length.
       const glm::dvec3 across =
         glm::normalize(glm::cross(rays.directionPerColumn, rays.directionPerRow));
       this->perDistance_ =
@@ -107,8 +106,8 @@ public:
     }
   }
 
-  /// The most that a pixel's side measures at a receiver on a triangle, even one whose pixel's ray
-  /// passes it by.
+  /// Return the largest side of a pixel at a receiver on a triangle, in world units. It also bounds
+  /// receivers whose pixel's ray misses the triangle.
   double largest(const std::array<glm::dvec3, 3>& corners) const
   {
     return this->parallel_ +
@@ -122,7 +121,8 @@ private:
   double parallel_;
   double perDistance_; ///< from the origin
 };
-/// What the receivers stage drew, of what, and who knows something of it.
+/// The input for computing receivers: the drawn images and surfaces, the snapshot, and the optional
+/// decider and FreeSegments.
 struct Drawn
 {
   const ReceiverImages& images;
@@ -146,16 +146,16 @@ struct Drawn
   {
   }
 };
-/// Looks at a triangle as a picture's rays meet it.
-/// @param seen what it was before means nothing
+/// Prepare a triangle for intersection with a picture's rays.
+/// @param seen overwritten
 void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen);
 
-/// Triangles that a part of a picture shows again and again, by the fragments that name them; one
-/// entry per primitive's number modulo the size.
+/// A cache of prepared triangles by the fragments that name them. An entry's slot is the
+/// primitive's number modulo the size.
 class SeenTriangles
 {
 public:
-  /// @return valid until the next call; not finite where the snapshot has no such triangle
+  /// @return valid until the next call; not finite if the snapshot has no such triangle
   const SeenTriangle& find(const Drawn& drawn, const glm::vec2& fragment);
 
 private:
@@ -165,15 +165,15 @@ private:
   std::array<SeenTriangle, size> seen_;
 };
 
-/// The point of a triangle that a ray which passes it by comes closest to, as the camera sees it:
-/// by angle with perspective, by distance in parallel projection. Serves triangles without area,
-/// too.
+/// Return the point of a triangle that is closest to a ray that misses it, as the camera sees it:
+/// by angle with perspective, by distance in parallel projection. Triangles without area are
+/// allowed.
 glm::dvec3 closestToRay(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& origin,
   const glm::dvec3& direction, bool parallel);
 
-/// A point on a triangle's edge, moved into the triangle by 1/256 of a pixel's side, which is how
-/// far off a rasteriser looks. On the edge itself it would lie on the neighbour's plane as well,
-/// and its shadow ray would meet the neighbour or not as rounding has it.
+/// Return a point on a triangle's edge, moved into the triangle by 1/256 of a pixel's side: the
+/// rasteriser's error. On the edge itself it would lie on the neighbour's plane as well, and only
+/// rounding would decide whether its shadow ray meets the neighbour.
 glm::dvec3 inwards(
   const glm::dvec3& edge, const std::array<glm::dvec3, 3>& corners, double footprint);
 

@@ -14,10 +14,10 @@ namespace gnomon
 namespace
 {
 
-/// How lines begin that include a file.
+/// The beginning of lines that include a file.
 const std::string includeOf = "#include \"";
 
-/// Where the next line is that includes a file; npos if there is none.
+/// Return the position of the next line that includes a file; npos if there is none.
 std::size_t nextInclude(const std::string& source, std::size_t from)
 {
   std::size_t at = source.find(includeOf, from);
@@ -39,7 +39,7 @@ void appendWithIncludes(const std::string& path, std::set<std::string>& seen, st
   {
     throw ShaderError("no such shader source: " + path);
   }
-  // Frames ask for sources again and again: what is between includes is copied as a whole.
+  // Frames ask for sources again and again, so the text between includes is copied as a whole.
   const std::string& source = found->second;
   std::size_t copied = 0;
   for (std::size_t at = nextInclude(source, 0); at != std::string::npos;
@@ -64,12 +64,12 @@ std::string infoLog(GLuint object, bool isProgram)
   {
     isProgram ? glGetProgramInfoLog(object, length, nullptr, log.data())
               : glGetShaderInfoLog(object, length, nullptr, log.data());
-    log.pop_back(); // the terminator, where the error's text would end
+    log.pop_back(); // the terminator, which would end the error's text
   }
   return log;
 }
 
-/// A compiled shader; deleted when it goes out of scope, which is after linking.
+/// A compiled shader, deleted when it goes out of scope after linking.
 class Shader
 {
 public:
@@ -132,7 +132,7 @@ std::string numberedForLight(const std::string& text, int light)
 namespace
 {
 
-/// What is compiled below OpenGL 4.3 asks for no more than places of attributes.
+/// Return the #version line. Below OpenGL 4.3, shaders need only explicit attribute locations.
 const char* versionLine()
 {
   return GNOMON_HAS_GL(VERSION_4_3) ? "#version 430 core\n"

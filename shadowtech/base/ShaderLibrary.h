@@ -11,7 +11,7 @@
 namespace gnomon
 {
 
-/// A shader that does not compile, does not link, or is not there. The message names it.
+/// A shader does not compile, does not link, or does not exist. The message names it.
 class ShaderError : public std::runtime_error
 {
 public:
@@ -22,33 +22,34 @@ public:
 class ShaderLibrary
 {
 public:
-  /// The text of an embedded file with its `#include "path"` lines (paths from the project's root)
-  /// replaced by the files they name, each at most once.
+  /// Return the text of an embedded file. Its `#include "path"` lines (paths from the project's
+  /// root) are replaced by the files they name, each at most once.
   /// @throws ShaderError for a file that is not embedded
   static std::string source(const std::string& path);
 
-  /// What a program is made of.
+  /// A shader stage of a program.
   struct Stage
   {
     GLenum type;        ///< GL_VERTEX_SHADER, ...
-    std::string source; ///< complete but for the #version line and the defines
+    std::string source; ///< without the #version line and the defines
   };
 
-  /// The program of these stages and defines ("NAME" or "NAME value"), compiled on first use.
+  /// Return the program of these stages and defines ("NAME" or "NAME value"), compiled on first
+  /// use.
   /// @throws ShaderError with the compiler's log
   GLuint program(const std::vector<Stage>& stages, const std::vector<std::string>& defines = {});
 
-  /// Sets a uniform of the program in use; names that it does not use are ignored. Textures are
-  /// bound to units by whoever owns those, and set as an int.
+  /// Set a uniform of the program in use; names that it does not use are ignored. The uniform of a
+  /// texture is its unit, an int; the caller binds the texture.
   static void setUniform(GLuint program, const Uniform& uniform);
 
-  /// Binds the textures among `uniforms` to units from `firstUnit` on and sets them all; in their
-  /// names, _LIGHT stands for `light`.
-  /// @return the first unit that is still free
+  /// Bind the textures among `uniforms` to units from `firstUnit` on, and set all uniforms. In
+  /// their names, _LIGHT stands for `light`.
+  /// @return the first free unit
   static int setUniforms(
     GLuint program, const std::vector<Uniform>& uniforms, int light, int firstUnit);
 
-  /// Programs compiled so far.
+  /// Return the number of programs compiled so far.
   int compiles() const { return this->compiles_; }
 
 private:
@@ -56,7 +57,7 @@ private:
   int compiles_ = 0;
 };
 
-/// The text with every identifier that ends in _LIGHT numbered: `map_LIGHT` becomes `map_3`.
+/// Return the text with every identifier that ends in _LIGHT numbered: `map_LIGHT` becomes `map_3`.
 std::string numberedForLight(const std::string& text, int light);
 
 } // namespace gnomon

@@ -15,52 +15,52 @@ namespace gnomon
 
 /// @file
 /// The one shadow ray of the project: where it starts, where it goes, and when none is needed.
-/// shadow_ray.glsl is its twin.
+/// shadow_ray.glsl is its twin; docs/theory/shadow_ray.md is the short version of this comment.
 ///
-/// How far off the surface it starts follows from what may go wrong. Let u = 2^-24 be the unit
-/// roundoff of float, N a triangle's unit normal, M its largest centred coordinates by magnitude
-/// along each axis, X, Y, Z the extent of its box and A twice its area. The receiver was found
-/// on the triangle in double precision. What is left:
+/// The offset of the start from the surface follows from rounding. Let u = 2^-24 be the unit
+/// roundoff of float and N a triangle's unit normal. M is its largest centred coordinates by
+/// magnitude along each axis; X, Y, Z are the extent of its box; A is twice its area. The receiver
+/// was found on the triangle in double precision. The remaining errors are:
 ///
 /// - Storage. Rounding the receiver to float moves it by at most u M_i along axis i, so off the
 ///   plane by u sum |N_i| M_i. Adding the offset and rounding the ray's origin costs the same
 ///   again: together 2u sum |N_i| M_i. It is zero for the centred frame's own planes.
 /// - Intersection. The ray O + t D is tested by the sign of T = (v0 - O) . (v1 - v0) x (v2 - v0).
-///   Rounding the vertices relative to O to u per axis moves their plane by u sum |N_i| X_i, at
-///   most 3u XYZ/A as |N_i| A <= X_j X_k. Each edge is rounded once more, and a component of the
-///   cross product is two products of two edges and a subtraction: 7u X_j X_k; times v0, summed
-///   over three axes, 21u XYZ. The dot product's own rounding adds at most 9u XYZ. Together 33u
-///   XYZ/A: a forward error bound of Embree's robust test. A sliver's A is small, so its bound is
-///   large, as it must be; but where it exceeds 1/1024 of the length, at about a thousand times as
-///   long as wide, rays would start somewhere else altogether, and it ends there.
+///   Rounding the vertices relative to O to u per axis moves their plane by u sum |N_i| X_i. That
+///   is at most 3u XYZ/A, as |N_i| A <= X_j X_k. Each edge is rounded once more. A component of the
+///   cross product is two products of two edges and a subtraction: 7u X_j X_k. Times v0, summed
+///   over three axes, that is 21u XYZ. The dot product's own rounding adds at most 9u XYZ. Together
+///   33u XYZ/A: a forward error bound of Embree's robust test. A sliver has a small A, hence a
+///   large bound. The bound ends at 1/1024 of the longest side, which is reached at about 1000:1,
+///   because rays would otherwise start somewhere else altogether.
 ///
-/// planeNoise() is the sum of both, with 32u for 33u, which no rounding reaches: random triangles
-/// come to 0.7 of it. The offset is twice that, so that half of it still holds.
+/// planeNoise() is the sum of both, with 32u for 33u. No rounding reaches that: random triangles
+/// come to 0.7 of it. The offset is twice the noise, so that half the offset still holds.
 ///
-/// - Instances. A ray is taken into source coordinates, x_i = r_i.O + p_i with r_i the rows of the
-///   inverse of the matrix (L, T) and p_i = -r_i.T, all in float as Embree does; the test that
-///   follows is affine, so that what x_i is off by counts in the world by L's column c_i: along N
+/// - Instances. A ray is transformed to source coordinates, x_i = r_i.O + p_i. Here r_i are the
+///   rows of the inverse of the matrix (L, T), and p_i = -r_i.T, all in float as in Embree. The
+///   test that follows is affine. So an error of x_i counts in the world by L's column c_i: along N
 ///   by N.c_i. The sum of four terms rounds to 4u (|r_i|.|O| + |p_i|), p_i itself to 3u |r_i|.|T|:
 ///   at most 8u |r_i|.M + 8u |r_i|.|T|, component by component. The rows are off as well, alike in
-///   both of the sum's parts, and so by dr_i.(O - T), where O is no farther from T than the
-///   triangle's corners are. A cross product of two columns a, b is off by 2 sqrt(3) u |a||b|, for
-///   a skewness h (Instances.h) by 2 sqrt(3) h u of its length, the determinant by (3 + 2 sqrt(3))
-///   h u of itself, and dividing by it costs 5u; with h <= 2 together less than 32u.
+///   both of the sum's parts, so by dr_i.(O - T), where O is no farther from T than the triangle's
+///   corners. A cross product of two columns a, b is off by 2 sqrt(3) u |a||b|; for a skewness h
+///   (Instances.h) that is 2 sqrt(3) h u of its length. The determinant is off by (3 + 2 sqrt(3)) h
+///   u of itself, and dividing by it costs 5u. With h <= 2 all of this is less than 32u.
 ///   instanceNoise() is the sum of these, and the intersection's rounding with the extent of the
 ///   box in source coordinates, X'Y'Z' |det L| / A.
 ///
-/// - Solids (Solid.h). Their rays are tested in double precision, so that storage is all that is
-///   left. It moves a receiver along the surface as well, which is curved: off it by M^2 u^2 / 2R,
-///   less than the storage along the normal unless the radius R is below float's spacing.
+/// - Solids (Solid.h). Their rays are tested in double precision, so only storage counts. Storage
+///   also moves a receiver along the curved surface, hence off it by M^2 u^2 / 2R. That is less
+///   than the storage along the normal unless the radius R is below float's spacing.
 ///
-/// - Footprint. A rasteriser snaps vertices to 1/256 pixel, so a fragment near an edge may lie past
-///   it by as much, behind the next triangle of a concave surface. There the offset grows by 1/256
-///   of the pixel's side. It moves a shadow's edge by as much times the cotangent of the light's
-///   elevation, which cannot be seen, but can be counted where edges are dense. So a receiver that
-///   is known to lie inside its triangle gets 1/256 of it, which only has to be more than nothing,
-///   as the noise of the centred frame's own planes is.
+/// - Footprint. A rasteriser snaps vertices to 1/256 pixel. So a fragment near an edge may lie past
+///   the edge by as much, behind the next triangle of a concave surface. There the offset grows by
+///   1/256 of the pixel's side. This moves a shadow's edge by as much times the cotangent of the
+///   light's elevation, which is invisible, but can be counted where edges are dense. A receiver
+///   known to lie inside its triangle therefore gets only 1/256 of that. This share only has to
+///   exceed 0, which is the noise of the centred frame's own planes.
 
-/// How far off a surface storing a receiver on it in float, and the ray's origin, may move them.
+/// Return how far off a surface float storage may move a receiver on it and its ray's origin.
 ///
 /// @param normal unit normal of the surface
 /// @param largest largest magnitude of the receiver's centred coordinates, by axis; of any sign
@@ -71,7 +71,8 @@ inline float storageNoise(const glm::vec3& normal, const glm::vec3& largest)
       std::abs(normal.z * largest.z));
 }
 
-/// How far from its plane the points of a triangle may seem to lie, in the unit of the coordinates.
+/// Return how far off its plane a triangle's points may seem to lie, in the unit of the
+/// coordinates.
 ///
 /// @param normal unit normal of the triangle
 /// @param largest largest magnitude of the vertices' centred coordinates, by axis
@@ -86,7 +87,7 @@ inline float planeNoise(
     std::min(1.9073486e-6f * intersection, 9.765625e-4f * longest); // 2^-19, 2^-10
 }
 
-/// What is to be added to it for a triangle of an instance.
+/// Return the noise to add to planeNoise() for a triangle of an instance.
 ///
 /// @param normal unit normal of the triangle
 /// @param corners centred
@@ -125,29 +126,29 @@ inline float instanceNoise(const glm::vec3& normal, const std::array<glm::dvec3,
     noise + std::min(std::ldexp(1.0, -19) * intersection, std::ldexp(1.0, -10) * longest));
 }
 
-/// How far off the surface, along the normal, the shadow ray starts.
+/// Return the offset of the shadow ray's start from the surface, along the normal.
 ///
-/// @param noise planeNoise(), and instanceNoise() where it is one, of the receiver's triangle
-/// @param footprint the pixel's side at the receiver's distance
+/// @param noise planeNoise() of the receiver's triangle, plus instanceNoise() of an instance
+/// @param footprint the pixel's side at the receiver's distance, in world units
 inline float shadowRayOffset(float noise, float footprint)
 {
   return 2.0f * noise + 0.00390625f * footprint; // 1/256
 }
 
-/// The same of a receiver that lies where the pixel's ray meets the inside of its triangle.
+/// Return the offset of a receiver where the pixel's ray meets the inside of its triangle.
 inline float shadowRayOffsetInside(float noise, float footprint)
 {
   return shadowRayOffset(noise, 0.00390625f * footprint);
 }
 
-/// Where along its direction the shadow ray starts to count, and where it ends: one that goes to a
-/// light's position or to the near face of its box, and whose direction is not normalised, there.
+/// The shadow ray's interval, in lengths of its direction. Rays to a light's position or to the
+/// near face of its box end there, because their direction is not normalised.
 inline constexpr float shadowRayNear = 0.0f;
 inline constexpr float shadowRayFarAtLight = 1.0f;
 inline constexpr float shadowRayFarDirectional = std::numeric_limits<float>::infinity();
 
-/// Whether a surface faces the light: N.L > 2^-20. Below that the sign of N.L, which rounding moves
-/// by up to 2^-22, says nothing, and faces along the light would turn noisy.
+/// True if a surface faces the light: N.L > 2^-20 |L|. Rounding moves N.L by up to 2^-22 |L|, so
+/// the sign of smaller values is noise on faces along the light.
 ///
 /// @param normal unit normal
 /// @param toLight towards the light, of any length
@@ -159,8 +160,8 @@ inline bool facesLight(const glm::vec3& normal, const glm::vec3& toLight)
   return faces;
 }
 
-/// Whether a point lies inside a spot light's cone. Tangents stay precise for narrow cones, where
-/// cosines do not.
+/// True if a point lies inside a spot light's cone. Tangents stay precise for narrow cones, cosines
+/// do not.
 ///
 /// @param toLight from the point to the light
 /// @param axis unit vector against the light's direction
@@ -174,7 +175,7 @@ inline bool insideCone(const glm::vec3& toLight, const glm::vec3& axis, float ta
   return inside;
 }
 
-/// Whether a point lies inside the box of a directional light.
+/// True if a point lies inside the box of a directional light.
 ///
 /// @param positionLight in the light's own space (LightSpace.h)
 /// @param box half the width, half the height, and the depth
@@ -187,7 +188,7 @@ inline bool insideBox(const glm::vec3& positionLight, const glm::vec3& box)
   return inside;
 }
 
-/// A light as shadow rays see it: in centred coordinates, in float.
+/// A light in the form that shadow rays use: in centred coordinates, in float.
 struct ShadowRayLight
 {
   LightKind kind = LightKind::Directional;
@@ -214,8 +215,8 @@ struct ShadowRayLight
   }
 };
 
-/// A shadow ray. `traced` is false where visibility is 0 without it: the surface is turned away
-/// from the light, or lies outside its cone or box.
+/// A shadow ray. `traced` is false if visibility is 0 without it: the surface faces away from the
+/// light, or lies outside its cone or box.
 struct ShadowRay
 {
   glm::vec3 origin;
@@ -223,14 +224,16 @@ struct ShadowRay
   bool traced;
 };
 
+/// Return the shadow ray to a directional light without a box.
 inline ShadowRay shadowRayDirectional(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
   return { position + offset * normal, light.toLight, facesLight(normal, light.toLight) };
 }
 
-/// Of a directional light with a box. It ends at the box's near face, where the light begins; that
-/// of a receiver in that very face has the offset's length, so that it has a direction.
+/// Return the shadow ray to a directional light with a box. It ends at the box's near face, where
+/// the light begins. The ray of a receiver in that face has the offset's length, so that it has a
+/// direction.
 inline ShadowRay shadowRayBox(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
@@ -242,6 +245,7 @@ inline ShadowRay shadowRayBox(
   return { origin, length * light.toLight, traced };
 }
 
+/// Return the shadow ray to a point light; its direction ends at the light.
 inline ShadowRay shadowRayPoint(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
@@ -249,6 +253,7 @@ inline ShadowRay shadowRayPoint(
   return { origin, light.position - origin, facesLight(normal, light.position - position) };
 }
 
+/// Return the shadow ray to a spot light; its direction ends at the light.
 inline ShadowRay shadowRaySpot(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
@@ -257,36 +262,36 @@ inline ShadowRay shadowRaySpot(
   return ray;
 }
 
-/// What a receiver's shadow rays to the points of an area light have in common. They start and end
-/// as the centre's does.
+/// The common part of a receiver's shadow rays to the points of an area light. They start and end
+/// as the centre's ray does.
 struct AreaRays
 {
   glm::vec3 normal;   ///< the receiver's
   glm::vec3 toCentre; ///< from the receiver to the light's centre, in the units of LightArea
   glm::vec3 ray;      ///< the direction of the ray to the centre, of any length
-  float perUnit;      ///< how far a ray's end moves when the point on the light moves by one
+  float perUnit;      ///< movement of a ray's end if the point on the light moves by one
 };
 
-/// @param light which the receiver faces
+/// @param light the receiver faces it
 /// @param ray the direction of the receiver's ray to the light's centre
 inline AreaRays areaRays(const ShadowRayLight& light, const glm::vec3& position,
   const glm::vec3& normal, const glm::vec3& ray)
 {
   const bool directional = light.kind == LightKind::Directional;
-  // The rays to a box's near face are as long as it takes.
+  // Rays to a box's near face have lengths of their own.
   return { normal, directional ? light.toLight : light.position - position, ray,
     directional && light.hasBox ? glm::dot(ray, light.toLight) : 1.0f };
 }
 
-/// Which point of an area light a receiver is asked about in place of a sample of it
-/// (LightSamples.h): 1 the sample, -1 the point opposite.
+/// Return which point of an area light stands for a sample (LightSamples.h) at a receiver: 1 for
+/// the sample itself, -1 for the point opposite.
 ///
-/// VTK shades from the centre: N.L there is the mean over all of the light, of what lies behind the
-/// receiver's plane too, which then counts as negative. So that this is not taken off twice, and so
-/// that what nothing is in the way of is lit: a point behind the plane gives way to the one
-/// opposite, which is in front of it wherever the centre is. The mean of both cosines is the
-/// centre's. Where the light has a texture, it gives way with its colour: none of what is behind
-/// the plane reaches the receiver.
+/// VTK shades from the centre. Its N.L is the mean over all of the light, where points behind the
+/// receiver's plane count as negative. So the plane must not take these points off again, and an
+/// unhidden receiver must be lit. Hence a point behind the plane is replaced by the opposite point,
+/// which is in front of the plane if the centre is. The mean of both cosines is the centre's. A
+/// texture's colour is replaced along with its point: nothing behind the plane reaches the receiver
+/// (docs/theory/visibility.md).
 ///
 /// @param sample from the light's centre
 inline float sideOfSample(const AreaRays& rays, const glm::vec3& sample)
@@ -294,7 +299,7 @@ inline float sideOfSample(const AreaRays& rays, const glm::vec3& sample)
   return facesLight(rays.normal, rays.toCentre + sample) ? 1.0f : -1.0f;
 }
 
-/// Where a receiver's shadow ray goes to that point instead of the light's centre.
+/// Return the direction of a receiver's shadow ray to the point that stands for a sample.
 ///
 /// @param sample from the light's centre
 inline glm::vec3 directionToSample(const AreaRays& rays, const glm::vec3& sample)
@@ -302,8 +307,8 @@ inline glm::vec3 directionToSample(const AreaRays& rays, const glm::vec3& sample
   return rays.ray + sideOfSample(rays, sample) * rays.perUnit * sample;
 }
 
-/// Calls `visit` with the function that makes this light's shadow rays from position, normal and
-/// offset, and with where they end.
+/// Call `visit` with the function that makes this light's shadow rays from position, normal and
+/// offset, and with the far end of the rays.
 template <typename Visit>
 auto visitShadowRays(const ShadowRayLight& light, const Visit& visit)
 {

@@ -10,14 +10,14 @@ namespace
 
 constexpr int tileSide = 16; // pixels
 
-/// How many pixels of a tile are not lit all.
+/// How many pixels of a tile are not fully lit.
 struct Darkness
 {
   int dark = 0; ///< in shadow
-  int dim = 0;  ///< the same, or between light and shadow
+  int dim = 0;  ///< in shadow, or between light and shadow
 };
 
-/// Looks at each of a row's tiles.
+/// Count the pixels of each tile in a row of tiles.
 void countDark(const std::vector<float>& visibility, int width, int bottom, int top,
   std::vector<Darkness>& tiles)
 {

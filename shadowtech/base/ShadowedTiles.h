@@ -7,8 +7,9 @@
 namespace gnomon
 {
 
-/// Where a picture has shadows, in squares of 16 x 16 pixels: small enough to leave out most of
-/// what is lit, large enough to be few. Neighbours in a row that are of one kind are one rectangle.
+/// The tiles of a picture with shadows, in squares of 16 x 16 pixels. Smaller tiles would be too
+/// many; larger ones would include too many lit pixels. Neighbours of one kind in a row are merged
+/// into one rectangle.
 struct ShadowedTiles
 {
   /// In pixels; the upper corner is the first pixel beyond.
@@ -21,13 +22,13 @@ struct ShadowedTiles
       return this->lower == other.lower && this->upper == other.upper;
     }
   };
-  std::vector<Rectangle> inPart; ///< some of their pixels are not lit, or not all
-  std::vector<Rectangle> whole;  ///< all of their pixels are in shadow
+  std::vector<Rectangle> inPart; ///< with pixels that are not fully lit, and others
+  std::vector<Rectangle> whole;  ///< all pixels are in shadow
   bool mixes = false;            ///< some pixels are between light and shadow
 };
 
-/// @param visibility of a picture's pixels, row by row: in shadow where it is 0, lit
-/// where it is 1
+/// Find the tiles with shadows.
+/// @param visibility of a picture's pixels, row by row: 0 in shadow, 1 lit
 ShadowedTiles findShadowedTiles(const std::vector<float>& visibility, const glm::ivec2& size);
 
 } // namespace gnomon

@@ -11,8 +11,8 @@ namespace gnomon
 namespace
 {
 
-/// The normals of a triangle's corners; none where one does not go with the triangle's.
-/// @param turn to centred coordinates and the camera's side
+/// Return the normals of a triangle's corners; none if one is too far off the triangle's normal.
+/// @param turn transforms normals to centred coordinates and the camera's side
 std::optional<std::array<glm::vec3, 3>> turnedNormals(const glm::dmat3& turn,
   const glm::vec3* normals, const glm::uvec3& vertices, const glm::dvec3& normal)
 {
@@ -66,7 +66,7 @@ float largestHeightOf(const std::vector<glm::vec3>& positions,
     }
     const std::array<glm::dvec3, 3> corners{ positions[triangle.x], positions[triangle.y],
       positions[triangle.z] };
-    // NaN without area, and then so are the normals.
+    // NaN without area; then the normals are rejected.
     const glm::dvec3 normal =
       glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
     if (const auto turned = turnedNormals(glm::dmat3(1.0), normals.data(), triangle, normal))

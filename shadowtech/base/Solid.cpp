@@ -18,7 +18,8 @@ namespace
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// Where the line o + t d is within a distance of the origin; both lie in a plane or in space.
+/// Return where the line o + t d is within a distance of the origin. Both vectors lie in a plane or
+/// in space.
 std::optional<Crossing> crossBall(const glm::dvec3& o, const glm::dvec3& d, double radius)
 {
   const double lengthSquared = glm::dot(d, d);
@@ -38,7 +39,7 @@ std::optional<Crossing> crossBall(const glm::dvec3& o, const glm::dvec3& d, doub
   return Crossing{ middle - half, middle + half };
 }
 
-/// Where the line is between a cylinder's ends.
+/// Return where the line is between a cylinder's ends.
 std::optional<Crossing> crossSlab(double o, double d, double halfLength)
 {
   if (d == 0.0)
@@ -64,7 +65,7 @@ glm::dvec3 across(const glm::dvec3& vector, const glm::dvec3& axis)
   return vector - glm::dot(vector, axis) * axis;
 }
 
-/// @param from the line's origin, from the cylinder's centre
+/// @param from the line's origin, relative to the cylinder's centre
 std::optional<Crossing> crossCylinder(
   const PlacedSolid& solid, const glm::dvec3& from, const glm::dvec3& direction)
 {
@@ -81,8 +82,8 @@ std::optional<Crossing> crossCylinder(
   return both.enters <= both.leaves ? std::optional(both) : std::nullopt;
 }
 
-/// The point of a solid's surface below a point outside, or above one inside; of a point on it,
-/// that point.
+/// Return the point of a solid's surface below a point outside, or above a point inside. A point on
+/// the surface is returned as it is.
 SolidPoint surfacePoint(const PlacedSolid& solid, const glm::dvec3& point)
 {
   const glm::dvec3 from = point - solid.centre;
@@ -107,7 +108,7 @@ SolidPoint surfacePoint(const PlacedSolid& solid, const glm::dvec3& point)
   return { solid.centre + solid.halfLength * normal + kept * off, normal };
 }
 
-/// A sphere's mesh: an octahedron whose triangles are cut in four, again and again.
+/// Return a sphere's mesh: an octahedron whose triangles are cut in four, `cuts` times.
 SolidMesh sphereMesh(int cuts)
 {
   SolidMesh mesh;
@@ -140,7 +141,7 @@ SolidMesh sphereMesh(int cuts)
   return mesh;
 }
 
-/// A cylinder's mesh: a prism. A tube's has no ends, and no balls around them.
+/// Return a cylinder's mesh: a prism. A tube's mesh has no ends, and no balls around them.
 SolidMesh cylinderMesh(std::uint32_t sides, bool isTube)
 {
   SolidMesh mesh;
@@ -224,7 +225,7 @@ std::optional<Crossing> crossingOf(
   std::optional<Crossing> crossing = crossCylinder(solid, from, direction);
   if (solid.kind == Solid::Tube)
   {
-    // All three together are convex, so that a line is inside of them only once.
+    // Their union is convex, so a line is inside of it only once.
     for (const double side : { -solid.halfLength, solid.halfLength })
     {
       crossing = united(crossing, crossBall(from - side * solid.axis, direction, solid.radius));
@@ -250,7 +251,7 @@ SolidPoint seenPoint(
   const bool isTube = solid.kind == Solid::Tube;
   const auto crossing = isTube
     ? crossBall(across(origin - solid.centre, solid.axis), across(direction, solid.axis),
-        solid.radius) // as if it went on
+        solid.radius) // of an infinite cylinder
     : crossingOf(solid, origin, direction);
   const bool meets = crossing && std::isfinite(crossing->enters);
   const double t = meets

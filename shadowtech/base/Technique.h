@@ -42,42 +42,45 @@ enum class Evaluation
   ScreenCpu  ///< CpuScreenTechnique
 };
 
-/// What an estimator is, before any instance of it exists: one line of the registry.
+/// The description of an estimator, independent of any instance: its entry in the registry.
 struct TechniqueInfo
 {
   std::string name;
-  Evaluation evaluation = Evaluation::Pointwise; ///< as its class says (Registry.cpp)
+  Evaluation evaluation = Evaluation::Pointwise; ///< follows from its class (Registry.cpp)
   bool exact = false;                            ///< equals the ray-traced visibility bit for bit
-  /// The settings that it reads, beside the light's area.
+  /// The tables of settings that it reads, besides the light's area.
   std::vector<const SettingsTable*> settings = {};
-  /// The estimator by the letter of the publication, which `as_published` selects (a published one
-  /// itself); empty: there is none.
+  /// The name of the estimator by the letter of the publication, which `as_published` selects. A
+  /// published estimator names itself. Empty: there is none.
   std::string asPublished = {};
-  /// Takes longer for a point than VTK takes to shade it: each pixel is to be asked once, and again
-  /// only after a change.
+  /// True if a point takes longer than its shading by VTK. The image route then asks once per
+  /// pixel, and again only after a change.
   bool isSlow = false;
-  /// Shows the same without its map, which saves time where it serves several frames.
+  /// True if it shows the same without its map. The map saves time if it serves several frames.
   bool mapIsOptional = false;
   bool conservativeMap = false; ///< its map is a conservative one
-  /// Why this map needs the CPU, as a clause; empty if the GPU can draw it.
+  /// Why this map needs the CPU, as a clause; empty if the GPU can bake it.
   std::string onlyCpuDraws = {};
-  /// What the report calls the kernel of a technique that filters; empty: as the setting `kernel`.
+  /// The kernel's name in the report, for a technique with a filter; empty: the value of the
+  /// setting `kernel`.
   std::string kernel = {};
 
-  /// Whether visibility has three channels in a light with a texture (channelsOf()). Of others the
-  /// light is an even one of the texture's mean colour.
+  /// True if its visibility has three channels in a light with a texture (channelsOf()). For other
+  /// techniques such a light is even, with the texture's mean colour.
   bool seesTextures = false;
 
-  /// The most memory of a light's maps, in bytes for each texel of one; none: casters decide it.
+  /// The largest memory of a light's maps, in bytes per texel of one map; null: depends on the
+  /// casters.
   std::function<double(const ShadowLight&)> bytesPerTexel = {};
-  double bytesPerPixel = 0.0; ///< and of what it keeps for each pixel of the picture, at most
+  double bytesPerPixel = 0.0; ///< largest memory besides maps, per pixel of the picture
 
-  /// Why it cannot do what a light's settings say, whose projection is resolved; empty if it can.
-  /// Null: it always can.
+  /// Return why it cannot follow a light's settings, whose projection is resolved; empty if it can.
+  /// A null pointer: it always can.
   std::string (*refused)(const ShadowLight&) = nullptr;
 
-  /// What the technique tells of its pixels; empty: nothing. A screen technique fills
-  /// ScreenInput::classes, a pointwise one's GLSL has `int pixelClass_LIGHT` after each call.
+  /// The classes of its pixels; empty: it does not classify them. A screen technique fills
+  /// ScreenInput::classes or LayerInput::classes. A pointwise one sets `int pixelClass_LIGHT` in
+  /// each call of its GLSL.
   std::vector<PixelClass> classes = {};
 
   bool isPointwise() const { return this->evaluation == Evaluation::Pointwise; }
@@ -85,12 +88,12 @@ struct TechniqueInfo
   {
     return std::find(this->settings.begin(), this->settings.end(), &table) != this->settings.end();
   }
-  /// Whether it bakes something from the light.
+  /// True if it bakes maps from the light.
   bool bakesMap() const { return this->has(viewSettings()); }
 };
 
-/// The channels of a light's visibility as a technique computes it: 1, or 3 (red, green, blue)
-/// where it sees the texture of the light's area.
+/// Return the channels of a light's visibility: 1, or 3 (red, green, blue) if the technique sees
+/// the texture of the light's area.
 inline int channelsOf(const TechniqueInfo& info, const ShadowLight& light)
 {
   return info.seesTextures && light.area && light.texture ? 3 : 1;
@@ -103,8 +106,8 @@ struct TextureBinding
   GLuint texture = 0;
 };
 
-/// A uniform's name (as in the GLSL file, with its _LIGHT suffix; of an array, one element's) and
-/// value.
+/// A uniform's name, as in the GLSL file with its _LIGHT suffix, and its value. An element of an
+/// array is a uniform of its own.
 struct Uniform
 {
   std::string name;
@@ -113,16 +116,16 @@ struct Uniform
     value;
 };
 
-/// The camera's space, in which shaders have receivers.
+/// The camera's space, which receivers have in shaders.
 struct ReceiverSpace
 {
-  glm::dmat4 centredFromView{ 1.0 }; ///< the camera's, rigid
-  /// The area of a pixel across the view in squared world units is that of the square of side
-  /// x + y * distance along the view.
+  glm::dmat4 centredFromView{ 1.0 }; ///< of the camera, rigid
+  /// A pixel's side across the view in world units is x + y * distance along the view. Its square
+  /// is the pixel's area.
   glm::dvec2 pixelSide{ 0.0 };
 };
 
-/// What a technique gets to draw its maps from.
+/// The input of a technique that bakes its maps.
 struct MapInput
 {
   const ShadowLight& light;
@@ -130,80 +133,80 @@ struct MapInput
   const Occluders& occluders;
   const OccluderBuffers& buffers;
   ShaderLibrary& shaders;
-  /// The last fits of views that await them, and the warps that were chosen (ReceiverFit.h).
+  /// The fits of views that await them and the chosen warps, found on the GPU (ReceiverFit.h).
   TextureBinding viewFits = {};
-  /// A plane (n, d) in centred coordinates: of casters, only what has n.p + d >= 0 counts.
+  /// A plane (n, d) in centred coordinates: only the part of the casters with n.p + d >= 0 counts.
   std::optional<glm::dvec4> keptFromCentred = std::nullopt;
-  /// Whether a conservative map is drawn by compute shaders rather than on the CPU.
+  /// True: compute shaders bake a conservative map; false: the CPU.
   bool drawsOnGpu = false;
 };
 
-/// What a screen technique gets to draw one light's visibility image from, on the GPU.
+/// The input of a screen technique that draws one light's visibility image on the GPU.
 struct LayerInput
 {
   const ShadowLight& light;
-  /// Of the light's views in this frame, for techniques that lay out more of them.
+  /// The fitting of the light's views in this frame, for techniques that lay out further views.
   const ViewFitting& fitting;
   const CameraView& camera;
-  const ReceiverSpace& space; ///< the camera's
+  const ReceiverSpace& space; ///< of the camera
   const Occluders& occluders;
   const OccluderBuffers& buffers;  ///< up to date with the occluders
   const ReceiverTarget& receivers; ///< with points
-  /// While this is the same, and so are the occluders, the receivers are.
+  /// A number that changes with the receivers. They are the same while it and the occluders are.
   std::size_t receiversShown;
-  const std::vector<DrawnSurface>& drawnSurfaces; ///< that the receivers' fragments name
+  const std::vector<DrawnSurface>& drawnSurfaces; ///< named by the receivers' fragments
   VisibilityLayers& layers;
-  int layer;         ///< of the layers: this light's, the first one of several channels
-  bool severalViews; ///< whether the pass draws other views beside this one
+  int layer;         ///< this light's layer, or the first of its channels
+  bool severalViews; ///< the pass draws other views besides this one
   ShaderLibrary& shaders;
-  bool counting; ///< whether the report is worth reading back what only the GPU knows
-  /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
+  bool counting; ///< the report needs counts that must be read back from the GPU
+  /// If not null, to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;
   std::vector<std::string>& notes; ///< FrameReport::notes
   int& mapBakes;                   ///< FrameReport::mapBakes
 };
 
-/// What a screen technique gets to compute one light's visibility image from, on the CPU.
+/// The input of a screen technique that computes one light's visibility image on the CPU.
 struct ScreenInput
 {
   const ShadowLight& light;
-  /// Of the light's views in this frame, for techniques that lay out more of them.
+  /// The fitting of the light's views in this frame, for techniques that lay out further views.
   const ViewFitting& fitting;
   const Occluders& occluders;
   Receivers& receivers;
   ShadowTracer& tracer; ///< its structure is up to date with the occluders
-  bool usesMap; ///< false: what the light baked is not to be used (TechniqueInfo::mapIsOptional)
-  /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
+  bool usesMap;         ///< false: ignore the light's baked map (TechniqueInfo::mapIsOptional)
+  /// If not null, to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;
-  /// Which tiles keep what the visibility and the classes hold; null: all are computed. Only exact
-  /// techniques without a map need to heed it.
+  /// The tiles whose visibility and classes are reused; null: compute all. Only exact techniques
+  /// without a map need to heed it.
   TracedTiles* tiles;
   /// What is known of tiles without rays; null: nothing. Only exact techniques need to heed it.
   const TileVerdicts* verdicts;
   int& mapBakes; ///< FrameReport::mapBakes
 };
 
-/// One way to compute visibility, for one light: what all kinds share is the light's maps. The
-/// render manager makes one per casting light from the registry, and keeps it while the light keeps
-/// its technique.
+/// One way to compute visibility, for one light. All kinds of technique share its functions for
+/// maps. The render manager makes one per casting light from the registry, and reuses it while the
+/// light keeps its technique.
 class Technique
 {
 public:
   virtual ~Technique() = default;
 
-  /// The light that the maps' views are laid out for, as the light's are (viewLayout()). Another
-  /// one where a technique sees an area light from elsewhere than its centre, or reads more of the
-  /// map than what the camera's receivers are on.
+  /// Return the light whose views the maps have; the layout is that of the given light's views
+  /// (viewLayout()). Techniques change the light to see an area light from elsewhere than its
+  /// centre, or to read more of the map than the part under the camera's receivers.
   virtual ShadowLight lightOfMap(const ShadowLight& light) const { return light; }
-  /// How far around a receiver's place on the map the technique reads. Views are fitted for it, and
-  /// the maps are stale when it changes.
+  /// Return how far around a receiver's place on the map the technique reads. Views are fitted for
+  /// this reach, and the maps are stale when it changes.
   virtual MapReach mapReach(const ShadowLight&) const { return {}; }
-  /// Bakes the light's maps. Called only when they are stale.
+  /// Bake the light's maps. Called only if they are stale.
   virtual void bake(const MapInput&) {}
-  /// Drops the light's maps. Called where they are stale and not baked
-  /// (TechniqueInfo::mapIsOptional).
+  /// Drop the light's maps. Called if they are stale and not baked (TechniqueInfo::mapIsOptional).
   virtual void dropMaps() {}
-  /// Memory on the GPU of the baked maps, and of what else the technique keeps for the light.
+  /// Return the bytes on the GPU of the baked maps, and of all else that the technique caches for
+  /// the light.
   virtual std::size_t bytesOfMaps() const { return 0; }
 };
 
@@ -212,29 +215,29 @@ public:
 class PointwiseTechnique : public Technique
 {
 public:
-  /// A file that defines
+  /// Return the source that defines
   ///     float visibility_LIGHT(vec3 positionView, vec3 normalView)
   /// in GLSL 1.50 and its uniforms, for a light of this kind. The normal is the geometric one on
   /// the camera's side, of any length. Every identifier that ends in _LIGHT is numbered per light.
   virtual std::string visibilityGlsl(const ShadowLight&) const = 0;
-  /// The uniforms of that source, as of the last bake, for receivers in a camera's view
+  /// Return the uniforms of that source, as of the last bake, for receivers in a camera's view
   /// coordinates.
   virtual std::vector<Uniform> uniforms(const ReceiverSpace&) const = 0;
 };
 
-/// Draws the visibility of all pixels' receivers on the GPU, and reads nothing back.
+/// Draws the visibility of all pixels' receivers on the GPU, without reading back.
 class GpuScreenTechnique : public Technique
 {
 public:
-  /// Fills the light's layer, or one for each channel: in [0, 1] for every pixel.
+  /// Fill the light's layer, or one layer per channel: in [0, 1] for every pixel.
   virtual void drawVisibility(const LayerInput&, LightReport&) = 0;
 };
 
-/// Computes the visibility of all pixels' receivers on the CPU, where it may trace rays.
+/// Computes the visibility of all pixels' receivers on the CPU, and may trace rays.
 class CpuScreenTechnique : public Technique
 {
 public:
-  /// Fills one float in [0, 1] per pixel; of several channels one image after the other.
+  /// Fill one float in [0, 1] per pixel; of several channels one image after the other.
   virtual void computeVisibility(const ScreenInput&, std::vector<float>&, LightReport&) = 0;
 };
 
@@ -242,7 +245,7 @@ public:
 using AnyTechnique = std::variant<std::unique_ptr<PointwiseTechnique>,
   std::unique_ptr<GpuScreenTechnique>, std::unique_ptr<CpuScreenTechnique>>;
 
-/// What all kinds share.
+/// Return the technique as the base of all kinds.
 inline Technique& baseOf(const AnyTechnique& technique)
 {
   return std::visit([](const auto& any) -> Technique& { return *any; }, technique);

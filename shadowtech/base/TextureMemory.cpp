@@ -27,7 +27,7 @@ struct TextureShape
   }
 };
 
-/// What the kernel could give to programs now, in bytes; no bound where it does not say.
+/// Return the bytes that the kernel has available; infinity if it does not report them.
 double availableBytes()
 {
   std::ifstream file("/proc/meminfo");
@@ -62,7 +62,7 @@ void define(const TextureShape& shape, GLenum target)
   }
 }
 
-/// Whether OpenGL and the machine say that there is room, before anything is taken.
+/// True if OpenGL and the machine report room, before anything is allocated.
 bool fits(const TextureShape& shape)
 {
   if (shape.bytes() > largestTextureShare * availableBytes())
@@ -71,14 +71,14 @@ bool fits(const TextureShape& shape)
   }
   const GLenum proxy = shape.layers > 0 ? GL_PROXY_TEXTURE_2D_ARRAY : GL_PROXY_TEXTURE_2D;
   define(shape, proxy);
-  GLint width = 0; // stays 0 for a texture that cannot be
+  GLint width = 0; // stays 0 for an impossible texture
   glGetTexLevelParameteriv(proxy, 0, GL_TEXTURE_WIDTH, &width);
   return width == shape.width;
 }
 
 void clearErrors()
 {
-  // Not without end: a context that is lost reports an error each time.
+  // Bounded, because a lost context reports an error each time.
   for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i)
   {
   }
@@ -86,7 +86,7 @@ void clearErrors()
 
 bool allocate(GlTexture& texture, const TextureShape& shape)
 {
-  texture.reset(); // what it had makes room
+  texture.reset(); // frees its memory first
   clearErrors();
   const bool room = fits(shape);
   clearErrors(); // some drivers raise one for a proxy
@@ -107,17 +107,18 @@ bool allocate(GlTexture& texture, const TextureShape& shape)
   return true;
 }
 
-/// @param given whether OpenGL has given the buffer its memory
-/// @throws TextureMemoryError where it has not; the buffer is then without
+/// Check that OpenGL allocated a buffer.
+/// @param given true if it did
+/// @throws TextureMemoryError if it did not; the buffer is then without memory
 void requireStorage(GlBuffer& buffer, bool given, std::size_t bytes, const char* what)
 {
   if (!given)
   {
     clearErrors();
     buffer.reset();
-    throw TextureMemoryError(std::string(what) + " ask for " +
+    throw TextureMemoryError(std::string(what) + " need " +
       std::to_string(static_cast<long>(static_cast<double>(bytes) / 1e6)) +
-      " MB of memory, which OpenGL does not have");
+      " MB of memory, which OpenGL cannot allocate");
   }
 }
 
@@ -125,8 +126,9 @@ std::string describe(const std::string& what, int width, int height, int layers,
   const std::string& memory)
 {
   return what + " of " + std::to_string(width) + " x " + std::to_string(height) +
-    (layers > 1 ? " in " + std::to_string(layers) + " layers" : "") + " asks for " +
-    std::to_string(static_cast<long>(bytes / 1e6)) + " MB of " + memory + ", which cannot be had";
+    (layers > 1 ? " in " + std::to_string(layers) + " layers" : "") + " needs " +
+    std::to_string(static_cast<long>(bytes / 1e6)) + " MB of " + memory +
+    ", which is not available";
 }
 
 std::string describe(const TextureShape& shape, const std::string& what)
@@ -134,7 +136,7 @@ std::string describe(const TextureShape& shape, const std::string& what)
   return describe(what, shape.width, shape.height, shape.layers, shape.bytes(), "texture memory");
 }
 
-/// "; one of 8192 x 8192 can": the largest smaller power of two for which there is room, or the
+/// Return "; 8192 x 8192 fits": the largest smaller power of two for which there is room, or the
 /// smallest map.
 template <typename IsRoom>
 std::string offerSmaller(int sizeTexels, const IsRoom& isRoom)
@@ -149,7 +151,7 @@ std::string offerSmaller(int sizeTexels, const IsRoom& isRoom)
   {
     side /= 2;
   }
-  return "; one of " + std::to_string(side) + " x " + std::to_string(side) + " can";
+  return "; " + std::to_string(side) + " x " + std::to_string(side) + " fits";
 }
 
 } // namespace
@@ -217,8 +219,8 @@ int mostMapSamples()
   GLint most = std::numeric_limits<GLint>::max();
   for (const GLenum format : { GL_RG32F, GL_RGBA32F, GL_DEPTH_COMPONENT32F })
   {
-    GLint samples = 1; // stays where there is only one
-    glGetInternalformativ(GL_RENDERBUFFER, format, GL_SAMPLES, 1, &samples); // the most come first
+    GLint samples = 1; // unchanged if there is only one
+    glGetInternalformativ(GL_RENDERBUFFER, format, GL_SAMPLES, 1, &samples); // largest first
     most = std::min(most, samples);
   }
   return std::max(most, 1);
@@ -228,7 +230,7 @@ int mostMapSamples()
 void allocateSamples(
   GlRenderbuffer& samples, const TexelFormat& format, int sizeTexels, int samplesPerTexel)
 {
-  samples.reset(); // what it had makes room
+  samples.reset(); // frees its memory first
   const double bytes = static_cast<double>(sizeof(float)) * format.channels * sizeTexels *
     sizeTexels * samplesPerTexel;
   clearErrors();
@@ -245,8 +247,8 @@ void allocateSamples(
     samples.reset();
     throw TextureMemoryError("a map of " + std::to_string(sizeTexels) + " x " +
       std::to_string(sizeTexels) + " with " + std::to_string(samplesPerTexel) +
-      " samples of a texel asks for " + std::to_string(static_cast<long>(bytes / 1e6)) +
-      " MB, which cannot be had");
+      " samples of a texel needs " + std::to_string(static_cast<long>(bytes / 1e6)) +
+      " MB, which is not available");
   }
 }
 
@@ -260,21 +262,21 @@ void requireRoomForStorage(std::size_t bytes, const char* what)
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
   if (asked > static_cast<double>(most))
   {
-    throw TextureMemoryError(std::string(what) + " ask for " + megabytes(asked) +
-      " in one buffer, of which this OpenGL's shaders read up to " +
+    throw TextureMemoryError(std::string(what) + " need " + megabytes(asked) +
+      " in one buffer, but shaders of this OpenGL read at most " +
       megabytes(static_cast<double>(most)));
   }
   if (asked > largestTextureShare * availableBytes())
   {
     throw TextureMemoryError(
-      std::string(what) + " ask for " + megabytes(asked) + " of memory, which cannot be had");
+      std::string(what) + " need " + megabytes(asked) + " of memory, which is not available");
   }
 }
 
 //------------------------------------------------------------------------------
 void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what)
 {
-  buffer.reset(); // what it had makes room
+  buffer.reset(); // frees its memory first
   requireRoomForStorage(bytes, what);
   clearErrors();
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.create());
@@ -286,7 +288,7 @@ void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, cons
 void* allocateMappedStorage(
   GlBuffer& buffer, std::size_t bytes, GLbitfield access, const char* what)
 {
-  buffer.reset(); // what it had makes room
+  buffer.reset(); // frees its memory first
   requireRoomForStorage(bytes, what);
   clearErrors();
   const GLbitfield flags = access | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;

@@ -8,15 +8,15 @@
 namespace gnomon
 {
 
-/// A texture, or a buffer that shaders read, that is too large for OpenGL or for the machine. The
-/// message says how much was asked for, and for maps which size would fit.
+/// A texture, or a buffer that shaders read, is too large for OpenGL or for the machine. The
+/// message states its size, and for maps the largest size that fits.
 class TextureMemoryError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// The kind of a texture: of 32-bit floats unless it says otherwise.
+/// The format of a texture's texels, by default of 32-bit floats.
 struct TexelFormat
 {
   GLenum internalFormat; ///< GL_R32F, GL_DEPTH_COMPONENT32F, ...
@@ -25,55 +25,57 @@ struct TexelFormat
   GLenum type = GL_FLOAT; ///< of a channel: GL_FLOAT, GL_UNSIGNED_INT, GL_UNSIGNED_BYTE
 };
 
-/// No texture may take a larger share of the memory that the machine has available when it is made:
-/// drivers that draw by software promise more than there is, and the system then ends the program.
+/// The largest share of the available memory that one texture may take when it is made. Software
+/// OpenGL promises more memory than the machine has, and the system then ends the program.
 constexpr double largestTextureShare = 0.5;
 
-/// Gives a texture its memory, and nearest filtering; its target is bound afterwards.
+/// Allocate a texture with nearest filtering; its target is bound afterwards.
 /// @param layers 0 for a GL_TEXTURE_2D, else those of a GL_TEXTURE_2D_ARRAY
-/// @param what names it in the error
-/// @param levels of a mip map, of arrays only; each half of the one before
+/// @param what names the texture in the error
+/// @param levels of a mip map, for arrays only; each level has half the side of the one before
 /// @throws TextureMemoryError; the texture is then without memory
 void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, int height,
   int layers, const char* what, int levels = 1);
 
-/// The same for a light's map. The error offers the largest power of two that fits as its side.
+/// Allocate a light's map of sizeTexels x sizeTexels, otherwise like allocateTexture(). The error
+/// states the largest power of two that fits as its side.
 void allocateMap(
   GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers, int levels = 1);
 
-/// The same question for a light's map that is kept on the CPU, before its layers are made.
-/// @throws TextureMemoryError, which offers the largest power of two that fits as its side
+/// Check that there is memory for a light's map on the CPU, before its layers are made.
+/// @throws TextureMemoryError with the largest power of two that fits as the map's side
 void requireRoomForMap(std::size_t bytesOfTexel, int sizeTexels, int layers);
 
-/// The same question for a picture of colours and depths with samples of each pixel, which VTK
-/// makes.
-/// @param samples 0 where a pixel is not split
+/// Check that there is memory for a picture of colours and depths that VTK is going to make.
+/// @param samples per pixel; 0 or 1 for one sample
 /// @throws TextureMemoryError
 void requireRoomForPicture(int width, int height, int samples);
 
-/// The most samples of a texel that OpenGL draws maps of moments with.
+/// Return the most samples per texel that OpenGL supports for maps of moments.
 int mostMapSamples();
 
-/// Gives a renderbuffer the memory of a map's layer with several samples of each texel.
+/// Allocate a renderbuffer for one layer of a map with several samples per texel.
 /// @throws TextureMemoryError; the renderbuffer is then without memory
 void allocateSamples(
   GlRenderbuffer& samples, const TexelFormat& format, int sizeTexels, int samplesPerTexel);
 
-/// Whether shaders can read so much from one buffer, and the machine has as much.
-/// @param what names it in the error
+/// Check that shaders can read so many bytes from one buffer, and that the machine has them.
+/// @param what names the buffer in the error
 /// @throws TextureMemoryError
 void requireRoomForStorage(std::size_t bytes, const char* what);
 
-/// Gives a buffer that shaders read its memory and contents; it is bound to
-/// GL_SHADER_STORAGE_BUFFER afterwards.
+/// Allocate and fill a buffer that shaders read; it is bound to GL_SHADER_STORAGE_BUFFER
+/// afterwards.
 /// @param bytes > 0
-/// @param data null: left open
+/// @param data null: leave the contents undefined
+/// @param what names the buffer in the error
 /// @throws TextureMemoryError; the buffer is then without memory
 void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what);
 
-/// The same for a buffer that the CPU, too, sees all the time (OpenGL 4.4), until it goes.
+/// Allocate a buffer that shaders read and that stays mapped on the CPU (OpenGL 4.4) until it is
+/// deleted.
 /// @param access GL_MAP_READ_BIT, GL_MAP_WRITE_BIT
-/// @return where it sees it
+/// @return the mapped memory
 /// @throws TextureMemoryError; the buffer is then without memory
 void* allocateMappedStorage(
   GlBuffer& buffer, std::size_t bytes, GLbitfield access, const char* what);

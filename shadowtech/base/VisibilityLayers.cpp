@@ -15,7 +15,7 @@ namespace
 
 constexpr int bitsOfWord = 32;
 
-/// The word of a pixel that a bit is in.
+/// Return the word of a pixel that holds a bit.
 std::size_t wordOf(int bit)
 {
   return static_cast<std::size_t>(bit / bitsOfWord);
@@ -37,7 +37,7 @@ void VisibilityLayers::resize(int width, int height, int layers, int bits)
   }
   const GlStateGuard guard;
   glActiveTexture(GL_TEXTURE0);
-  this->width_ = 0; // in case that there is no memory
+  this->width_ = 0; // in case the allocation fails
   if (layers == 0)
   {
     this->texture_ = GlTexture();

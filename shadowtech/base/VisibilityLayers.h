@@ -16,50 +16,50 @@ class ReceiverTarget;
 /// CastingLight::bit of a light that has layers.
 inline constexpr int noBit = -1;
 
-/// The visibility images of the image route, one 32-bit float layer per casting light, or three
-/// (red, green, blue) where its texture is seen (channelsOf()). Hard shadows of several lights are
-/// bits of one more image instead, so that shaders fetch them at once. Row 0 is the bottom row.
+/// The visibility images of the image route: one 32-bit float layer per casting light, or three
+/// (red, green, blue) if the technique sees the light's texture (channelsOf()). Hard shadows of
+/// several lights are bits of one more image instead, so that shaders fetch them at once. Row 0 is
+/// the bottom row.
 class VisibilityLayers
 {
 public:
-  /// How many bits there can be: those of two numbers a texel, of which 32 bits take one.
+  /// The most bits: two channels of 32 bits.
   static constexpr int mostBits = 64;
 
-  /// Whether there are `layers` images of this size, and one of bits if there are `bits`.
+  /// True if there are `layers` layers of this size, and an image of `bits` bits.
   bool have(int width, int height, int layers, int bits) const
   {
     return width == this->width_ && height == this->height_ && layers == this->layers_ &&
       bits == this->bits_;
   }
 
-  /// Allocates them. A change of size or number clears them.
+  /// Allocate the images. A change of size or number clears them.
   void resize(int width, int height, int layers, int bits);
 
-  /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
-  /// @param classes where not null, each pixel's class (TechniqueInfo::classes), of a technique
-  /// that tells
+  /// Fill a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
+  /// @param classes if not null, set to each pixel's class (TechniqueInfo::classes); for techniques
+  /// that classify their pixels
   void estimate(int layer, const PointwiseTechnique& technique, const ShadowLight& light,
     const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders,
     std::vector<std::uint8_t>* classes = nullptr);
 
-  /// Fills a layer with the output of the program in use, called for every pixel (ScreenPass). A
-  /// GlStateGuard is the caller's business.
+  /// Fill a layer with the output of the program in use, called for every pixel (ScreenPass). The
+  /// caller holds a GlStateGuard.
   void fill(int layer);
 
-  /// Fills layers with what a screen technique has computed on the CPU.
-  /// @param visibility of as many layers as it has values for, one after the other
+  /// Upload visibility that a screen technique computed on the CPU.
+  /// @param visibility one image per layer, one after the other
   void upload(int firstLayer, const std::vector<float>& visibility);
 
-  /// Fills a bit with what a screen technique has computed on the CPU: 1 or 0 everywhere.
+  /// Set a bit to visibility that a screen technique computed on the CPU: 1 or 0 everywhere.
   void fillBit(int bit, const std::vector<float>& visibility);
-  /// Fills bits of lights that are dark as a whole: 0 where a pixel shows a receiver, else 1.
-  /// @param receives by pixel: 1 or 0
+  /// Set the bits of lights that are dark everywhere: 0 where a pixel shows a receiver, else 1.
   void darkenBits(const std::vector<int>& bits, const std::vector<std::uint8_t>& receives);
-  /// To be called once all bits are filled.
+  /// Upload the bits, after all of them are set.
   void uploadBits();
 
   ///@{
-  /// Reads a layer or a bit back.
+  /// Read a layer or a bit back.
   void read(int layer, std::vector<float>& visibility) const;
   void readBit(int bit, std::vector<float>& visibility) const;
   ///@}
@@ -76,9 +76,9 @@ private:
   int layers_ = 0;
   int bits_ = 0;
   GlTexture textureOfBits_;
-  std::size_t wordsOfPixel_ = 0; ///< numbers of 32 bits
+  std::size_t wordsOfPixel_ = 0; ///< words of 32 bits per pixel
   std::vector<std::uint32_t> bitsOfPixels_;
-  bool bitsChanged_ = false; ///< since the upload
+  bool bitsChanged_ = false; ///< since the last upload
 };
 
 } // namespace gnomon

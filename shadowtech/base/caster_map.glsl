@@ -1,4 +1,5 @@
-// How the map that casters are drawn into lies across the light, at the fragment (CasterDrawing.h).
+// Where the fragment of a caster lies across the light, from the layout of the map that is baked
+// (CasterDrawing.h).
 
 #include "shadowtech/base/fit_rows.glsl"
 #include "shadowtech/base/kernel_shape.glsl"
@@ -8,7 +9,7 @@ uniform sampler2D viewFits;
 uniform int view;
 #endif
 
-// Both are for texels before the last fit.
+// Both homographies are for texels before the last fit.
 #ifdef CHOSEN
 mat3 texelHomography()
 {
@@ -41,7 +42,7 @@ vec4 lastFit()
 #endif
 }
 
-// Where the fragment is across the light.
+// Return the fragment's place across the light.
 vec2 across()
 {
   vec4 fit = lastFit();
@@ -49,7 +50,7 @@ vec2 across()
   return place.xy / place.z; // not 0 on the map
 }
 
-// d texel / d across there.
+// Return d texel / d across at the fragment.
 mat2 texelJacobian()
 {
   vec4 fit = lastFit();
@@ -57,8 +58,8 @@ mat2 texelJacobian()
   return mat2(fit.xy * beforeFit[0], fit.xy * beforeFit[1]);
 }
 
-// The longer side of a texel across the light is one over the square of this, times (texel, 1), but
-// for a factor.
+// Return s with: the longer side of a texel across the light is 1 / (s . (texel, 1))^2, up to a
+// constant factor.
 vec3 texelScale()
 {
   vec4 fit = lastFit();

@@ -1,9 +1,9 @@
-// Draws the casters into a map as the light sees them, or as shadows (CasterDrawing.h).
+// Projects the casters into a light's map, or as shadows onto a plane (CasterDrawing.h).
 
 #include "shadowtech/base/fit_rows.glsl"
 
 layout(location = 0) in vec3 positionSource;
-// The instance's matrix; the identity, which changes no bit, where a surface is drawn once.
+// The instance's matrix. Surfaces that are drawn once have the identity, which changes no bit.
 layout(location = 2) in mat4x3 centredFromSource; // and locations 3, 4, 5
 
 uniform mat4 clipFromCentred;
@@ -14,12 +14,12 @@ uniform int view;
 #endif
 
 #ifdef DEPTH_LINEAR
-// Row of light space's z, scaled to the map's linear depth in [0, 1].
+// The row of light space's z, scaled to the map's linear depth in [0, 1].
 uniform vec4 depthFromCentred;
 out float depthLinear;
 #endif
 #ifdef CLIPS
-uniform vec4 keptFromCentred[CLIPS]; // planes on whose positive side casters count
+uniform vec4 keptFromCentred[CLIPS]; // casters count on the positive side of these planes
 out float gl_ClipDistance[CLIPS];
 #endif
 

@@ -1,4 +1,4 @@
-// What a pixel in shadow looks like (DeferredPicture.h); lit ones stay as they are.
+// Draws the colours of pixels in shadow (DeferredPicture.h); lit pixels stay as they are.
 
 uniform sampler2D inShadow;
 #ifdef SOME_ARE_LIT
@@ -6,7 +6,7 @@ uniform sampler2DArray visibility;
 uniform ivec2 origin; // of the picture in its framebuffer
 #endif
 
-out vec4 colour; // MIXES: with the share of shadow as alpha, for blending
+out vec4 colour; // MIXES: alpha is the share of shadow, for blending
 
 void main()
 {

@@ -1,9 +1,9 @@
-// How kernels lie on a map: the twin of lights/KernelShape.h.
+// The shape of kernels on a map: the twin of lights/KernelShape.h.
 
 #ifndef GNOMON_KERNEL_SHAPE
 #define GNOMON_KERNEL_SHAPE
 
-// The derivative of a homography's image at a place. w > 0 there.
+// Return the derivative of a homography's image at a place. w > 0 there.
 mat2 homographyJacobian(mat3 homography, vec2 at)
 {
   vec3 image = homography * vec3(at, 1.0);
@@ -12,8 +12,8 @@ mat2 homographyJacobian(mat3 homography, vec2 at)
     image.z;
 }
 
-// The shape that is even where the Jacobian comes from and keeps its area, but stretched by no more
-// than a limit.
+// Return the shape that is even where the Jacobian comes from and keeps its area, stretched by at
+// most a limit.
 mat2 evenShape(mat2 jacobian, float largestStretch)
 {
   vec2 turn = 0.5 * vec2(jacobian[0].x + jacobian[1].y, jacobian[0].y - jacobian[1].x);

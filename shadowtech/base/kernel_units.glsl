@@ -1,6 +1,8 @@
-// How a filter's kernel lies on the map around a point (lights/KernelShape.h). KERNEL_EVEN_LIGHT:
-// its shape is even across the light, its area counts in texels; KERNEL_ACROSS_LIGHT: its units are
-// a length across the light; neither: its units are texels.
+// The shape of a filter's kernel on the map around a point (lights/KernelShape.h).
+//
+// - KERNEL_EVEN_LIGHT: the shape is even across the light, and its area counts in texels.
+// - KERNEL_ACROSS_LIGHT: its units are a length across the light.
+// - Neither: its units are texels.
 
 #include "shadowtech/base/light_views.glsl"
 
@@ -8,7 +10,7 @@
 uniform float kernelUnit_LIGHT; // the largest stretch; or a unit's length across the light
 #endif
 
-// Texels from kernel units.
+// Return the matrix from kernel units to texels.
 mat2 kernelShape_LIGHT(ViewPoint point)
 {
 #if KERNEL_EVEN_LIGHT

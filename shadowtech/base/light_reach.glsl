@@ -1,5 +1,5 @@
-// Whether a light shines on a place of the scene at all, for shaders that draw all pixels of one
-// light (LightReach.h). SPOT and BOX say what bounds it.
+// Tests whether a light's cone or box contains a point, for shaders that draw all pixels of one
+// light (LightReach.h). SPOT and BOX select the test.
 
 #include "shadowtech/base/shadow_ray.glsl"
 

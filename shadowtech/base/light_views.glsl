@@ -1,19 +1,20 @@
-// A point as a light sees it: whether the light reaches it, which of the light's views sees it, and
-// where on that view's layer of the map (lights/LightViews.h, LightViewsGlsl.h). Every technique
-// with a map starts here; what it does with the map is its own.
+// Transforms a point to a light's views: whether the light reaches it, which view sees it, and its
+// place on that view's layer of the map (lights/LightViews.h, LightViewsGlsl.h). Every technique
+// with a map starts here.
 //
-// What kind of light it is, is known when the shader is built: VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT
-// and VIEWS_PERSPECTIVE_LIGHT are 0 or 1; and so is how its views lie: VIEWS_CUBE_LIGHT,
-// VIEWS_SPLITS_LIGHT (neither: a single one), VIEWS_WARPED_LIGHT. VIEWS_LIGHT is how many views
-// there can be. With VIEWS_BLENDED_LIGHT splits overlap. With VIEWS_PIXELS_LIGHT points know how
-// much their pixel shows. VIEWS_FITTED_LIGHT: the last fit of the views was found on the GPU, and
-// is read from a texture; texels "before the fit" are those of the map that would show all that
-// there can be. With VIEWS_CHOSEN_LIGHT so was the warp, which lies in the same texture
-// (fit_rows.glsl).
+// The light is described by macros when the shader is compiled:
+// - VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT, VIEWS_PERSPECTIVE_LIGHT: the kind of light, 0 or 1.
+// - VIEWS_CUBE_LIGHT, VIEWS_SPLITS_LIGHT (neither: a single view), VIEWS_WARPED_LIGHT: the layout
+//   of its views.
+// - VIEWS_LIGHT: the largest number of views.
+// - VIEWS_BLENDED_LIGHT: splits overlap.
+// - VIEWS_PIXELS_LIGHT: points know which area their pixel shows.
+// - VIEWS_FITTED_LIGHT: the last fit of the views was found on the GPU, and is read from a texture.
+//   Texels "before the fit" belong to the map of all that can be seen.
+// - VIEWS_CHOSEN_LIGHT: so was the warp, which lies in the same texture (fit_rows.glsl).
 //
-// A view's map is a homography of the plane of the light's rays, whose points are across
-// coordinates: x and y of parallel rays, their slopes of those from a position
-// (lights/LightRays.h).
+// A view's map is a homography of the plane of the light's rays. Points of that plane have across
+// coordinates: x and y of parallel rays, slopes of rays from a position (lights/LightRays.h).
 
 #include "shadowtech/base/fit_rows.glsl"
 #include "shadowtech/base/kernel_shape.glsl"
@@ -31,7 +32,7 @@ uniform mat3 acrossFromTexel_LIGHT[VIEWS_LIGHT];
 #endif
 #if VIEWS_SPLITS_LIGHT
 uniform int viewCount_LIGHT;
-uniform float viewBorder_LIGHT; // texels that a split has to hold around a point
+uniform float viewBorder_LIGHT; // texels that a split must hold around a point
 #endif
 uniform vec2 viewDepths_LIGHT[VIEWS_LIGHT]; // depth = x * z + y
 uniform float viewSize_LIGHT;               // the map's side in texels; 0 if there is no view
@@ -42,7 +43,7 @@ uniform float lightCone_LIGHT; // squared tangent of half the cone
 uniform vec3 lightBox_LIGHT; // half width, half height, depth
 #endif
 #if VIEWS_CUBE_LIGHT
-uniform int viewOfFace_LIGHT[6]; // -1: no caster is seen through it
+uniform int viewOfFace_LIGHT[6]; // -1: it sees no caster
 #endif
 
 #ifndef GNOMON_LIGHT_VIEWS
@@ -56,10 +57,10 @@ struct ViewPoint
   int face;   // of a cube
   int view;   // the layer of the map
   vec2 texel; // its place there
-  float pixelArea; // how much of the point's surface a pixel shows, in squared world units; if asked for
+  float pixelArea; // the surface in the point's pixel, in squared world units
 };
 
-// The face of the cube around a light that sees a point: the twin of cubeFaceOf().
+// Return the face of the cube around a light that sees a point: the twin of cubeFaceOf().
 int cubeFaceOf(vec3 p)
 {
   vec3 a = abs(p);
@@ -74,7 +75,7 @@ int cubeFaceOf(vec3 p)
   return p.z >= 0.0 ? 4 : 5;
 }
 
-// A vector of light space in a face's space: the twin of cubeFaceFromLight().
+// Transform a vector from light space to a face's space: the twin of cubeFaceFromLight().
 vec3 cubeFaceFromLight(int face, vec3 v)
 {
   vec3 along = face < 2 ? v.yzx : face < 4 ? v.zxy : v;
@@ -82,7 +83,7 @@ vec3 cubeFaceFromLight(int face, vec3 v)
   return (face & 1) == 0 ? along : against;
 }
 
-// The other way round.
+// The inverse of cubeFaceFromLight().
 vec3 lightFromCubeFace(int face, vec3 v)
 {
   vec3 along = face < 2 ? v.zxy : face < 4 ? v.yzx : v;
@@ -92,7 +93,7 @@ vec3 lightFromCubeFace(int face, vec3 v)
 
 #endif
 
-// Towards the light, of any length.
+// Return the direction towards the light, of any length.
 vec3 toLight_LIGHT(vec3 positionLight)
 {
 #if VIEWS_PERSPECTIVE_LIGHT
@@ -102,7 +103,7 @@ vec3 toLight_LIGHT(vec3 positionLight)
 #endif
 }
 
-// Whether the light shines on a surface at all: it faces the light and lies in its cone or box.
+// True if a surface faces the light and lies in its cone or box.
 bool lightReaches_LIGHT(vec3 positionLight, vec3 normalLight)
 {
   bool reaches = facesLight(normalLight, toLight_LIGHT(positionLight));
@@ -116,7 +117,7 @@ bool lightReaches_LIGHT(vec3 positionLight, vec3 normalLight)
 }
 
 #if VIEWS_WARPED_LIGHT
-// The homography of a view's layer before the fit, and the other way round.
+// Return the homography of a view's layer before the fit, and its inverse.
 mat3 texelHomography_LIGHT(int view)
 {
 #if VIEWS_CHOSEN_LIGHT
@@ -135,12 +136,12 @@ mat3 acrossHomography_LIGHT(int view)
 }
 #endif
 
-// Where a ray is on a view's layer before the fit, and the other way round.
+// Transform across coordinates to texels of a view's layer before the fit, and back.
 vec2 texelBeforeFit_LIGHT(int view, vec2 across)
 {
 #if VIEWS_WARPED_LIGHT
   vec3 texel = texelHomography_LIGHT(view) * vec3(across, 1.0);
-  // What is visible has w > 0; behind the warp's eye nothing is seen: that lies off any map.
+  // Visible points have w > 0. Points behind the warp's eye are invisible, and placed off any map.
   return texel.z > 0.0 ? texel.xy / texel.z : vec2(-1e30);
 #else
   vec4 texels = viewTexels_LIGHT[view];
@@ -158,7 +159,7 @@ vec2 acrossBeforeFit_LIGHT(int view, vec2 texel)
 #endif
 }
 
-// The last fit of a view: texel = xy * texel before the fit + zw.
+// Return the last fit of a view: texel = xy * texel before the fit + zw.
 vec4 fitOf_LIGHT(int view)
 {
 #if VIEWS_FITTED_LIGHT
@@ -168,7 +169,7 @@ vec4 fitOf_LIGHT(int view)
 #endif
 }
 
-// Where a ray is on a view's layer, and the other way round.
+// Transform across coordinates to texels of a view's layer, and back.
 vec2 texelOf_LIGHT(int view, vec2 across)
 {
   vec4 fit = fitOf_LIGHT(view);
@@ -180,7 +181,7 @@ vec2 acrossOf_LIGHT(int view, vec2 texel)
   return acrossBeforeFit_LIGHT(view, (texel - fit.zw) / fit.xy); // not 0 where anything is on the map
 }
 
-// Where a point is across the light.
+// Return a point's across coordinates.
 vec2 acrossOf_LIGHT(vec3 positionLight)
 {
 #if VIEWS_PERSPECTIVE_LIGHT
@@ -190,7 +191,7 @@ vec2 acrossOf_LIGHT(vec3 positionLight)
 #endif
 }
 
-// How a view's texels lie there: d texel / d across.
+// Return the derivative d texel / d across of a view.
 mat2 texelJacobian_LIGHT(int view, vec2 across)
 {
 #if VIEWS_WARPED_LIGHT
@@ -204,9 +205,9 @@ mat2 texelJacobian_LIGHT(int view, vec2 across)
 }
 
 #if VIEWS_PIXELS_LIGHT
-// How many texels a pixel shows of a point's surface. Both the pixel and the map see it as large as
-// they stand across it, so that silhouettes, whose pixels have nothing to do with their
-// neighbours', are as good as any other point.
+// Return how many texels a pixel shows of a point's surface. Both the pixel and the map measure the
+// surface across their own direction of view. So silhouettes are no exception, although their
+// pixels have nothing to do with their neighbours'.
 float texelsOfPixel_LIGHT(ViewPoint point)
 {
   float texels = abs(determinant(texelJacobian_LIGHT(point.view, acrossOf_LIGHT(point.position))));
@@ -220,7 +221,7 @@ float texelsOfPixel_LIGHT(ViewPoint point)
 }
 #endif
 
-// Whether a view's layer holds a place and all within a border around it.
+// True if a view's layer holds a place and a border around it.
 bool holds_LIGHT(vec2 texel, float border)
 {
   return all(greaterThanEqual(texel, vec2(border))) &&
@@ -228,8 +229,7 @@ bool holds_LIGHT(vec2 texel, float border)
 }
 
 #if VIEWS_CUBE_LIGHT
-// A point that the light reaches in the space of the face that sees it, whether or not that has a
-// view.
+// Transform a point that the light reaches to the face that sees it, even if that has no view.
 ViewPoint onOwnFace_LIGHT(vec3 positionLight, vec3 normalLight)
 {
   int face = cubeFaceOf(positionLight);
@@ -238,8 +238,8 @@ ViewPoint onOwnFace_LIGHT(vec3 positionLight, vec3 normalLight)
 }
 #endif
 
-// Brings a point that the light reaches into the space of the view that may see it; of splits,
-// which have one space, into that. Returns false where there is no view.
+// Transform a point that the light reaches to the space of the view that may see it. Splits share
+// one space. Returns false if there is no view.
 bool enterView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
 #if VIEWS_CUBE_LIGHT
@@ -250,8 +250,8 @@ bool enterView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
   return point.view >= 0;
 }
 
-// Finds the view of a point that the light reaches. Returns false where no view sees it: the views
-// hold all casters that could hide the light's centre from it.
+// Find the view of a point that the light reaches. Returns false if no view sees it: then no caster
+// can hide the light's centre from it.
 bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
   if (!enterView_LIGHT(positionLight, normalLight, point))
@@ -276,10 +276,10 @@ bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 }
 
 #if VIEWS_CUBE_LIGHT
-// The same for those who look at other points of the light than its centre, and so at casters on
-// any face: the point's own face may have none, or be cut to casters elsewhere on it. The point
-// then lies off its map; where a face has no view, texels and depths are those of the first one.
-// Returns false where there are no casters.
+// Find the face of a point that the light reaches. This is for techniques that look at other points
+// of the light than its centre, and so at casters on any face. The point's own face may have no
+// casters, or be cut to casters elsewhere on it. The point then lies off its map. If the face has
+// no view, texels and depths are those of the first view. Returns false if there are no casters.
 bool findFace_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
   point = onOwnFace_LIGHT(positionLight, normalLight);
@@ -290,9 +290,9 @@ bool findFace_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 #endif
 
 #if VIEWS_BLENDED_LIGHT
-// In what share a point that a split's view sees is the next one's, from 0 inside of the layer to 1
-// at its edge; `next` is the point there. Splits reach as far into the one before as they are
-// blended, so that the next view sees what lies along the edge.
+// Return the share of the next split in a point that a split's view sees, from 0 inside of the
+// layer to 1 at its edge. `next` is the point in the next view. Each split extends into the one
+// before by the width of the blend, so that the next view sees what lies along the edge.
 float blendIntoNext_LIGHT(ViewPoint point, out ViewPoint next)
 {
   next = point;
@@ -312,8 +312,8 @@ float blendIntoNext_LIGHT(ViewPoint point, out ViewPoint next)
 }
 #endif
 
-// How far from the light the receiver's plane is on the ray through a texel's centre. Where the
-// plane runs past that ray or away from it, it is farther than anything.
+// Return the distance from the light of the receiver's plane on the ray through a texel's centre.
+// If the plane runs past that ray or away from it, the distance is larger than any other.
 float planeDistance_LIGHT(ViewPoint point, vec2 texelCentre)
 {
   vec2 centre = acrossOf_LIGHT(point.view, texelCentre);
@@ -327,7 +327,7 @@ float planeDistance_LIGHT(ViewPoint point, vec2 texelCentre)
 #endif
 }
 
-// A distance from the light as the map's depth.
+// Return the map's depth of a distance from the light.
 float viewDepth_LIGHT(ViewPoint point, float distanceLight)
 {
   vec2 depth = viewDepths_LIGHT[point.view];

@@ -1,29 +1,29 @@
-// The frame of pointwise techniques with a map: it finds a point on the map and asks the
-// technique's estimator. With LOOKS_AROUND_LIGHT that looks from a cube's faces at more of the
-// light than its centre.
+// The common part of pointwise techniques with a map: finds a point on the map and calls the
+// technique's estimator. With LOOKS_AROUND_LIGHT the estimator looks from a cube's faces at more of
+// the light than its centre.
 
 #include "shadowtech/base/light_views.glsl"
 
-// How a point's visibility comes about: classesOfMaps(), in their order, behind which techniques
-// have their own.
+// The classes of points: classesOfMaps(), in their order. A technique's own classes follow.
 #ifndef GNOMON_MAP_CLASSES
 #define GNOMON_MAP_CLASSES
 #define MAP_TURNED_AWAY 1
 #define MAP_NO_CASTER 2
 #define MAP_BY_TEXELS 3
 
-// What a facet stands for where it is shaded as if it were curved (SmoothFacet.h): the curved
-// surface's normal in view coordinates, and how high it is at most, in world units; 0: nothing.
+// The curved surface that a facet with smooth shading stands for (SmoothFacet.h): its normal in
+// view coordinates, and its largest height in world units; height 0: none.
 vec4 curvedView = vec4(0.0);
 #endif
-int pixelClass_LIGHT; // of the last point that visibility_LIGHT() was asked for
+int pixelClass_LIGHT; // set by visibility_LIGHT() for its point
 
-uniform vec2 depthSlacks_LIGHT; // what rounding does to a depth; and per distance to the camera
+uniform vec2 depthSlacks_LIGHT; // rounding of a depth; and per distance to the camera
 
 #if VIEWS_PIXELS_LIGHT
 uniform vec2 pixelSide_LIGHT; // of a pixel across the view, in world units: x + y * distance
 
-// How much of a surface a pixel shows, in squared world units. Along the view it is without end.
+// Return the area of a surface that a pixel shows, in squared world units, which grows to infinity
+// on surfaces along the view.
 float pixelArea_LIGHT(vec3 positionView, vec3 normalView)
 {
   float distanceView = -positionView.z;
@@ -33,11 +33,11 @@ float pixelArea_LIGHT(vec3 positionView, vec3 normalView)
 }
 #endif
 
-// The technique's estimator, for a point that findPoint_LIGHT() has found.
+// The technique's estimator, called for a point that findPoint_LIGHT() has found.
 float estimate_LIGHT(ViewPoint point, float slack);
 
-// The same with what rounding does to depths there. The position is rounded relative to its
-// distance from the camera, which the sum of its parts is never less than.
+// Call the estimator with the rounding of depths at the point. The position is rounded relative to
+// its distance from the camera, which is at most the sum of its coordinates' magnitudes.
 float estimateAt_LIGHT(ViewPoint point, vec3 positionView)
 {
   float distanceView = dot(abs(positionView), vec3(1.0));
@@ -46,8 +46,8 @@ float estimateAt_LIGHT(ViewPoint point, vec3 positionView)
   return estimate_LIGHT(point, slack);
 }
 
-// Finds a point that the light reaches on the map.
-// Returns false where nothing on the map can be in the way of the light.
+// Find a point that the light reaches on the map. Returns false if nothing on the map can hide the
+// light from it.
 bool findPoint_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
 #ifdef LOOKS_AROUND_LIGHT
@@ -57,8 +57,8 @@ bool findPoint_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 #endif
 }
 
-// What the map says of a point, whether or not the light reaches it. `p` and `n` are its place and
-// normal in light space.
+// Return the visibility of a point by the map, whether or not the light reaches it. `p` and `n` are
+// its place and normal in light space.
 float visibilityOnMap_LIGHT(vec3 p, vec3 n, vec3 positionView, vec3 normalView)
 {
   ViewPoint point;
@@ -67,7 +67,7 @@ float visibilityOnMap_LIGHT(vec3 p, vec3 n, vec3 positionView, vec3 normalView)
     pixelClass_LIGHT = MAP_NO_CASTER;
     return 1.0;
   }
-  pixelClass_LIGHT = MAP_BY_TEXELS; // unless the estimator says otherwise
+  pixelClass_LIGHT = MAP_BY_TEXELS; // the estimator may set another class
 #if VIEWS_PIXELS_LIGHT
   point.pixelArea = pixelArea_LIGHT(positionView, normalView);
 #endif
@@ -87,7 +87,7 @@ float visibility_LIGHT(vec3 positionView, vec3 normalView)
 {
   vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
   vec3 n = mat3(lightFromView_LIGHT) * normalView;
-  // A facet that is turned away may stand for a surface that is not. What is asked about then is a
+  // A facet that faces away from the light may stand for a surface that does not. Then ask about a
   // point above all facets around, on no plane.
   vec3 toLight = toLight_LIGHT(p);
   vec3 curved = mat3(lightFromView_LIGHT) * curvedView.xyz;

@@ -1,4 +1,4 @@
-// The mean of the pictures that were added (PictureMean.h), with the depths of one of them.
+// Draws the mean of the added pictures (PictureMean.h), with the depths of one of them.
 
 #include "shadowtech/base/drawn_picture.glsl"
 

@@ -1,4 +1,4 @@
-// Adds a picture to the sum of those before (PictureMean.h).
+// Adds a picture to the sum so far (PictureMean.h).
 
 #include "shadowtech/base/drawn_picture.glsl"
 #include "shadowtech/base/running_sum.glsl"
@@ -11,7 +11,7 @@ uniform float gamma;
 out vec4 sum;
 
 #if SAMPLES > 1
-// As VTK's windows show the samples of a pixel: it takes them for 2.2th roots of light.
+// Resolve a pixel's samples as VTK's windows do, which take colours for 2.2th roots of light.
 vec4 colourAt(ivec2 pixel)
 {
   const float gammaOfWindows = 2.2;

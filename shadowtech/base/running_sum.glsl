@@ -1,7 +1,7 @@
-// What was added so far to an image that several draws add to (RunningSum.h).
+// Reads the sum so far of an image that several draws add to (RunningSum.h).
 
 uniform sampler2D sumBefore;
-uniform int sumIsEmpty; // 1: nothing was, and the image holds anything
+uniform int sumIsEmpty; // 1: nothing was added, and the image is undefined
 
 vec4 summedBefore(ivec2 pixel)
 {

@@ -1,6 +1,6 @@
-// The image route of a pointwise technique: its visibility function, called for the receiver of
-// every pixel. The technique's own file stands in front of this one, numbered for light 0. With
-// CLASSES it tells how each pixel's visibility came about.
+// The image route of a pointwise technique: calls its visibility function for the receiver of every
+// pixel. The technique's own source stands in front of this one, numbered for light 0. With CLASSES
+// the shader also writes each pixel's class.
 
 uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates

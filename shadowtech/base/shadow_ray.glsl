@@ -1,5 +1,5 @@
-// The shadow ray's numbers: the twin of ShadowRay.h, which says what they mean and why. Several
-// lights' sources may include it into one shader.
+// The twin of ShadowRay.h, which documents these functions. Several lights' sources may include it
+// into one shader.
 
 #ifndef GNOMON_SHADOW_RAY
 #define GNOMON_SHADOW_RAY

@@ -1,5 +1,5 @@
-// What a point of an area light shines with beside the light's colour, and sums of it: 1, or of a
-// light with a texture (TEXTURED) the texel's colour in 255ths (LightTexture.h).
+// The type of a light's factor at a point of its area, and of sums of it: 1, or for a light with a
+// texture the texel's colour in 255ths (LightTexture.h).
 
 #ifdef TEXTURED
 #define Shine vec3

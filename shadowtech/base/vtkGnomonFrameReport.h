@@ -8,151 +8,149 @@
 namespace gnomon
 {
 
-/// The time that one stage of a frame took.
+/// The time of one stage of a frame.
 struct StageTime
 {
   std::string name; ///< lights, occluders, receivers, maps, visibility, shading, or "stage: part"
   double milliseconds = 0.0; ///< wall clock
 };
 
-/// How many pixels are of a class (TechniqueInfo::classes).
+/// The number of pixels of a class (TechniqueInfo::classes).
 struct ClassCount
 {
-  std::string name;        ///< the class's
-  std::int64_t pixels = 0; ///< how many are of it
+  std::string name;        ///< of the class
+  std::int64_t pixels = 0; ///< of that class
 };
 
-/// What became of one light. Of a light whose visibility is reused, it is what the frame that
-/// computed it says.
+/// The shadows of one light in a frame. If its visibility is reused, this is the report of the
+/// frame that computed it.
 struct LightReport
 {
   int sceneIndex = 0;     ///< place in the renderer's light collection
-  bool casts = false;     ///< false: skipped, and `reason` says why
-  std::string reason;     ///< why it was skipped; empty when it casts
+  bool casts = false;     ///< false: skipped; `reason` states why
+  std::string reason;     ///< why it was skipped; empty if it casts
   std::string technique;  ///< the technique that shades it
-  std::string estimator;  ///< what it decides points by
-  std::string projection; ///< how its map is laid out; empty when it needs none
-  int mapSizeTexels = 0;  ///< side of its map; 0 when it needs none
-  /// What the memory budget leaves it in place of what it asks for, as a clause; empty where it has
-  /// that.
+  std::string estimator;  ///< the estimator that decides its points
+  std::string projection; ///< how its map is laid out; empty if it needs none
+  int mapSizeTexels = 0;  ///< side of its map; 0 if it needs none
+  /// How the memory budget limits its map, as a clause; empty if it does not.
   std::string budgetReason;
-  /// What its views are fitted to: "off" (all casters), "frustum" (what the camera can see at most)
-  /// or "receivers" (those that are drawn); empty when it needs no map.
+  /// What its views are fitted to: "off" (all casters), "frustum" (all that the camera can see) or
+  /// "receivers" (all that it does see). Empty if it needs no map.
   std::string fit;
-  std::string fitReason; ///< why it is the frustum; empty when it is not
-  /// Why its map is not used, of techniques that can do without; empty when it is.
+  std::string fitReason; ///< why it is the frustum; else empty
+  /// Why its optional map is unused; empty if it is used.
   std::string mapReason;
-  /// Who drew its map, where that is a conservative one: "cpu" or "gpu"; empty where it is not, or
-  /// not used.
+  /// Where its conservative map was baked: "cpu" or "gpu". Empty if its map is another one, or
+  /// unused.
   std::string rasterizer;
-  std::string rasterizerReason; ///< why that one, as a clause
-  /// Casting surfaces that none of its views can see; 0 where the CPU draws the map.
+  std::string rasterizerReason; ///< why there, as a clause
+  /// Casting surfaces outside of all its views; 0 if the CPU bakes the map.
   int castersLeftOut = 0;
-  /// What filters it: a value of the setting `kernel`, or "disc" (adaptive), "square" (maps of
-  /// moments); empty when nothing does.
+  /// The filter's kernel: a value of the setting `kernel`, or "disc" (adaptive), "square" (maps of
+  /// moments). Empty without a filter.
   std::string kernel;
-  int kernelTexels = 0;          ///< and how wide that is
-  int mapSamples = 0;            ///< samples of its map's texels; 0 when they hold depths
+  int kernelTexels = 0;          ///< width of the filter's kernel
+  int mapSamples = 0;            ///< samples per texel of its map; 0 for maps of depths
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
-  /// Points of the light that its shadows come from: 1 where they are hard. A traced pixel has a
-  /// ray to each.
+  /// Points of the light that cast its shadows; 1 for hard shadows. A traced pixel has a ray to
+  /// each.
   int lightSamples = 1;
-  /// The share of its points that are in the picture: below 1 where further frames are to add more.
+  /// The share of its points that are in the picture. Below 1, further frames add more.
   double progress = 1.0;
-  /// Rays that were traced. Of most techniques as many as tracedPixels times lightSamples; where
-  /// rays decide others (`penumbra`), tracedPixels have all of theirs, and other pixels some.
+  /// Traced rays. For most techniques they are tracedPixels times lightSamples. If rays decide
+  /// others (`penumbra`), pixels in tracedPixels have all of their rays, and other pixels some.
   std::int64_t rays = 0;
   ///@{
-  /// Of exact techniques traced by Embree, how many tiles of 64 x 16 pixels are dark for certain,
-  /// in how many there are rays, and how many others there are. Counted where several lights share
-  /// receivers, or receivers rest; else all are 0.
+  /// Tiles of 64 x 16 pixels, for exact techniques traced by Embree: tilesDark are certainly dark,
+  /// tilesTraced have rays, tilesLit are the others. Counted if several lights share receivers, or
+  /// receivers rest; else all are 0.
   int tilesLit = 0;
   int tilesDark = 0;
   int tilesTraced = 0;
   ///@}
-  /// Why no shadow ray was needed, where tiles were counted, as a clause; empty if any was.
+  /// Why no shadow ray was needed, as a clause; empty if any was, or if tiles were not counted.
   std::string skipReason;
-  int planes = 0; ///< of planar shadows: how many planes show them
-  /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only
-  /// where visibility is kept or stages are measured.
+  int planes = 0; ///< of planar shadows: planes that receive them
+  /// Of planar shadows: pixels off these planes, which show no cast shadow. Counted only if
+  /// visibility is kept or stages are measured.
   std::int64_t pixelsOffPlanes = 0;
-  /// How its pixels' visibility came about, of techniques that tell. Counted only where visibility
-  /// is kept or stages are measured.
+  /// Pixels by class, for techniques that classify them. Counted only if visibility is kept or
+  /// stages are measured.
   std::vector<ClassCount> classes;
 };
 
-/// Whether a stage's value was made in this frame.
+/// Reuse of a stage's value in this frame.
 struct ValueReport
 {
   std::string name;    ///< "receivers", "visibility of light 3"
-  bool reused = false; ///< it is that of an earlier frame
-  std::string
-    changes; ///< what changed since then, "the camera, the light"; empty where it is reused
+  bool reused = false; ///< true: cached by an earlier frame
+  std::string changes; ///< what changed since then, "the camera, the light"; empty if reused
 };
 
-/// What one frame did, for people and for tests. Counters count this frame only.
+/// The report of one frame, for users and tests. Counters count this frame only.
 struct FrameReport
 {
   /// "inline", "image", "deferred" or "none" (no light casts: plain VTK)
   std::string route;
   std::string routeReason;  ///< why this route, as a clause
-  std::string tracer;       ///< "embree" or "gpu"; empty where no light's technique traces rays
-  std::string tracerReason; ///< why this one, as a clause
+  std::string tracer;       ///< "embree" or "gpu"; empty if no technique traces rays
+  std::string tracerReason; ///< why this tracer, as a clause
   ///@{
-  /// Pixels whose triangle, as the driver numbers it for fragment shaders, was compared with the
-  /// depths that were drawn, and those in which they disagree. Shaders are checked in the first
-  /// frame in which they draw. If any pixel disagrees, geometry shaders number the triangles.
+  /// Pixels whose driver-given triangle number was compared with the drawn depths, and the pixels
+  /// where they disagree. Shaders are checked in the first frame in which they draw. If any pixel
+  /// disagrees, geometry shaders number the triangles.
   std::int64_t numbersChecked = 0, numbersWrong = 0;
   ///@}
-  /// Whether geometry shaders number the triangles.
+  /// True if geometry shaders number the triangles.
   bool numbersByGeometryShaders = false;
-  /// What lights have that leave their technique to the pass, and why, as a clause; empty where
-  /// none does.
+  /// The technique of lights that leave it to the pass, and the reason, as a clause; empty if no
+  /// light does.
   std::string choice;
-  std::int64_t probes = 0; ///< pixels at which maps or samples of theirs were compared with rays
-  /// Whether the frame was drawn without shadows because a map or an image is too large for the
-  /// texture memory.
+  std::int64_t probes = 0; ///< pixels where their maps or samples were checked by rays
+  /// True if the frame was drawn without shadows because a map or an image exceeds the texture
+  /// memory.
   bool outOfTextureMemory = false;
   std::vector<LightReport> lights; ///< every light of the renderer
   std::vector<std::string> notes;  ///< limits that this frame ran into, each a sentence
-  /// Settings that are named for lights whose technique does not have them, or that make no sense
-  /// together, each a sentence. They are ignored.
+  /// Settings of lights whose technique does not have them, or that contradict each other, each a
+  /// sentence. They are ignored.
   std::vector<std::string> misfits;
-  /// The only light is a headlight, which casts no shadow then.
+  /// True if the only light is a headlight, which then casts no shadow.
   bool headlightIsAlone = false;
-  /// Kinds of props that are visible and lit, and neither cast nor receive.
+  /// Kinds of props that are visible and lit, but neither cast nor receive.
   std::vector<std::string> leftOut;
 
-  /// Filled when stages are measured; each stage then ends with glFinish, which costs time of its
-  /// own. Without it `stages` is empty and only wallMilliseconds counts.
+  /// Filled if stages are measured. Each stage then ends with glFinish, which costs time itself.
+  /// Otherwise `stages` is empty and only wallMilliseconds counts.
   std::vector<StageTime> stages;
   double wallMilliseconds = 0.0; ///< the whole pass, as seen by the caller
 
-  /// Of each value that a stage could reuse, whether it did.
+  /// Reuse of each value that a stage can cache.
   std::vector<ValueReport> values;
-  int receiversDrawn = 0;      ///< pictures of receivers that VTK drew
-  int visibilityComputed = 0;  ///< lights whose visibility was computed for the picture's pixels
-  std::int64_t raysTraced = 0; ///< for them
-  int mapBakes = 0;            ///< maps drawn
-  int programCompiles = 0;     ///< shader programs made, VTK's with the hook included
-  int newPrograms = 0; ///< of these, what OpenGL had to compile: VTK keeps those of earlier frames
-  int bvhBuilds = 0;   ///< acceleration structures built
-  int bvhRefits = 0;   ///< acceleration structures refitted
-  int surfacesExtracted = 0;     ///< mapper inputs read into the snapshot
-  int surfacesRetransformed = 0; ///< surfaces whose world positions were computed again
+  int receiversDrawn = 0;        ///< receiver pictures that VTK drew
+  int visibilityComputed = 0;    ///< lights whose visibility was computed for the picture's pixels
+  std::int64_t raysTraced = 0;   ///< for these lights
+  int mapBakes = 0;              ///< baked maps
+  int programCompiles = 0;       ///< shader programs built, including VTK's with the hook
+  int newPrograms = 0;           ///< of these, compiled by OpenGL; VTK caches earlier ones
+  int bvhBuilds = 0;             ///< acceleration structures built
+  int bvhRefits = 0;             ///< acceleration structures refitted
+  int surfacesExtracted = 0;     ///< mapper inputs copied to the snapshot
+  int surfacesRetransformed = 0; ///< surfaces with recomputed world positions
 
   std::size_t triangles = 0;        ///< in the snapshot, those of all instances
-  std::size_t instances = 0;        ///< glyphs that the snapshot keeps as such, not as triangles
+  std::size_t instances = 0;        ///< glyphs that the snapshot keeps as instances
   std::size_t droppedNonFinite = 0; ///< triangles left out: a vertex is not finite
   std::size_t droppedZeroArea = 0;  ///< triangles left out: no area
 
-  /// The snapshot on the CPU and the GPU, with all that is remembered of its surfaces: no more than
-  /// 120 bytes a triangle and 1,500 a surface; of glyphs that are kept as instances 120 a triangle
-  /// of one, and 200 an instance. The ray tracer's own memory is apart.
+  /// The snapshot on the CPU and the GPU, with all that is cached of its surfaces. It is at most
+  /// 120 bytes a triangle and 1,500 a surface. Glyphs kept as instances take 120 a triangle of one
+  /// glyph, and 200 an instance. The ray tracer's own memory is separate.
   std::size_t bytesOccluders = 0;
-  std::size_t bytesBvh = 0;    ///< as Embree reports it, or the GPU's with the copy on the CPU
-  std::size_t bytesMaps = 0;   ///< what the techniques baked, and what they keep to bake again
-  std::size_t bytesImages = 0; ///< receivers, their rays and visibility, on the CPU and the GPU
+  std::size_t bytesBvh = 0;    ///< as Embree reports it; or on the GPU and its copy on the CPU
+  std::size_t bytesMaps = 0;   ///< baked maps and what techniques cache for baking
+  std::size_t bytesImages = 0; ///< receivers, rays and visibility, on the CPU and the GPU
 };
 
 } // namespace gnomon

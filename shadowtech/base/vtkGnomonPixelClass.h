@@ -8,16 +8,16 @@
 namespace gnomon
 {
 
-/// One of the ways in which a technique may come to a pixel's visibility.
+/// One way in which a technique decides a pixel's visibility.
 struct PixelClass
 {
-  std::string name;                   ///< a few words for people
+  std::string name;                   ///< a few words for users
   std::array<std::uint8_t, 3> colour; ///< red, green, blue in pictures of classes
-  bool traced = false;                ///< whether a ray decided
+  bool traced = false;                ///< a ray decided
 };
 
-/// The classes of pointwise techniques that tell them, behind which they have their own
-/// (map_visibility.glsl).
+/// Return the classes that all pointwise techniques with classes share. A technique's own classes
+/// follow them (map_visibility.glsl).
 inline std::vector<PixelClass> classesOfMaps()
 {
   return { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },

@@ -32,7 +32,7 @@ void DepthBounds::bake(GLuint map, int sizeTexels, int layers, ShaderLibrary& sh
 {
   const GlStateGuard guard;
   this->release();
-  // A power of two, so that a block's texels are those of 2 x 2 smaller blocks.
+  // A power of two, so that each block consists of 2 x 2 smaller blocks.
   int side = 1;
   while (2 * side < sizeTexels)
   {
@@ -59,7 +59,7 @@ void DepthBounds::bake(GLuint map, int sizeTexels, int layers, ShaderLibrary& sh
     const int blocks = side >> level;
     for (int layer = 0; layer < layers; ++layer)
     {
-      // Only what is finished may be read.
+      // Only finished levels may be read.
       glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds_.name());
       glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, std::max(level - 1, 0));
       ShaderLibrary::setUniforms(program,

@@ -9,35 +9,41 @@
 namespace gnomon
 {
 
-/// What `adaptive` and `pcss` ask before they read their whole kernel.
+/// What `adaptive` and `pcss` test before they read their whole kernel.
 enum class EarlyOut
 {
   None, ///< nothing
-  Ring, ///< the outermost points, and believe them where they agree
-  Exact ///< the least and the largest depth around the point, which never errs
+  Ring, ///< the outermost points, trusted if they agree; may err
+  Exact ///< the least and the largest depth around the point; never errs
 };
+/// The settings of tests before the whole kernel.
 struct EarlyOutSettings
 {
   EarlyOut earlyOut = EarlyOut::Exact;
 };
+/// Return the settings of techniques with an early out.
 const SettingsTable& earlyOutSettings();
 
-/// The least and the largest depth of a map's blocks of 2, 4, 8, ... texels, up to the whole layer:
-/// a pyramid that tells what all texels of a region say without reading them (depth_bounds.glsl).
+/// A pyramid of the least and the largest depth of a map's blocks of 2, 4, 8, ... texels, up to the
+/// whole layer. It bounds all texels of a region without reading them (depth_bounds.glsl).
 ///
-/// A surface's linear depth is monotonic along every line of the map, so that blocks bound the
-/// depths of planes, too. Depths along the ray are not bounded by those of a block's corners.
+/// A surface's linear depth is monotonic along every line of the map, so the corners of a block
+/// bound the depths of planes, too. They do not bound depths along the ray.
 class DepthBounds
 {
 public:
+  /// Build the pyramid of a map.
   /// @param map a texture array of depths
   /// @param layers at least 1
   /// @throws TextureMemoryError
   void bake(GLuint map, int sizeTexels, int layers, ShaderLibrary& shaders);
+  /// Free the pyramid.
   void release();
 
+  /// True if the pyramid is built.
   explicit operator bool() const { return static_cast<bool>(this->bounds_); }
   std::size_t bytes() const { return this->bytes_; }
+  /// Return the uniform of depth_bounds.glsl.
   Uniform uniform() const;
 
 private:

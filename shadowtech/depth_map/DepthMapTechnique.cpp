@@ -20,19 +20,19 @@ namespace gnomon
 namespace
 {
 
-/// Where depths end that are pushed back: in the middle of the room behind the casters.
+/// The deepest pushed depth: the middle of the room behind the casters.
 constexpr double deepestPushed = 1.0 / (1.0 + 0.5 * roomBehindCasters);
 
-/// What one layer of depth is drawn with.
+/// How one layer of depth is baked.
 struct Layer
 {
-  double push = 1.0; ///< times the reach's span
+  double push = 1.0; ///< in units of the reach's span
   bool backOnly = false;
-  GLuint frontDepths = 0; ///< a map of which only what lies behind is drawn; 0: all
+  GLuint frontDepths = 0; ///< draw only what lies behind this map; 0: draw all
 };
 
-/// Half the sum of a caster's slopes is never more than the larger one, which is what polygon
-/// offset pushes by. That is twice what is asked for in the worst case, and costs nothing.
+/// True if polygon offset can push the map. It pushes by the larger one of a caster's slopes, and
+/// half their sum is never more than that. So it pushes by up to twice what is needed, at no cost.
 bool polygonOffsetServes(const LightView& view, const MapReach& reach)
 {
   return view.depthIsAffine() && reach.squareTexels == MapReach().squareTexels &&
@@ -47,7 +47,7 @@ std::string define(const char* name, double value)
   return text.str();
 }
 
-/// The fragment shader's definitions of a layer whose depth it writes.
+/// Return the defines of the fragment shader for a layer whose depth the shader writes.
 std::vector<std::string> writingDefines(
   const MapReach& reach, const Layer& layer, const ShadowLight& light)
 {
@@ -75,7 +75,7 @@ std::vector<std::string> writingDefines(
   return defines;
 }
 
-/// Draws the casters into the bound framebuffer's depth, as one view sees them.
+/// Bake the casters into the bound framebuffer's depth, as one view sees them.
 void drawView(std::size_t number, const MapReach& reach, const Layer& layer, const MapInput& input)
 {
   const LightView& view = input.views.views[number];
@@ -110,14 +110,14 @@ void drawView(std::size_t number, const MapReach& reach, const Layer& layer, con
       layer.backOnly });
 }
 
-/// A map of depths, bound afterwards.
+/// Allocate a map of depths; it is bound afterwards.
 void allocateDepths(GlTexture& texture, int sizeTexels, int layers)
 {
   allocateMap(texture, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, layers);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_NONE);
 }
 
-/// Makes a layer the bound framebuffer's depth.
+/// Attach a layer as the bound framebuffer's depth.
 void drawInto(const GlTexture& depths, std::size_t layer)
 {
   glFramebufferTextureLayer(
@@ -159,7 +159,7 @@ void DepthMapTechnique::allocate(int sizeTexels, int layers)
   {
     return;
   }
-  this->sizeTexels_ = 0; // in case that there is no memory
+  this->sizeTexels_ = 0; // in case the allocation fails
   this->layers_ = 0;
   allocateDepths(this->map_, sizeTexels, layers);
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
@@ -189,7 +189,7 @@ void DepthMapTechnique::bake(const MapInput& input)
   Layer layer;
   if (input.light.of<DepthMapSettings>().surface == DepthSurface::Second)
   {
-    layer.push = 0.0; // what faces the light cannot shadow itself
+    layer.push = 0.0; // faces away from the light, so it cannot shadow itself
     layer.backOnly = true;
   }
   for (std::size_t i = 0; i < views.size(); ++i)
@@ -200,8 +200,8 @@ void DepthMapTechnique::bake(const MapInput& input)
 }
 
 //------------------------------------------------------------------------------
-/// The first surface, the one behind it, and the pushed first one, over which the others' middle is
-/// drawn wherever there are two.
+/// Bake the first surface, the surface behind it, and the pushed first one. Where there are two
+/// surfaces, draw their midpoint over the pushed first one.
 void DepthMapTechnique::bakeMidpoints(const MapInput& input)
 {
   GlTexture front;
@@ -262,7 +262,7 @@ double DepthMapTechnique::bytesPerTexel(const ShadowLight& light)
 //------------------------------------------------------------------------------
 double DepthMapTechnique::bytesPerTexelWithBounds(const ShadowLight& light)
 {
-  constexpr double levels = 4.0 / 3.0; // a quarter as many texels each
+  constexpr double levels = 4.0 / 3.0; // each has a quarter as many texels
   return bytesPerTexel(light) + levels * sizeof(glm::vec2) * mostViews(light);
 }
 

@@ -22,8 +22,8 @@ std::string poissonDiscGlsl()
     ");\n";
 }
 
-/// The kernel's weights at 0, 1, 2, ... texels from the point, straight in between, and 0 at the
-/// end. Castano 2013 gives them as the places and weights of bilinear look-ups.
+/// Return the kernel's weights at 0, 1, 2, ... texels from the point, linear in between, and 0 at
+/// the end. Castano 2013 gives them as places and weights of bilinear look-ups.
 std::string castanoGlsl(int texels)
 {
   const std::string weights = texels == 3 ? "2.0, 1.0, 0.0"

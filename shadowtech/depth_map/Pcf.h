@@ -5,32 +5,34 @@
 namespace gnomon
 {
 
-/// Which texels around a receiver a filter reads, and with which weights.
+/// The texels around a receiver that a filter reads, and their weights.
 enum class FilterKernel
 {
-  Bilinear, ///< a square of any place: texels count by how far it covers them
+  Bilinear, ///< a square anywhere: texels count by their covered share
   Box,      ///< n x n texels of equal weight
-  Poisson,  ///< a few texels of equal weight, scattered over a disc that turns from place to place
-  Castano   ///< a square of any place whose texels count the less the farther they are
+  Poisson,  ///< a few texels of equal weight, on a disc turned from place to place
+  Castano   ///< a square anywhere: weights fall with the distance
 };
+/// The settings of percentage closer filtering.
 struct PcfSettings
 {
-  /// The default is the narrowest that shows no single texels (as a box does) and also smooths the
-  /// steps of an edge that runs across the texels.
+  /// The default is the narrowest kernel that shows no single texels, as a box does, and also
+  /// smooths the steps of an edge that runs across the texels.
   FilterKernel kernel = FilterKernel::Bilinear;
 };
+/// Return the settings of `pcf`.
 const SettingsTable& pcfSettings();
 
 /// `pcf`: the plain shadow map with percentage closer filtering (Reeves, Salesin and Cook 1987;
-/// docs/techniques/pcf.md). The visibility is a weighted mean of comparisons with the texels of the
+/// docs/techniques/pcf.md). Visibility is a weighted mean of comparisons with the texels of the
 /// light's kernel, each made where its texel was sampled (DepthMapTechnique.h).
 ///
-/// On warped maps, and with `kernel_width`, a kernel's size counts kernel units (Kernel.h):
-/// bilinear and castano weigh all texels in the kernel's shape, and with `kernel_width` n x n
-/// bilinear look-ups, a unit apart; box and poisson read the texel at each of their points.
+/// On warped maps, and with `kernel_width`, a kernel's size counts kernel units (Kernel.h).
+/// Bilinear and castano weigh all texels in the kernel's shape; with `kernel_width` they use n x n
+/// bilinear look-ups, a unit apart. Box and poisson read the texel at each of their points.
 ///
 /// Texels outside of the layer hold no casters, unless the kernel is larger than the border that
-/// the view could keep (half of the map at most): then the layer's last texel stands in.
+/// the view could reserve (half of the map at most). Then the layer's last texel stands in.
 class Pcf : public DepthMapTechnique
 {
 public:

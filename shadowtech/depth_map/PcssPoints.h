@@ -13,41 +13,48 @@
 namespace gnomon
 {
 
-/// How many points of the light percentage closer soft shadows look for blockers with, and how many
-/// they filter with (Apelles, table 4.1).
+/// The number of points of the light for the blocker search and the filter of percentage closer
+/// soft shadows (Apelles, table 4.1).
 enum class PcssSamples
 {
   Low,    ///< 4 x 4 and 4 x 4
   Medium, ///< 6 x 6 and 8 x 8
   High    ///< 8 x 8 and 16 x 16
 };
+/// The settings of percentage closer soft shadows.
 struct PcssSettings
 {
   PcssSamples samples = PcssSamples::Medium;
 };
+/// Return the settings of `pcss`.
 const SettingsTable& pcssSettings();
 
-/// How many points the blocker search and the filter take.
+/// The numbers of points of the blocker search and the filter.
 struct PcssCounts
 {
   int search;
   int filter;
 };
+/// Return the numbers of points of a quality.
 PcssCounts pcssCounts(PcssSamples samples);
 
-/// The same for shaders: PCSS_SEARCH_POINTS_LIGHT and PCSS_FILTER_POINTS_LIGHT.
+/// Return these numbers for shaders: PCSS_SEARCH_POINTS_LIGHT and PCSS_FILTER_POINTS_LIGHT.
 std::string pcssCountsDefines(PcssSamples samples);
 
-/// The points of both steps, one after the other, on the shape of radius or half side 1: Poisson
-/// sets (PoissonSquare.h), on disks by the concentric map.
+/// Return the points of both steps, one after the other, on the shape of radius or half side 1:
+/// Poisson sets (PoissonSquare.h), mapped to disks by the concentric map.
 std::vector<glm::vec2> pcssPoints(PcssSamples samples, LightArea::Shape shape);
 
-/// These points on the GPU: one row of a texture, the shaders' `lightPoints_LIGHT`.
+/// The points of pcssPoints() on the GPU: one row of a texture, the shaders' `lightPoints_LIGHT`.
 class PcssPoints
 {
 public:
+  /// Upload the points.
+  /// @throws TextureMemoryError
   void upload(PcssSamples samples, LightArea::Shape shape);
+  /// Free the texture.
   void release();
+  /// Return the uniform of the texture.
   Uniform uniform() const;
   std::size_t bytes() const { return this->bytes_; }
 

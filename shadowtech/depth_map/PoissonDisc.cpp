@@ -8,13 +8,13 @@ namespace gnomon
 namespace
 {
 
-/// Dart throwing (Cook 1986). The standard's engines give the same numbers everywhere, its
-/// distributions do not.
+/// Return points by dart throwing (Cook 1986). The standard's engines give the same numbers
+/// everywhere, its distributions do not.
 std::array<glm::dvec2, poissonPoints> throwDarts()
 {
   std::mt19937 random(1);
   const auto coordinate = [&random] { return random() / 2147483648.0 - 1.0; };
-  constexpr int patience = 1000; // darts that miss until the disc is cleared
+  constexpr int patience = 1000; // misses until the disc is cleared
   std::array<glm::dvec2, poissonPoints> points{};
   auto end = points.begin();
   for (int misses = 0; end != points.end();)

@@ -27,7 +27,7 @@ std::vector<glm::dvec2> poissonSquare(int points)
   // The standard's engines give the same numbers everywhere, its distributions do not.
   std::mt19937 random(1);
   const auto coordinate = [&random] { return random() / 2147483648.0 - 1.0; };
-  constexpr int patience = 8000; // darts that miss until the distance shrinks
+  constexpr int patience = 8000; // misses until the distance shrinks
   constexpr double shrinking = 0.98;
   double distance = largestPoissonDistance(points);
   std::vector<glm::dvec2> result;

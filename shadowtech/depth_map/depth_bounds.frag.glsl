@@ -1,5 +1,5 @@
-// A level of the pyramid of depth bounds: the least and the largest depth of 2 x 2 texels of the
-// map, or of 2 x 2 blocks of the level before. What lies beyond the map is empty.
+// Draws a level of the pyramid of depth bounds: the least and the largest depth of 2 x 2 texels of
+// the map, or of 2 x 2 blocks of the level below. Texels beyond the map are empty.
 
 uniform sampler2DArray depthMap;
 uniform sampler2DArray bounds;

@@ -1,15 +1,15 @@
-// What a depth map's pyramid of bounds (DepthBounds.h) tells of the texels around a point.
+// Decides the texels around a point by a depth map's pyramid of bounds (DepthBounds.h).
 
 #include "shadowtech/depth_map/depth_map.glsl"
 
-uniform sampler2DArray depthBounds_LIGHT; // least and largest depth of blocks of 2, 4, 8, ... texels
+uniform sampler2DArray depthBounds_LIGHT; // least and largest, blocks of 2, 4, 8, ... texels
 
-// The texels between two places, as far as they lie on the map.
+// The texels between two places that lie on the map.
 struct TexelWindow_LIGHT
 {
   ivec2 first;
   ivec2 last;
-  int level; // at which 2 x 2 blocks of 2^level texels hold all of them
+  int level; // the level where 2 x 2 blocks of 2^level texels hold all
 };
 
 TexelWindow_LIGHT windowOf_LIGHT(vec2 lower, vec2 upper)
@@ -32,7 +32,7 @@ TexelWindow_LIGHT windowAround_LIGHT(ViewPoint point, vec2 reach)
   return windowOf_LIGHT(point.texel - reach, point.texel + reach);
 }
 
-// The least and the largest depth in blocks that hold all texels of a window, and more.
+// Return the least and the largest depth of blocks that hold all texels of a window, and more.
 vec2 boundsOf_LIGHT(ViewPoint point, TexelWindow_LIGHT window)
 {
   vec2 bounds = vec2(1.0, 0.0);
@@ -56,10 +56,10 @@ float largest_LIGHT(vec4 of)
   return max(max(of.x, of.y), max(of.z, of.w));
 }
 
-// What all texels of a window say: 1 lit, 0 hidden, -1 where the bounds of blocks of 2^level texels
-// do not tell. Rounding between the corners of a block and its texels is well below half of the
-// slack.
-// @param own the least and the largest that isLitBy_LIGHT() may be given
+// Return the result that all texels of a window agree on: 1 lit, 0 hidden; -1 if the bounds of
+// blocks of 2^level texels do not decide. Rounding between the corners of a block and its texels is
+// well below half of the slack.
+// @param own the least and the largest `own` of isLitBy_LIGHT()
 float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, vec2 own, float slack)
 {
   bool lit = true;
@@ -69,8 +69,7 @@ float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, vec2 o
     for (int x = window.first.x >> level; x <= window.last.x >> level; ++x)
     {
       vec2 bounds = texelFetch(depthBounds_LIGHT, ivec3(x, y, point.view), level - 1).rg;
-      // On the map a plane's depth is monotonic along every line, so that its bounds are at
-      // corners.
+      // On the map a plane's depth is monotonic along every line, so corners bound it.
       vec2 lower = vec2(max(ivec2(x, y) << level, window.first)) + 0.5;
       vec2 upper = vec2(min((ivec2(x, y) + 1) << level, window.last + 1)) - 0.5;
       vec4 plane = vec4(planeDistance_LIGHT(point, lower), planeDistance_LIGHT(point, upper),
@@ -89,7 +88,7 @@ float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, vec2 o
   return lit ? 1.0 : 0.0;
 }
 
-// The same by the texels themselves.
+// Decide by the texels themselves.
 float decidedByTexels_LIGHT(ViewPoint point, TexelWindow_LIGHT window, vec2 own, float slack)
 {
   bool lit = true;
@@ -113,12 +112,12 @@ float decidedByTexels_LIGHT(ViewPoint point, TexelWindow_LIGHT window, vec2 own,
   return lit ? 1.0 : 0.0;
 }
 
-// At up to which level of their window texels are asked one by one: at most 4 x 4 of them. Most of
-// a surface that nothing is in front of has windows of one or two, and a block's least depth is
-// that of its nearest texel, in front of the surface at the others.
+// Windows of up to this level are decided by single texels, at most 4 x 4. Most unshadowed points
+// of a surface have windows of level one or two. There a block's least depth, that of its nearest
+// texel, lies in front of the surface at the others and decides nothing.
 const int levelOfTexels_LIGHT = 2;
 
-// The same: from large blocks, then from smaller ones, then by texels.
+// Decide by large blocks, then by smaller ones, then by texels.
 float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, vec2 own, float slack)
 {
   float decided = decided_LIGHT(point, window, window.level, own, slack);
@@ -134,7 +133,7 @@ float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, vec2 own, float s
   return decided;
 }
 
-// The same of all texels within a reach, and of those to which rounding may take a place.
+// Decide all texels within a reach, and those to which rounding may move a place.
 float decided_LIGHT(ViewPoint point, vec2 reach, float slack)
 {
   return decided_LIGHT(

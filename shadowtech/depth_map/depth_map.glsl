@@ -1,8 +1,8 @@
-// Techniques with a plain shadow map: their estimators (map_visibility.glsl) compare a point with
-// the texels that they choose.
+// The common part of techniques with a plain shadow map. Their estimators (map_visibility.glsl)
+// compare a point with the texels that they choose.
 //
-// The map knows the caster at a texel's centre only. So the receiver's plane is followed to that
-// centre before depths are compared: a surface then never shadows itself, however steep it is and
+// The map holds the caster at a texel's centre only. So the receiver's plane is followed to that
+// centre before depths are compared. A surface then never shadows itself, however steep it is and
 // however far the texel. Where another surface covers the centre, the nearer of the plane's depth
 // and the point's own depth counts: the plane is right on convex surfaces, the point in concave
 // corners (DepthMapTechnique.h).
@@ -14,7 +14,7 @@ uniform sampler2DArray depthMap_LIGHT; // linear depth in [0, 1], one layer per 
 uniform float rayScale_LIGHT[VIEWS_LIGHT]; // 1 / the longest ray to distance 1 from the light
 #endif
 
-// A distance from the light on the ray through a place of the map, as the map measures.
+// Return the map's measure of a distance from the light, on the ray through a place of the map.
 float depthOnRay_LIGHT(ViewPoint point, float distanceLight, vec2 texel)
 {
   float depth = viewDepth_LIGHT(point, distanceLight);
@@ -24,13 +24,13 @@ float depthOnRay_LIGHT(ViewPoint point, float distanceLight, vec2 texel)
   return depth;
 }
 
-// What the map holds of a texel: the depth of what was drawn at its centre.
+// Return the map's depth of the caster at a texel's centre.
 float depthAt_LIGHT(int view, ivec2 texel)
 {
   return texelFetch(depthMap_LIGHT, ivec3(texel, view), 0).r;
 }
 
-// The linear depth of that, however the map measures.
+// Return the linear depth of a map's depth, by any metric.
 float linearDepth_LIGHT(int view, ivec2 texel, float depth)
 {
 #if MAP_EUCLIDEAN_LIGHT
@@ -39,9 +39,9 @@ float linearDepth_LIGHT(int view, ivec2 texel, float depth)
   return depth;
 }
 
-// Whether nothing that was drawn at a texel's centre hides the point from the light.
-// @param depthCaster what the map holds of it
-// @param own how far from the light the point is, where its plane is farther
+// True if the caster at a texel's centre does not hide the point from the light.
+// @param depthCaster the map's depth at the texel
+// @param own the point's own distance from the light, used if its plane is farther
 bool isLitBy_LIGHT(ViewPoint point, ivec2 texel, float depthCaster, float own, float slack)
 {
   if (depthCaster >= 1.0)

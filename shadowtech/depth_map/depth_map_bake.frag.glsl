@@ -1,9 +1,9 @@
-// The map holds linear depth, pushed away from the light by what the caster's slope spans within
-// the reach of a look-up (DepthMapTechnique.h tells why). A parallel view's depth is linear as it
-// is, and polygon offset may push it; else both are done here.
+// Writes the map's depth: linear, and pushed away from the light by the span of the caster's slope
+// within the reach of a look-up (DepthMapTechnique.h gives the reason). A parallel view's depth is
+// linear already, and polygon offset may push it. Else this shader does both.
 //
-// PUSH is how many times that span it is pushed. EUCLIDEAN measures along the ray.
-// BEHIND draws what lies behind another map only.
+// PUSH: how many times that span it pushes. EUCLIDEAN: measures along the ray. BEHIND: draws only
+// what lies behind another map.
 
 #include "shadowtech/base/cutout.glsl"
 
@@ -13,7 +13,7 @@
 
 in float depthLinear;
 
-uniform float bias; // on top of what is pushed
+uniform float bias; // added to the push
 #ifdef EUCLIDEAN
 uniform float rayScale; // 1 / the longest ray to distance 1 from the light
 #endif
@@ -23,7 +23,7 @@ uniform sampler2DArray frontDepths;
 uniform int frontLayer;
 #endif
 
-// The support function of the reach.
+// Return the support function of the reach for a slope.
 float span(vec2 slope)
 {
   float texels = REACH_SQUARE * (abs(slope.x) + abs(slope.y)) + REACH_DISC * length(slope);
@@ -39,8 +39,8 @@ float span(vec2 slope)
   return texels;
 }
 
-// How much larger a texel within the reach can be than this one, at most: the slope's own texel of
-// difference is within the reach, too. A kernel's shape changes by as much again.
+// Return how much larger a texel within the reach is than this one, at most. The texel over which
+// the slope is a difference counts as within the reach. A kernel's shape changes by as much again.
 float warp()
 {
 #ifdef WARPED
@@ -60,9 +60,9 @@ float warp()
 float pushed()
 {
 #ifdef PERSPECTIVE
-  // Not the depth is affine across the light, but its inverse. Where it reaches 0, the plane runs
-  // past the rays.
-  float inverse = 1.0 / depthLinear; // where the light begins, depth is positive
+  // The inverse of depth is affine across the light, not depth. Where it reaches 0, the plane
+  // extends past the rays.
+  float inverse = 1.0 / depthLinear; // depth is positive from the light's start on
   float left = inverse - PUSH * warp() * span(vec2(dFdx(inverse), dFdy(inverse)));
   return left * DEEPEST > 1.0 ? 1.0 / left : DEEPEST;
 #else

@@ -1,5 +1,5 @@
-// The midpoint map (Woo 1992): halfway between the first and the second surface. Where there is no
-// second one, the map stays as it is.
+// Draws the midpoint map (Woo 1992): halfway between the first and the second surface. Where there
+// is no second one, the map stays as it is.
 
 uniform sampler2DArray frontDepths;
 uniform sampler2DArray backDepths;

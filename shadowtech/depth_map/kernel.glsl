@@ -1,16 +1,16 @@
-// How filters compare with the texels of a depth map.
+// The comparison of filters with the texels of a depth map.
 
 #include "shadowtech/depth_map/depth_map.glsl"
 
-// 1 where the point is hidden at a texel, else 0. The border makes sure that casters lie inside the
-// layer; only kernels that are wider than it read the layer's last texel again.
+// Return 1 if the point is hidden at a texel, else 0. The border ensures that casters lie inside
+// the layer. Only kernels wider than the border read the layer's last texel again.
 float hidden_LIGHT(ViewPoint point, ivec2 texel, float slack)
 {
   ivec2 inside = clamp(texel, ivec2(0), ivec2(int(viewSize_LIGHT) - 1));
   return isLitAt_LIGHT(point, inside, slack) ? 0.0 : 1.0;
 }
 
-// A number in [0, 1) for each cell of the map, random to the eye ("lowbias32", Wellons 2018).
+// Return a number in [0, 1) for each cell of the map that looks random ("lowbias32", Wellons 2018).
 float noise_LIGHT(ivec2 cell)
 {
   uint bits = uint(cell.x) + 65536u * uint(cell.y);

@@ -1,16 +1,18 @@
 // Percentage closer filtering (Reeves, Salesin and Cook 1987): the share of the light's kernel that
-// nothing hides. Pcf.h describes the kernels; PCF_TEXELS_LIGHT is their width. How the map is read:
-// PCF_ROWS_LIGHT: the bilinear kernel where its units are texels, PCF_WEIGHTED_LIGHT: all texels of
-// a bilinear or Castano's kernel, PCF_POISSON_LIGHT: points of a disc; else taps, of single texels
-// where PCF_BOX_LIGHT says so.
+// nothing hides. Pcf.h describes the kernels; PCF_TEXELS_LIGHT is their width. Macros select how
+// the map is read:
+// - PCF_ROWS_LIGHT: the bilinear kernel in units of texels;
+// - PCF_WEIGHTED_LIGHT: all texels of a bilinear or Castano's kernel;
+// - PCF_POISSON_LIGHT: points of a disc;
+// - else taps, which PCF_BOX_LIGHT makes single texels.
 //
-// What is hidden is added up, not what is lit, so that a lit point's visibility is 1 exactly.
+// The estimator sums hidden shares, not lit ones, so that a lit point's visibility is exactly 1.
 
 #include "shadowtech/base/kernel_units.glsl"
 #include "shadowtech/depth_map/kernel.glsl"
 
 #if PCF_CASTANO_LIGHT
-// A place's weight by how far it is along an axis, in kernel units.
+// Return a place's weight by its distance along an axis, in kernel units.
 float weight_LIGHT(float away)
 {
   int before = int(away);
@@ -25,7 +27,7 @@ float weight_LIGHT(float away)
 }
 #endif
 
-// The bilinear filter of one texel.
+// Return the bilinear mean of the comparisons around a place.
 float hiddenBilinear_LIGHT(ViewPoint point, vec2 place, float slack)
 {
   vec2 corner = place - 0.5;
@@ -40,8 +42,8 @@ float hiddenBilinear_LIGHT(ViewPoint point, vec2 place, float slack)
 
 #if PCF_ROWS_LIGHT
 
-// What a row of the kernel's square covers: all of its texels, but of the first and the last only
-// shares, which make up one texel.
+// Return the hidden texels of a row of the kernel's square. The first and the last texel have
+// shares that sum to one texel.
 float hiddenInRow_LIGHT(ViewPoint point, ivec2 first, float shareOfLast, float slack)
 {
   float hidden = hidden_LIGHT(point, first, slack);
@@ -70,14 +72,14 @@ float estimate_LIGHT(ViewPoint point, float slack)
 
 #elif PCF_WEIGHTED_LIGHT
 
-// All texels in the kernel's shape, each with its weight there.
+// Weigh all texels in the kernel's shape.
 float estimate_LIGHT(ViewPoint point, float slack)
 {
   mat2 shape = kernelShape_LIGHT(point); // of determinant 1
   mat2 inverseShape = mat2(shape[1].y, -shape[0].y, -shape[1].x, shape[0].x);
   float side = 0.5 * float(PCF_TEXELS_LIGHT + 1);
   vec2 reach = side * (abs(shape[0]) + abs(shape[1]));
-  // How far along a row either pair of the shape's sides is apart: without end where they run along
+  // The extent along a row between either pair of the shape's sides, unbounded if they run along
   // it.
   vec2 perTexel = inverseShape[0];
   perTexel = mix(perTexel, vec2(1e-6), lessThan(abs(perTexel), vec2(1e-6)));
@@ -99,7 +101,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
       all += weight;
     }
   }
-  // The limit of the stretch leaves a circle of the bilinear filter's radius, 1, which holds a
+  // all > 0: the limited stretch leaves a circle of the bilinear filter's radius, 1, which holds a
   // texel.
   return max(1.0 - hidden / all, 0.0);
 }
@@ -122,7 +124,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
 
 #else
 
-// Taps that lie a kernel unit apart.
+// Sum taps that lie a kernel unit apart.
 float estimate_LIGHT(ViewPoint point, float slack)
 {
   mat2 shape = kernelShape_LIGHT(point);

@@ -9,21 +9,22 @@ namespace gnomon
 namespace
 {
 
-/// Neighbours that go along a row together, and the rows that they take: eight are as many as
-/// software OpenGL works on at once, and read memory in its order (of 8, 32 and 64 these took the
-/// least time, by half). Few enough groups that the atomic operations at their end do not count.
+/// The invocations that go along a row side by side, and the rows of a group. Software OpenGL works
+/// on eight invocations at once, and reads memory in its order (of 8, 32 and 64, eight took the
+/// least time, by half). Groups are few enough that the atomic operations at their end do not
+/// count.
 constexpr int invocationsPerGroup = 8;
 constexpr int rowsPerGroup = 8;
 constexpr int numbersPerBox = 6;
-/// The rows of fit_rows.glsl: the fits alone, and with the chosen warp.
+/// The rows of fit_rows.glsl: of the fits alone, and with the chosen warp.
 constexpr int fitRows = 2;
 constexpr int chosenRows = fitRows + 9;
-/// A warp's own rows: mapFromAcross, and what the chosen one's are (fit_rows.glsl).
+/// A warp's own rows: mapFromAcross, and the rows of a chosen warp (fit_rows.glsl).
 constexpr int warpRows = 3 + 9;
-/// The pixels that warps are compared on: so many columns, and as many in each. A power of two.
+/// Warps are compared on pixels of a grid of this many columns and rows. A power of two.
 constexpr int samplesAcross = 64;
 
-/// Puts back what computing binds, besides what GlStateGuard does.
+/// Restores the bindings of compute shaders that GlStateGuard does not restore.
 class ComputeBindingsGuard
 {
 public:
@@ -50,14 +51,14 @@ private:
   GLint image_ = 0, level_ = 0, layered_ = 0, layer_ = 0, access_ = 0, format_ = 0;
 };
 
-/// What there can be to see on the map before the last fit. A warp is laid around that, and has its
-/// border inside; other maps are laid around the casters.
+/// Return the part of the map that can be visible before the last fit. A warp is laid around that
+/// part, and has its border inside; other maps are laid around the casters.
 Rectangle coveredBeforeFit(const ShadowLight& light, const MapTexels& texels)
 {
   return isWarped(light) ? wholeMap : texels.covered();
 }
 
-/// Uses a program that knows the light's views.
+/// Use a compute program with the light's views.
 void useProgram(const char* path, const ShadowLight& light, const std::vector<Uniform>& uniforms,
   ShaderLibrary& shaders, const std::vector<std::string>& defines)
 {
@@ -68,7 +69,7 @@ void useProgram(const char* path, const ShadowLight& light, const std::vector<Un
   ShaderLibrary::setUniforms(program, uniforms, 0, 0);
 }
 
-/// Adds all receivers to the boxes.
+/// Add all receivers to the boxes.
 void reduce(const ShadowLight& light, const std::vector<Uniform>& uniforms,
   const ReceiverTextures& receivers, ShaderLibrary& shaders, std::vector<std::string> defines)
 {
@@ -128,7 +129,7 @@ void ReceiverFit::allocate(int views, int rows)
 }
 
 //------------------------------------------------------------------------------
-/// Chooses the view's warp by what the pixels of a grid show.
+/// Choose the view's warp by the pixels of a grid.
 void ReceiverFit::chooseWarp(const ShadowLight& light, const LightView& view,
   std::vector<Uniform> uniforms, ShaderLibrary& shaders)
 {
@@ -181,7 +182,7 @@ void ReceiverFit::compute(const ShadowLight& light, const LightViews& views,
   }
   const GlStateGuard guard;
   const ComputeBindingsGuard computeGuard;
-  // As many as the shaders' arrays have, some of which a cube may not use.
+  // As many as the shaders' arrays have; a cube may not use all of them.
   const int count = mostViews(light);
   this->allocate(count, choosesWarp(light) ? chosenRows : fitRows);
   const MapTexels texels{ light.mapSizeTexels, views.borderTexels };

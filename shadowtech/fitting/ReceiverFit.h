@@ -22,42 +22,41 @@ struct ReceiverTextures
   int height = 0; ///< in pixels
 };
 
-/// Fits a light's views to the receivers that the camera sees, on the GPU; nothing of it is read
-/// back.
+/// Fits a light's views to the receivers that the camera sees, on the GPU, without reading back.
 ///
-/// A reduction over the receivers' images finds their bounds in each view; for splits, first their
-/// distances from the camera, which say where to split (Sample Distribution Shadow Maps, Lauritzen,
-/// Salvi, Lefohn 2011, section 3.1). Background, points that are not finite, and receivers that the
-/// light does not reach, or that lie where there are no casters, do not count. From the bounds
-/// follows the last fit F of each view (MapFit.h), which stays in a texture, for whoever draws and
-/// reads the map.
+/// A reduction over the receivers' images finds their bounds in each view. For splits it first
+/// finds their distances from the camera, which set the splits (Sample Distribution Shadow Maps,
+/// Lauritzen, Salvi, Lefohn 2011, section 3.1). Excluded are background, points that are not
+/// finite, and receivers that the light does not reach or that lie where there are no casters. The
+/// bounds give the last fit F of each view (MapFit.h), which stays in a texture for baking and
+/// reading the map.
 ///
-/// Of a view that chooses its warp (LightView::warps), that comes first: the one under which texels
-/// are the smallest on the mean over what is seen, on pixels of a grid all over the picture. What
-/// counts is the mean of both sides that a texel has after the last fit, in world units across the
-/// light. The reason: edges of shadows are as long as what is seen is far, in the world, so that a
-/// pixel has as many of them as it is far; and an edge makes the wronger pixels the larger its
-/// texels look, which is less the farther it is. Both distances cancel. The published optimum of
-/// LiSPSM, the least of the worst texel, leaves a quarter more wrong pixels in views along the
-/// ground.
+/// A view that chooses its warp (LightView::warps) first takes the warp with the smallest mean
+/// texels on the receivers, on pixels of a grid all over the picture. The measure is the mean of
+/// both sides that a texel has after the last fit, in world units across the light. It needs no
+/// weights, because two distances cancel. The world's length of shadow edges in a pixel grows with
+/// the pixel's distance. An edge makes more pixels wrong the larger its texels look, which is less
+/// the farther it is. The published optimum of LiSPSM, the smallest worst texel, leaves a quarter
+/// more wrong pixels in views along the ground.
 ///
-/// A view without receivers gets an F that draws and finds nothing: what could be shadowed there,
-/// is not seen.
+/// A view without receivers gets an F that puts everything off the map: nothing that could be
+/// shadowed there is visible.
 class ReceiverFit
 {
 public:
+  /// Compute the fits of views.
   /// @param views that await their fit
   /// @param centredFromView the camera's rigid transformation from view to centred coordinates
   void compute(const ShadowLight& light, const LightViews& views, const ReceiverTextures& receivers,
     const glm::dmat4& centredFromView, ShaderLibrary& shaders);
 
-  /// The fits: a column per view (fit_rows.glsl).
+  /// Return the fits: a column per view (fit_rows.glsl).
   TextureBinding fits() const { return { GL_TEXTURE_2D, this->fits_.name() }; }
 
-  /// A box per view, of the receivers in it: x and y in texels before the fit, z the distance along
-  /// the view (bounds_buffer.glsl).
+  /// Return a box per view around its receivers: x and y in texels before the fit, z the distance
+  /// along the view (bounds_buffer.glsl).
   GLuint bounds() const { return this->bounds_.name(); }
-  /// The mean sides of texels that a warp was chosen by, one per warp of the view.
+  /// Return the mean sides of texels that decided the warp, one per warp of the view.
   GLuint texelSides() const { return this->sides_.name(); }
 
 private:
@@ -71,15 +70,15 @@ private:
   int rows_ = 0;
 
   GlTexture warps_;
-  GlBuffer sides_; ///< of the texels under each of them
+  GlBuffer sides_; ///< mean side of the texels under each warp
 };
 
-/// The mean side of the texels under a warp, as a share of that under the uniform map, up to which
-/// the warp is worth it: its texels move with the camera, and a mean over a grid is no more than
-/// that.
+/// The largest mean side of texels under a warp, as a share of that under the uniform map, for
+/// which the warp is chosen. Below 1, because a warp's texels move with the camera, and a mean over
+/// a grid is only an estimate.
 constexpr double largestSideShare = 0.95;
 
-/// What a view's column says of a warp that is chosen, from the row on that follows the fits
+/// Return the rows of a view's column for a chosen warp, which follow the rows of the fits
 /// (fit_rows.glsl).
 /// @param mapFromAcross one of the view's warps
 std::vector<glm::vec4> chosenWarpRows(

@@ -1,16 +1,16 @@
-// Boxes around points, which many invocations grow at once: ViewBounds.
+// Boxes around points, which many invocations grow at once (ViewBounds).
 
 // The least of six numbers, box after box: x, y, z, -x, -y, -z, as keys.
 layout(std430, binding = 0) buffer Boxes { uint leastKeys[]; };
 
-// Floats as unsigned integers of the same order. What no float has the key of, is the key of none.
+// Return a float's key: an unsigned integer of the same order. keyOfNone is the key of no float.
 const uint keyOfNone = 0xffffffffu;
 uint keyOf(float value)
 {
   uint bits = floatBitsToUint(value);
   return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
 }
-// Infinite for the key of none.
+// Return the float of a key; infinite for keyOfNone.
 float ofKey(uint key)
 {
   uint bits = min(key, 0xff800000u);

@@ -1,5 +1,5 @@
-// Takes the warp with the smallest texels, or the uniform map, which is the first one, where that
-// is about as good.
+// Chooses the warp with the smallest texels, or the uniform map, which is the first one, if that is
+// about as good.
 
 #include "shadowtech/base/fit_rows.glsl"
 
@@ -7,8 +7,8 @@ layout(local_size_x = 1) in;
 layout(std430, binding = 0) readonly buffer Sides { float texelSides[]; };
 layout(rgba32f, binding = 0) writeonly uniform image2D viewFits;
 
-uniform sampler2D warps; // a column per warp, whose rows from 3 on are those of the chosen one
-uniform float largestShare; // of the uniform map's side, up to which a warp is worth it
+uniform sampler2D warps; // a column per warp; rows from 3 on are copied if chosen
+uniform float largestShare; // of the uniform map's side, up to which a warp is chosen
 
 void main()
 {
@@ -16,7 +16,7 @@ void main()
   float least = largestShare * texelSides[0];
   for (int i = 1; i < textureSize(warps, 0).x; ++i)
   {
-    // What is not a number is not less.
+    // NaN is not less.
     if (texelSides[i] < least)
     {
       chosen = i;

@@ -1,6 +1,5 @@
-// From the receivers' bounds to the last fit of each view: the twin of fitTo() and fitSnappedTo()
-// (lights/MapFit.h), one invocation per view.
-//
+// Computes the last fit of each view from the receivers' bounds: the twin of fitTo() and
+// fitSnappedTo() (lights/MapFit.h), one invocation per view.
 #include "shadowtech/base/fit_rows.glsl"
 #include "shadowtech/fitting/bounds_buffer.glsl"
 
@@ -9,11 +8,11 @@ layout(rgba32f, binding = 0) writeonly uniform image2D viewFits;
 
 uniform float side;    // of the map, in texels
 uniform float inside;  // the share of [-1, 1] that lies inside of the border
-uniform float covered; // +- this, before the fit, is all that there can be
+uniform float covered; // +- this, before the fit, holds all that can be visible
 uniform float leastShare; // leastVisibleShare
 uniform int snapped;
 
-// The series of sizes: 2^(k/4).
+// Return the size 2^(k/4) of the series.
 float seriesSize(int k)
 {
   float[] roots = float[](1.0, 1.18920712, 1.41421356, 1.68179283);
@@ -49,7 +48,7 @@ vec2 fitAxis(float lower, float upper)
 void main()
 {
   int view = int(gl_GlobalInvocationID.x);
-  // Without receivers everything lies outside of the map: nothing is drawn, and nothing found.
+  // Without receivers, this fit puts everything off the map, so nothing is drawn or found.
   vec4 fit = vec4(0.0, 0.0, 4.0, 4.0);
   if (!isEmpty(view))
   {

@@ -1,13 +1,12 @@
-// The bounds of the receivers that the camera sees, in each of a light's views: x and y in texels
-// of the map before the fit, z the distance along the view. With DISTANCES: the box after them
-// holds the distance from the camera.
+// Finds the bounds of the receivers that the camera sees, in each of a light's views: x and y in
+// texels of the map before the fit, z the distance along the view. With DISTANCES, the box after
+// these gets the distance from the camera.
 //
-// A group of invocations goes along a few rows of pixels, side by side, so that what is read lies
-// side by side, and each adds what it found to the boxes at the end. Nearly all receivers lie
-// inside of what was found before them. So an invocation first runs past pixels, some neighbours at
-// a time, which share what is read of the uniforms, until one lies outside; only then it asks
-// whether they count. These are loops, not branches, as software OpenGL runs through all of a
-// branch, whether it is taken or not.
+// A group of invocations goes along a few rows of pixels, side by side, so that it reads memory in
+// order. Each invocation adds its bounds to the boxes at the end. Nearly all receivers lie inside
+// of the bounds found before them. So an invocation first skips such pixels, a few neighbours at a
+// time, which share reads of the uniforms. Only a pixel outside of the bounds is tested fully.
+// These are loops, not branches, because software OpenGL executes all of a branch, taken or not.
 
 #include "shadowtech/fitting/bounds_buffer.glsl"
 #include "shadowtech/fitting/receivers.glsl"
@@ -15,7 +14,7 @@
 
 layout(local_size_x = GROUP) in;
 
-uniform vec2 coveredTexels; // receivers between these, before the fit, may be shadowed at all
+uniform vec2 coveredTexels; // only receivers between these, before the fit, can be shadowed
 #if VIEWS_SPLITS_LIGHT
 uniform float splitLambda;
 #endif
@@ -28,8 +27,8 @@ const int firstBox = 0;
 const int boxes = VIEWS_LIGHT;
 #endif
 
-// Where a point is on the map of the view that may see it, in texels before the fit; z: the
-// distance along the view.
+// A point's place on the map of the view that may see it, in texels before the fit; z: the distance
+// along the view.
 struct Place
 {
   int view;
@@ -40,13 +39,13 @@ bool findPlace(vec3 positionLight, out Place place)
 {
   ViewPoint entered;
   bool found = enterView_LIGHT(positionLight, vec3(0.0), entered);
-  int view = max(entered.view, 0); // of what no view sees, anything, but no lookup beside the views
+  int view = max(entered.view, 0); // without a view any value will do, if it is a valid index
   vec2 texel = texelBeforeFit_LIGHT(view, acrossOf_LIGHT(entered.position));
   place = Place(view, vec3(texel, entered.position.z));
   return found;
 }
 
-// False also where no caster can shadow a receiver.
+// True if a pixel's receiver counts: the light reaches it, and a caster may shadow it.
 bool counts(ivec2 pixel, vec4 point)
 {
   Place found;
@@ -58,7 +57,7 @@ bool counts(ivec2 pixel, vec4 point)
 #ifdef DISTANCES
 
 void beginBoxes() {}
-// What a pixel adds to which box, if it counts.
+// Return the box that a pixel would grow by `value`, if it counts; -1: none.
 int valueOf(vec4 point, out vec3 value)
 {
   value = vec3(-point.z);
@@ -100,7 +99,7 @@ int boxOf(Place place, float distanceCamera)
 
 #endif
 
-// What a pixel adds to which box, if it counts.
+// Return the box that a pixel would grow by `value`, if it counts; -1: none.
 int valueOf(vec4 point, out vec3 value)
 {
   Place place;
@@ -111,20 +110,19 @@ int valueOf(vec4 point, out vec3 value)
 
 #endif
 
-// Of what this invocation knows.
+// The bounds that this invocation knows.
 vec3 lower[boxes];
 vec3 upper[boxes];
 
-// Neighbours that are looked at together: every GROUP-th pixel of a row, the last one again beyond
-// its end. More of them share more, but need more registers.
+// The number of neighbours tested together: every GROUP-th pixel of a row, the last one again
+// beyond its end. More neighbours share more reads, but need more registers.
 const int together = boxes == 1 ? 8 : 4;
 ivec2 neighbour(ivec2 first, int i, int width)
 {
   return ivec2(min(first.x + i * GROUP, width - 1), first.y);
 }
 
-// Whether any of some neighbours would make its box larger, if it counts. What is not a number does
-// not.
+// True if any neighbour would grow its box, if it counts. NaN does not.
 bool anyGrows(ivec2 first, int width)
 {
   bool result = false;
@@ -133,7 +131,7 @@ bool anyGrows(ivec2 first, int width)
     vec4 point = texelFetch(receiverPoints, neighbour(first, i, width), 0);
     vec3 value;
     int box = valueOf(point, value);
-    // As where nothing was drawn since the image began: no receiver lies at the eye.
+    // The cleared value marks pixels where nothing was drawn: no receiver lies at the eye.
     box = point.xyz == vec3(0.0) ? -1 : box;
     for (int other = 0; other < boxes; ++other)
     {
@@ -160,7 +158,7 @@ void addThoseThatCount(ivec2 first, int width)
   }
 }
 
-// The next neighbours, in this row or the one after it.
+// Return the next neighbours, in this row or the one after it.
 ivec2 next(ivec2 first, int width)
 {
   first.x += GROUP * together;
@@ -173,7 +171,7 @@ void main()
   ivec2 first = ivec2(gl_LocalInvocationID.x, int(gl_WorkGroupID.x) * ROWS);
   int end = min(first.y + ROWS, size.y);
   beginBoxes();
-  // What others have found is a good beginning.
+  // Start from the bounds that other invocations have found.
   for (int box = 0; box < boxes; ++box)
   {
     lower[box] = lowerOf(firstBox + box);

@@ -1,4 +1,4 @@
-// What the camera sees, as the receivers stage draws it (ReceiverTarget.h).
+// The camera's receivers, as the receivers stage draws them (ReceiverTarget.h).
 
 #include "shadowtech/base/light_views.glsl"
 
@@ -7,7 +7,7 @@ uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in
 
 const float infinity = uintBitsToFloat(0x7f800000u);
 
-// Written so that what is not a number fails.
+// Written so that NaN fails.
 bool isFinite(vec3 v)
 {
   return all(lessThan(abs(v), vec3(infinity)));
@@ -18,8 +18,8 @@ vec3 lightFromView(vec3 positionView)
   return (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
 }
 
-// False for background, what shows no shadows, what the light does not reach, and what is not
-// finite.
+// True if the light reaches a pixel's receiver. False for background, surfaces that show no
+// shadows, and numbers that are not finite.
 bool isReached(ivec2 pixel, vec4 point)
 {
   vec4 fragment = texelFetch(receiverFragments, pixel, 0);

@@ -1,10 +1,10 @@
-// How large the texels of a warp would be on the receivers: the mean of both sides of a texel,
-// across the light and in world units, over pixels of a grid all over the picture (ReceiverFit.h
-// says why that). One work group per warp.
+// Computes the size of a warp's texels on the receivers, over pixels of a grid all over the
+// picture. The size is the mean of both sides of a texel, across the light and in world units
+// (ReceiverFit.h gives the reason). One work group per warp.
 //
 // The order of the sums is fixed, so that the same picture gives the same number. Pixels between
-// those of the grid change a mean by little, and the bounds that the map is fitted to in the end
-// are those of all.
+// those of the grid change the mean by little. The bounds of the map's final fit come from all
+// pixels.
 
 #include "shadowtech/fitting/receivers.glsl"
 
@@ -13,7 +13,7 @@ layout(std430, binding = 0) writeonly buffer Sides { float texelSides[]; };
 
 uniform sampler2D warps; // a column per warp; rows 0 to 2: mapFromAcross
 
-// What the receivers on one column of the grid, then on more of them, add up to.
+// Sums over the receivers of one column of the grid, then of several.
 struct Seen
 {
   vec2 lower; // on the map, in device coordinates
@@ -31,7 +31,7 @@ Seen both(Seen a, Seen b)
 vec2 placeUnder(mat3 homography, vec2 across)
 {
   vec3 image = homography * vec3(across, 1.0);
-  return image.xy / image.z; // w > 0 over all that is visible
+  return image.xy / image.z; // w > 0 at all visible points
 }
 
 void add(ivec2 pixel, mat3 uniformMap, mat3 warp, inout Seen total)
@@ -39,7 +39,7 @@ void add(ivec2 pixel, mat3 uniformMap, mat3 warp, inout Seen total)
   vec4 point = texelFetch(receiverPoints, pixel, 0);
   vec3 p = lightFromView(point.xyz);
   vec2 across = acrossOf_LIGHT(p);
-  // What can be seen lies on the uniform map; off it, no caster can shadow.
+  // Visible points lie on the uniform map; off it, no caster can shadow.
   if (!isReached(pixel, point) || any(greaterThan(abs(placeUnder(uniformMap, across)), vec2(1.0))))
   {
     return;
@@ -84,7 +84,7 @@ void main()
   }
   if (column == 0)
   {
-    // The last fit makes what is seen as large as the map. Without receivers no warp is better.
+    // The last fit makes the visible part as large as the map. Without receivers no warp is better.
     vec2 extent = max(seen[0].upper - seen[0].lower, vec2(0.0));
     texelSides[number] = seen[0].count > 0.0 ? dot(seen[0].sides, extent) / seen[0].count : 0.0;
   }

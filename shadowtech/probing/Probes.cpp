@@ -20,7 +20,7 @@ namespace
 
 constexpr std::size_t probeCount = static_cast<std::size_t>(Probes::across) * Probes::across;
 
-/// A number in [0, 1) that is spread evenly over the numbers' sequence (Roberts 2018).
+/// Return element `number` of a sequence spread evenly over [0, 1) (Roberts 2018).
 double spread(std::uint32_t number, double step)
 {
   const double value = number * step;
@@ -52,7 +52,7 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
   const glm::dvec3 eyeCentred = camera.eyeCentred();
   const glm::dvec3 lookCentred = camera.directionCentred();
   const glm::dvec2 moved(spread(number, 0.7548776662466927), spread(number, 0.5698402909980532));
-  // In lengths of the direction, as those are distances across the view (PixelRays).
+  // In lengths of the direction, which are distances across the view (PixelRays).
   const auto nearest = static_cast<float>(camera.nearDistance());
   const auto farthest = static_cast<float>(camera.farDistance());
   this->receivers_.resize(across, across);
@@ -76,7 +76,7 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
     const glm::vec3 unturned = glm::normalize(hit->normalCentred);
     const glm::vec3 normal = glm::dot(unturned, glm::vec3(direction)) > 0.0f ? -unturned : unturned;
     const double depth = glm::dot(glm::dvec3(position) - eyeCentred, lookCentred);
-    // What rounding does to the ray and to its length is of the size of the noise of storing.
+    // Rounding of the ray and of its length is of the size of the storage noise.
     const float noise =
       4.0f * storageNoise(normal, glm::abs(position) + glm::abs(glm::vec3(eyeCentred)));
     this->receivers_.surface[i] = hit->surface;
@@ -137,7 +137,7 @@ WrongProbes Probes::wrongOf(const PointwiseTechnique& technique, const ShadowLig
 double Probes::rmsOf(
   int few, const ShadowLight& light, const Occluders& occluders, ShadowTracer& tracer)
 {
-  // Each has all of the light's rays: every fourth point is enough.
+  // Each point has all of the light's rays, so every fourth point is enough.
   ReceiverPixels some = this->receivers_;
   for (std::size_t i = 0; i < probeCount; ++i)
   {

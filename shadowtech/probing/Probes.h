@@ -22,20 +22,20 @@ struct Occluders;
 class ShaderLibrary;
 class ShadowTracer;
 
-/// How often a way to visibility was asked, and wrong.
+/// A count of wrong answers of a cheap visibility.
 struct WrongProbes
 {
   std::size_t asked = 0; ///< points that face the light
-  std::size_t wrong = 0; ///< of those, where visibility is off by more than a half
+  std::size_t wrong = 0; ///< those where visibility is off by more than 0.5
 
   double share() const
   {
     return static_cast<double>(this->wrong) / static_cast<double>(std::max<std::size_t>(asked, 1));
   }
 
-  /// The most that the share of wrong pixels is, of which these are a sample, but for one case in
-  /// forty: the upper bound of Wilson's interval (Wilson 1927) with z = 2. Without points it is 1.
-  /// Sampling until the bound is low enough makes it wrong more often.
+  /// Return an upper bound of the share of wrong pixels in the population of which these are a
+  /// sample. It is exceeded in one case of forty: Wilson's interval (Wilson 1927) with z = 2.
+  /// Without points it is 1. Sampling until the bound is low enough makes it wrong more often.
   double mostShare() const;
 };
 
@@ -45,21 +45,22 @@ struct WrongProbes
 class Probes
 {
 public:
-  static constexpr int across = 64; ///< and as many from bottom to top
+  static constexpr int across = 64; ///< points along each side of the picture
 
-  /// Finds the points: one in each part of the picture, at a place that another number moves.
+  /// Find the points: one in each part of the picture.
+  /// @param number another number moves the points within their parts
   void look(const CameraView& camera, const glm::ivec2& sizePixels, const Occluders& occluders,
     const CasterHits& hits, std::uint32_t number);
 
-  /// How wrong a map is.
-  /// @param technique whose map is baked
-  /// @param tracer whose structure is up to date with the occluders
+  /// Count the points where a map is wrong.
+  /// @param technique its map is baked
+  /// @param tracer its structure is up to date with the occluders
   WrongProbes wrongOf(const PointwiseTechnique& technique, const ShadowLight& light,
     const ReceiverSpace& space, const Occluders& occluders, ShadowTracer& tracer,
     ShaderLibrary& shaders);
 
-  /// The root mean square by which an area light's visibility is off with fewer samples.
-  /// @param few how many; fewer than the light has
+  /// Return the root mean square error of an area light's visibility with fewer samples.
+  /// @param few the number of samples; fewer than the light has
   double rmsOf(int few, const ShadowLight& light, const Occluders& occluders, ShadowTracer& tracer);
 
   std::size_t bytes() const;

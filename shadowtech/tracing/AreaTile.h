@@ -12,19 +12,19 @@
 namespace gnomon
 {
 
-/// Pixels whose rays to an area light are made together.
+/// The number of pixels of a row whose rays to an area light are computed together.
 constexpr std::size_t pixelsTogether = 16;
 static_assert(TracedTile::columns % pixelsTogether == 0, "they lie in one row");
 
-/// Numbers of those pixels.
+/// One number for each of these pixels.
 template <typename Number>
 using Together = std::array<Number, pixelsTogether>;
 
-/// How the rays of a tile's pixels go to an area light's samples.
+/// The rays of a tile's pixels to an area light's samples.
 class AreaTile
 {
 public:
-  /// @param traced as prepared: with the rays to the light's centre
+  /// @param traced with the rays to the light's centre
   AreaTile(const ReceiverTile& tile, const TracedTile& traced, const ShadowRayLight& light,
     const LightSamples& samples)
     : samples_(samples)
@@ -60,7 +60,7 @@ public:
     }
   }
 
-  /// Where a pixel's rays to all samples go.
+  /// Compute the directions of a pixel's rays to all samples.
   void directionsOf(std::size_t pixel, const LightSamples::Coordinates& directions) const
   {
     this->samples_.offsets(this->pixels_[pixel], directions);
@@ -77,8 +77,8 @@ public:
     }
   }
 
-  /// What of a texture a pixel's samples show, in sum: all of them, and those points that its rays
-  /// go to.
+  /// Sums of a texture's colours over a pixel's samples: at all samples, and at the points that its
+  /// rays go to (sideOfSample()).
   struct Colours
   {
     glm::vec3 all{ 0.0f };
@@ -99,8 +99,8 @@ public:
     return sums;
   }
 
-  /// Turns the rays of some pixels to one sample each.
-  /// @param first of the pixels; those that need no ray get one that means nothing
+  /// Turn the rays of pixelsTogether pixels to one sample each.
+  /// @param first the first of these pixels; pixels that need no ray get an arbitrary one
   void turn(std::size_t first, const Together<std::uint32_t>& samples, TracedTile& traced) const
   {
     Together<float> x, y, z;
@@ -116,7 +116,7 @@ public:
     }
   }
 
-  /// Has these rays, where they are blocked, take off the colours of the points that they go to.
+  /// Set what these rays take off if blocked: the colours of the points that they go to.
   void colour(std::size_t first, const Together<std::uint32_t>& samples,
     const PlacedTexture& texture, TracedTile& traced) const
   {
@@ -145,7 +145,7 @@ private:
 
   const LightSamples& samples_;
   ///@{
-  /// Of pixels that need a ray, else 0.
+  /// By pixel; 0 for pixels that need no ray.
   TracedTile::Plane<SamplePixel> pixels_{};
   std::array<TracedTile::Plane<float>, 3> normal_{}, toCentre_{}, ray_{};
   TracedTile::Plane<float> perUnit_{};

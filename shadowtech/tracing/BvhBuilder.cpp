@@ -14,15 +14,15 @@ namespace gnomon
 namespace
 {
 
-/// Where Embree's builder gives up looking for the best cut. Forty cuts leave less than a millionth
-/// of a scene; it halves what is left.
+/// The depth at which Embree's builder stops searching for the best cut and halves the rest. Forty
+/// cuts leave less than a millionth of a scene.
 constexpr unsigned int mostDepth = 48;
 
 /// A tree as Embree builds it.
 struct TreeNode
 {
   std::array<TreeNode*, 2> children{};
-  std::uint32_t count = 0; ///< of a leaf
+  std::uint32_t count = 0; ///< records of a leaf; 0 in inner nodes
   std::array<std::uint32_t, BvhLink::mostRecordsOfLeaf> records{};
 };
 
@@ -61,7 +61,7 @@ public:
   {
   }
 
-  /// @return the link to what was appended
+  /// @return the link to the appended nodes
   std::uint32_t append(const TreeNode* node, int depth = 0)
   {
     this->depth_ = std::max(this->depth_, depth);
@@ -84,7 +84,7 @@ public:
     return static_cast<std::uint32_t>(pair);
   }
 
-  /// Inner nodes one below another.
+  /// Return the number of inner nodes one below another.
   int depth() const { return this->depth_; }
 
 private:

@@ -16,7 +16,7 @@ namespace gnomon
 namespace
 {
 
-/// How much worse than when it was built a tree may become before another one is built.
+/// A tree is rebuilt when its cost exceeds this many times its cost after the build.
 constexpr double mostCostRatio = 2.0;
 
 bool isCaster(const Surface& surface)
@@ -43,11 +43,11 @@ Bounds verticesBounds(const Occluders& occluders, const Surface& surface)
   return bounds;
 }
 
-/// The box around the image of a box. It is larger by what taking a ray into source coordinates may
-/// be off by: ShadowRay.h's bound for an instance's rows is 8u (|r_i|.|O| + |r_i|.|T|) each, times
-/// the column
-/// |c_i|, with |c_i||r_i| <= 2 for the skewness that instances may have; summed over three axes less than
-/// 2^-17 (|O| + |T|). The share of the ray's origin is bvh.glsl's.
+/// Return the box around the image of a box, grown by the error of transforming a ray to source
+/// coordinates. ShadowRay.h bounds each of an instance's rows by 8u (|r_i|.|O| + |r_i|.|T|). This
+/// is multiplied by the column |c_i|, with |c_i||r_i| <= 2 for the skewness that instances may
+/// have. The sum over three axes is less than 2^-17 (|O| + |T|). bvh.glsl adds the share of the
+/// ray's origin.
 Bounds imageBounds(const glm::mat4x3& centredFromSource, const Bounds& source)
 {
   const glm::dmat4x3 matrix(centredFromSource);
@@ -90,7 +90,7 @@ CasterBvh::Change CasterBvh::update(const Occluders& occluders)
     }
     catch (...)
     {
-      *this = CasterBvh(); // rather nothing than half of it
+      *this = CasterBvh(); // no tree is better than half a tree
       throw;
     }
   }
@@ -143,12 +143,12 @@ void CasterBvh::build(const Occluders& occluders)
   }
   if (all.size() + this->records_.size() > BvhLink::firstMask)
   {
-    throw std::runtime_error("the GPU's ray tracer takes up to " +
-      std::to_string(BvhLink::firstMask) + " casting triangles, and there are more");
+    throw std::runtime_error("the GPU's ray tracer supports up to " +
+      std::to_string(BvhLink::firstMask) + " casting triangles, but there are more");
   }
   if (all.empty())
   {
-    this->records_.clear(); // all instances of whatever there is are left out
+    this->records_.clear(); // all instances are left out
     this->nodes_.clear();
     return;
   }
@@ -156,8 +156,8 @@ void CasterBvh::build(const Occluders& occluders)
   this->firstNodeOfAll_ = this->nodes_.size();
   const BvhBuilder::Tree tree = builder.add(all, boundsOf);
   this->root_ = tree.root;
-  // Below the first link, which ends the walk, one waits at each node passed. Instances of a leaf
-  // wait together; below the one that is entered lies the link that leaves it.
+  // The first entry ends the traversal. Above it, one link waits per node passed. Instances of a
+  // leaf wait together. Entering one pushes the link that leaves it, then links of its tree.
   this->stackSize_ = 1 + tree.depth;
   if (!this->instances_.empty())
   {
@@ -168,7 +168,7 @@ void CasterBvh::build(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-/// Takes over the matrices of the instances that are not left out, in their order.
+/// Copy the matrices of the instances that are not left out, in their order.
 void CasterBvh::placeInstances(const Occluders& occluders)
 {
   this->instanceBounds_.clear();
@@ -204,7 +204,7 @@ void CasterBvh::placeInstances(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-/// Finds the boxes of all nodes from what lies in the leaves.
+/// Compute the boxes of all nodes from the contents of the leaves.
 void CasterBvh::fitBoxes(const Occluders& occluders)
 {
   const auto setBox = [](BvhNode& node, const Bounds& bounds)
@@ -250,7 +250,7 @@ Bounds CasterBvh::recordBounds(const BvhRecord& record, const Occluders& occlude
 }
 
 //------------------------------------------------------------------------------
-/// The box around what a link leads to; of a leaf its records', else its two nodes'.
+/// Return the box around a link's contents: a leaf's records, else two nodes.
 Bounds CasterBvh::linkBounds(std::uint32_t link, const Occluders& occluders) const
 {
   Bounds bounds;
@@ -271,8 +271,8 @@ Bounds CasterBvh::linkBounds(std::uint32_t link, const Occluders& occluders) con
 }
 
 //------------------------------------------------------------------------------
-/// How many boxes of the upper level a ray through the whole meets on average (surface area
-/// heuristic). 0 where there are none, or all lie in a line.
+/// Return the average number of boxes of the upper level that a ray through the whole meets
+/// (surface area heuristic). 0 if there are none, or all lie on a line.
 double CasterBvh::cost() const
 {
   double sum = 0.0;

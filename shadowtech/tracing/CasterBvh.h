@@ -14,27 +14,27 @@ namespace gnomon
 {
 
 /// @file
-/// The bounding volume hierarchy of the casting surfaces in the form in which the GPU walks it;
-/// bvh.glsl is its other side.
+/// The bounding volume hierarchy of the casting surfaces, in the layout that the GPU traverses
+/// (bvh.glsl).
 ///
-/// It is one binary tree over all casting triangles, whatever surface they belong to. Where a
-/// surface has instances, each of them is one more thing in that tree, and leads to a tree of the
-/// surface's own in source coordinates: two levels, as in Embree.
+/// It is one binary tree over all casting triangles of all surfaces. Each instance of a surface is
+/// one more leaf record, which leads to the surface's own tree in source coordinates: two levels,
+/// as in Embree.
 
-/// A box and what is in it. The two halves of a node lie side by side, first the one with the even
-/// number.
+/// A box and a link to its contents. The two children of a node lie side by side; the first one has
+/// the even number.
 struct BvhNode
 {
   glm::vec3 lower;
-  std::uint32_t link; ///< where to go on (BvhLink)
+  std::uint32_t link; ///< to its contents (BvhLink)
   glm::vec3 upper;
   std::uint32_t unused = 0; ///< the GPU reads a vec3 as 16 bytes
 };
 
 static_assert(sizeof(BvhNode) == 32, "as bvh.glsl reads it");
 
-/// Where to go on: the number of the first of two nodes, or a leaf, whose `count` records begin at
-/// `first`.
+/// A link to a node's contents: the number of the first of two nodes, or a leaf, whose `count`
+/// records begin at `first`.
 namespace BvhLink
 {
 constexpr std::uint32_t leafBit = 0x80000000u;
@@ -60,16 +60,16 @@ constexpr std::uint32_t count(std::uint32_t link)
 }
 } // namespace BvhLink
 
-/// What lies in leaves: three vertices of a triangle (indices into the snapshot's positions) and
-/// its flags; or the number of an instance, 0, 0 and the flag that says so.
+/// A leaf's record: three vertices of a triangle (indices into the snapshot's positions) and its
+/// flags. For an instance: its number, 0, 0 and the flag `instance`.
 using BvhRecord = glm::uvec4;
 namespace BvhFlag
 {
 constexpr std::uint32_t instance = 0x80000000u;
-constexpr std::uint32_t oneSided = 0x40000000u;   ///< counts only where the front faces the light
+constexpr std::uint32_t oneSided = 0x40000000u;   ///< counts only if the front faces the light
 constexpr std::uint32_t mirrored = 0x20000000u;   ///< source coordinates show the other side
-constexpr std::uint32_t cutout = 0x10000000u;     ///< has holes
-constexpr std::uint32_t numberMask = 0x0fffffffu; ///< of its surface among those with holes
+constexpr std::uint32_t cutout = 0x10000000u;     ///< its surface has holes
+constexpr std::uint32_t numberMask = 0x0fffffffu; ///< number of its surface among those with holes
 } // namespace BvhFlag
 
 /// An instance and the tree of its surface.
@@ -87,17 +87,17 @@ static_assert(sizeof(BvhInstance) == 80, "as trace_rays.comp.glsl reads it");
 class CasterBvh
 {
 public:
-  /// What an update did.
+  /// The effect of an update.
   enum class Change
   {
     None,
-    Refitted, ///< boxes and instances changed, and nothing else
+    Refitted, ///< only boxes and instances changed
     Built
   };
 
-  /// Brings the tree up to date with the snapshot. Moved vertices and instances keep it and change
-  /// its boxes, unless these overlap so much by now that another tree would be better.
-  /// @throws std::runtime_error if there are more casters than a link can tell, or Embree fails
+  /// Update the tree for the snapshot. Moved vertices and instances refit its boxes, unless the
+  /// boxes overlap so much that a new tree is better.
+  /// @throws std::runtime_error if there are more casters than a link can hold, or Embree fails
   Change update(const Occluders& occluders);
 
   bool empty() const { return this->records_.empty(); }
@@ -105,12 +105,12 @@ public:
   const std::vector<BvhRecord>& records() const { return this->records_; }
   const std::vector<BvhInstance>& instances() const { return this->instances_; }
   std::uint32_t root() const { return this->root_; }
-  /// Box around everything, centred.
+  /// Return the box around all casters, centred.
   const Bounds& bounds() const { return this->bounds_; }
-  /// The casting surfaces with holes, by the numbers that records give them: places in the
-  /// snapshot.
+  /// Return the casting surfaces with holes, as indices into the snapshot, by the numbers that
+  /// records give them.
   const std::vector<std::size_t>& cutoutSurfaces() const { return this->cutoutSurfaces_; }
-  /// How many links may have to wait while others are followed, on both levels together.
+  /// Return the largest number of links that traversal keeps on its stack, on both levels together.
   int stackSize() const { return this->stackSize_; }
 
   std::size_t bytes() const;
@@ -123,13 +123,13 @@ private:
   Bounds linkBounds(std::uint32_t link, const Occluders& occluders) const;
   double cost() const;
 
-  std::vector<BvhNode> nodes_; ///< every node before the nodes that it leads to
+  std::vector<BvhNode> nodes_; ///< every node comes before its children
   std::vector<BvhRecord> records_;
   std::vector<BvhInstance> instances_;
   std::vector<Bounds> instanceBounds_; ///< centred, of instances_
   std::vector<std::size_t> cutoutSurfaces_;
   std::uint32_t root_ = 0;
-  std::size_t firstNodeOfAll_ = 0; ///< behind those of the trees in source coordinates
+  std::size_t firstNodeOfAll_ = 0; ///< after those of the trees in source coordinates
   Bounds bounds_;
   int stackSize_ = 0;
   double builtCost_ = 0.0;

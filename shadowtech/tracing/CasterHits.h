@@ -18,14 +18,15 @@ public:
   struct Hit
   {
     std::uint32_t surface;   ///< Occluders::surfaces index
-    std::uint32_t triangle;  ///< of the snapshot; of an instance, its source's
+    std::uint32_t triangle;  ///< of the snapshot; for an instance, of its source
     float at;                ///< in lengths of the ray's direction
     glm::vec3 normalCentred; ///< of any length, on either side
   };
 
-  /// The nearest one. Called from several threads at once.
-  /// @param origin, direction centred; of any length
-  /// @param after, until where hits count, in lengths of the direction
+  /// Return the nearest hit; none if the ray meets no triangle. Called from several threads at
+  /// once.
+  /// @param origin, direction centred; direction of any length
+  /// @param after, until the interval in which hits count, in lengths of the direction
   virtual std::optional<Hit> nearest(
     const glm::vec3& origin, const glm::vec3& direction, float after, float until) const = 0;
 };

@@ -19,11 +19,11 @@ namespace
 {
 
 constexpr std::size_t mostSamples = 64;
-constexpr std::size_t probes = 4; ///< samples that tell whether a pixel between surfaces needs all
+constexpr std::size_t probes = 4; ///< samples that decide if a pixel between surfaces needs all
 
-/// The Hammersley points of a pixel: in rows as well as in columns, each sample is alone, so that
-/// edges along the picture's sides have as many steps as there are samples.
-/// Source: Dick and Pillichshammer, Digital Nets and Sequences, 2010, definition 3.44 (base 2).
+/// Return the Hammersley points of a pixel. Each row and each column holds one sample, so edges
+/// along the picture's sides have as many steps as there are samples. Source: Dick and
+/// Pillichshammer, Digital Nets and Sequences, 2010, definition 3.44 (base 2).
 std::vector<glm::dvec2> samplePlaces(std::size_t count)
 {
   std::vector<glm::dvec2> places;
@@ -41,21 +41,21 @@ std::vector<glm::dvec2> samplePlaces(std::size_t count)
   return places;
 }
 
-/// Whether something of a TracedClass is a receiver that the light can reach.
+/// True if a TracedClass is of a receiver that the light can reach.
 bool canBeLit(std::uint8_t ofReceiver)
 {
   const auto traced = static_cast<TracedClass>(ofReceiver);
   return traced != TracedClass::Unreached && traced != TracedClass::NoReceiver;
 }
 
-/// Pixels of a picture, in order.
+/// The edge pixels of a picture, in order.
 struct EdgePixels
 {
-  std::vector<std::uint32_t> ofShadows;  ///< some are lit, some are dark
+  std::vector<std::uint32_t> ofShadows;  ///< lit and dark pixels meet
   std::vector<std::uint32_t> ofSurfaces; ///< several surfaces, all lit or all dark
 };
 
-/// What the pixels of a row show, and then what each one and its two neighbours do.
+/// The surfaces and visibility of a row's pixels, each combined with its two neighbours.
 class ShownRow
 {
 public:
@@ -70,7 +70,7 @@ public:
     this->leastSurface_.resize(places);
     this->mostSurface_.resize(places);
     this->kinds_.resize(places);
-    // One place further on, between neighbours beyond the border that are as the pixels there.
+    // Shifted by one place, for copies of the border's pixels on both sides.
     float* const surface = this->ownSurface_.data() + 1;
     int* const kinds = this->ownKinds_.data() + 1;
     for (int x = 0; x < width; ++x)
@@ -95,8 +95,7 @@ public:
     }
   }
 
-  /// Appends the edge pixels of the row in the middle of three.
-  /// @param firstPixel of that row
+  /// Append the edge pixels of the middle one of three rows.
   static void findEdges(const ShownRow& below, const ShownRow& row, const ShownRow& above,
     std::size_t firstPixel, EdgePixels& found)
   {
@@ -122,10 +121,10 @@ private:
   std::vector<float> ownSurface_;                 ///< ReceiverImages::fragments
   std::vector<float> leastSurface_, mostSurface_; ///< of three pixels
   std::vector<int> ownKinds_;                     ///< lit, dark or neither
-  std::vector<int> kinds_;                        ///< of three pixels, those that there are
+  std::vector<int> kinds_;                        ///< of three pixels, combined by or
 };
 
-/// Finds the edge pixels of a band of rows.
+/// Return the edge pixels of a band of rows.
 EdgePixels findEdges(const ReceiverImages& images, const std::vector<float>& visibility,
   const std::vector<std::uint8_t>& classes, int firstRow, int endRow)
 {
@@ -150,7 +149,8 @@ EdgePixels findEdges(const ReceiverImages& images, const std::vector<float>& vis
   return found;
 }
 
-/// Where samples are among all: in squares, one a pixel, as tracers take rays together.
+/// The layout of samples in ReceiverPixels: a square per pixel, because tracers gather rays of
+/// squares in packets.
 struct SampleBlocks
 {
   static constexpr std::size_t columns = ReceiverTile::mostColumns;
@@ -167,7 +167,7 @@ struct SampleBlocks
     const std::size_t perRow = columns / this->side;
     return (pixels + perRow - 1) / perRow * this->side;
   }
-  /// The first sample of a block's row.
+  /// Return the first sample of a block's row.
   std::size_t firstOfRow(std::size_t block, std::size_t row) const
   {
     const std::size_t perRow = columns / this->side;
@@ -177,11 +177,11 @@ struct SampleBlocks
   std::size_t side; ///< of a square
 };
 
-/// Places the samples of pixels, one after the other.
+/// Computes the receivers of samples, pixel by pixel.
 class SamplePlacing
 {
 public:
-  /// @param hiders what hides samples from the camera; null: nothing does
+  /// @param hiders tests if casters hide samples from the camera; null: none do
   SamplePlacing(const Drawn& drawn, const FreeSegments* hiders,
     const std::vector<glm::dvec2>& places, ReceiverPixels& receivers)
     : drawn_(drawn)
@@ -192,7 +192,7 @@ public:
     this->samples_.resize(static_cast<int>(places.size()), 1);
   }
 
-  /// @param block of the pixel: its place among those whose samples are placed
+  /// @param block the pixel's index among the pixels with samples
   void place(std::uint32_t pixel, std::size_t block)
   {
     const auto width = static_cast<std::uint32_t>(this->drawn_.images.width);
@@ -238,7 +238,7 @@ private:
     }
   }
 
-  /// Notes the surface that the pixel shows.
+  /// Remember the surface that the pixel shows.
   void look(const SeenTriangle& seen)
   {
     const PixelRays& rays = this->drawn_.images.rays;
@@ -248,7 +248,8 @@ private:
     this->pixelSide_ = glm::length(rays.originPerRow + met.t * rays.directionPerRow);
   }
 
-  /// Calls visit(fragment, pixel) for the fragments of the pixels around it, mostly each once.
+  /// Call visit(fragment, pixel) for the fragments of the pixels around it, skipping most
+  /// repetitions.
   template <typename Visit>
   void visitNeighbours(const glm::vec2& own, const Visit& visit) const
   {
@@ -272,7 +273,7 @@ private:
     }
   }
 
-  /// Whether a neighbour shows something that the surface does not go on with.
+  /// True if a neighbour shows something that does not continue the pixel's surface.
   bool isAtOutline(const glm::vec2& own)
   {
     bool isOutline = false;
@@ -288,7 +289,7 @@ private:
     return isOutline;
   }
 
-  /// Drops samples that something hides from the camera.
+  /// Drop samples that casters hide from the camera.
   void dropHidden()
   {
     const PixelRays& rays = this->drawn_.images.rays;
@@ -336,7 +337,7 @@ private:
       });
   }
 
-  /// Where a place's ray meets what is seen.
+  /// The point where a place's ray meets a triangle or solid.
   struct Met
   {
     double t; ///< along the ray (PixelRays)
@@ -359,7 +360,7 @@ private:
     return { t, point.position, point.normal, 0.0f, point.isMet };
   }
 
-  /// Whether the surface that the pixel shows goes on there.
+  /// True if a point continues the surface that the pixel shows.
   bool goesOn(const Met& met) const
   {
     constexpr double leastCosine = 0.70710678; // 45 degrees
@@ -367,7 +368,7 @@ private:
       std::abs(glm::dot(met.position - this->position_, this->normal_)) <= this->pixelSide_;
   }
 
-  /// Makes receivers of the missing samples that lie on a triangle or solid.
+  /// Add receivers for the missing samples that lie on a triangle or solid.
   void fill(const SeenTriangle& seen)
   {
     const std::size_t first = this->next_;
@@ -394,7 +395,6 @@ private:
     }
   }
 
-  /// Adds a receiver.
   void add(const SeenTriangle& seen, const Met& met, const glm::dvec2& place)
   {
     const std::size_t i = this->next_++;
@@ -419,20 +419,20 @@ private:
   const Drawn& drawn_;
   const FreeSegments* hiders_;
   const std::vector<glm::dvec2>& places_;
-  ReceiverPixels& receivers_; ///< of all pixels
-  ReceiverPixels samples_;    ///< of one
+  ReceiverPixels& receivers_; ///< of all pixels' samples
+  ReceiverPixels samples_;    ///< of one pixel's samples
   SeenTriangles cache_;
 
   glm::ivec2 pixel_{ 0 };
   glm::dvec3 position_{ 0.0 }, normal_{ 0.0 }; ///< of the surface that the pixel shows
   double pixelSide_ = 0.0;                     ///< there
-  std::array<glm::dvec2, mostSamples> taken_;  ///< the receivers' places
+  std::array<glm::dvec2, mostSamples> taken_;  ///< the receivers' places in the picture
   std::array<std::size_t, mostSamples> missing_{};
-  std::size_t remaining_ = 0; ///< of the missing ones
-  std::size_t next_ = 0;      ///< where the next receiver goes
+  std::size_t remaining_ = 0; ///< number of missing samples
+  std::size_t next_ = 0;      ///< index of the next receiver
 };
 
-/// Finds a picture's edge pixels, in order.
+/// Return a picture's edge pixels, in order.
 EdgePixels findEdgePixels(const ReceiverImages& images, const std::vector<float>& visibility,
   const std::vector<std::uint8_t>& classes)
 {
@@ -504,8 +504,8 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
 }
 
 //------------------------------------------------------------------------------
-/// Places the samples. Those without a receiver are not covered.
-/// @param hiders what hides samples from the camera; null: nothing does
+/// Compute the samples' receivers. Samples without a receiver are not covered.
+/// @param hiders tests if casters hide samples from the camera; null: none do
 void EdgeSamples::place(const Drawn& drawn, const FreeSegments* hiders,
   const std::vector<std::uint32_t>& pixels, std::size_t perPixel)
 {
@@ -513,7 +513,7 @@ void EdgeSamples::place(const Drawn& drawn, const FreeSegments* hiders,
   const std::size_t rows = SampleBlocks(perPixel).rows(pixels.size());
   this->receivers_.resize(static_cast<int>(columns), static_cast<int>(rows));
   std::fill(this->receivers_.surface.begin(), this->receivers_.surface.end(),
-    ReceiverPixels::notCovered); // behind the last pixel's
+    ReceiverPixels::notCovered); // after the last pixel's samples
   const std::vector<glm::dvec2> places = samplePlaces(perPixel);
   tbb::enumerable_thread_specific<SamplePlacing> placings(
     [&] { return SamplePlacing(drawn, hiders, places, this->receivers_); });
@@ -530,9 +530,9 @@ void EdgeSamples::place(const Drawn& drawn, const FreeSegments* hiders,
 }
 
 //------------------------------------------------------------------------------
-/// The mean of a pixel's samples, but for those that are turned away from the light.
-/// @param pixel by its place among those whose samples were placed
-/// @param ofCentre where no sample counts
+/// Return the mean of a pixel's samples, without those that face away from the light.
+/// @param pixel its index among the pixels with samples
+/// @param ofCentre returned if no sample counts
 float EdgeSamples::mean(std::size_t pixel, std::size_t perPixel, float ofCentre) const
 {
   const SampleBlocks blocks(perPixel);

@@ -12,30 +12,30 @@ namespace gnomon
 
 struct Drawn;
 
-/// Smooth edges of hard shadows: receivers between the centres of pixels, where edges can be.
+/// Traces receivers between the centres of pixels near edges, for smooth edges of hard shadows.
 ///
-/// An *edge pixel* faces the light, and among its eight neighbours and itself are lit and dark ones
+/// An *edge pixel* faces the light. It and its eight neighbours include both lit and dark pixels,
 /// or several surfaces. A sample is a place in an edge pixel. Its receiver lies on the pixel's own
-/// triangle or on a neighbour's, where that goes on with the surface that the pixel shows: the same
-/// drawn surface, turned by less than 45 degrees, within a pixel's side of the own triangle's
-/// plane. So what is behind an outline does not colour it. Samples count that face the light and, at
-/// outlines, are seen by the camera, if the tracer can say so (FreeSegments).
+/// triangle, or on a neighbour's triangle that continues the pixel's surface. A triangle continues
+/// it on the same drawn surface, turned by less than 45 degrees, within a pixel's side of the own
+/// triangle's plane. So surfaces behind an outline do not colour the pixel. Samples count if they
+/// face the light and, at outlines, if the camera sees them; the latter needs a FreeSegments.
 ///
-/// Between surfaces most pixels are evenly lit: four samples tell which ones need all.
+/// Between surfaces most pixels are evenly lit: four samples decide which of them need all samples.
 class EdgeSamples
 {
 public:
-  /// Gives each edge pixel the mean visibility of its samples.
+  /// Replace the visibility of each edge pixel by the mean of its samples.
   /// @param technique that computed the visibility of the pixels' centres, and its input
   /// @param classes of the pixels, of TracedClass
   /// @param perPixel 4, 16 or 64
   /// @param visibility of the pixels
-  /// @param report whose rays are added to
+  /// @param report the traced rays are added to it
   void smooth(CpuScreenTechnique& technique, const ScreenInput& input,
     const std::vector<std::uint8_t>& classes, std::size_t perPixel, std::vector<float>& visibility,
     LightReport& report);
 
-  /// Memory that is kept for the next picture.
+  /// Return the bytes cached for the next picture.
   std::size_t bytes() const
   {
     return this->receivers_.bytes() + bytesOf(this->visibility_) + bytesOf(this->classes_);

@@ -5,13 +5,13 @@
 namespace gnomon
 {
 
-/// How smooth the edges of hard shadows are.
+/// The smoothness of hard shadows' edges.
 struct EdgeSettings
 {
   int samples = 1; ///< rays of a pixel at an edge
 };
 
-/// Of techniques that trace single pixels.
+/// Return the settings of techniques that trace single pixels.
 inline const SettingsTable& edgeSettings()
 {
   static const SettingsTable table = { "Edges of hard shadows",

@@ -10,7 +10,7 @@
 namespace gnomon
 {
 
-/// What Embree may optimise traversal for.
+/// The kind of rays that Embree may optimise traversal for.
 enum class EmbreeRays
 {
   Incoherent,
@@ -19,7 +19,7 @@ enum class EmbreeRays
 
 #if RTC_VERSION_MAJOR >= 4
 
-/// What a query is told beside its rays. Callbacks receive the address of the first member.
+/// A query's arguments besides its rays. Callbacks receive the address of the first member.
 struct EmbreeContext
 {
   explicit EmbreeContext(EmbreeRays rays = EmbreeRays::Incoherent)
@@ -71,7 +71,7 @@ inline void occlude(const int* valid, RTCScene scene, EmbreeContext& context, RT
 
 #else
 
-/// What a query is told beside its rays. Callbacks receive the address of the first member.
+/// A query's arguments besides its rays. Callbacks receive the address of the first member.
 struct EmbreeContext
 {
   explicit EmbreeContext(EmbreeRays rays = EmbreeRays::Incoherent)

@@ -27,9 +27,9 @@ using Device = EmbreeDevice;
 using Scene = EmbreeScene;
 using Geometry = EmbreeGeometry;
 
-/// Rejects hits on the back of a one-sided surface: those whose front does not face the light.
-/// Embree's geometric normal is that of counter-clockwise winding. Of an instance, ray and normal
-/// are in source coordinates, where a mirrored one shows its other side.
+/// Reject hits on the back of a one-sided surface: those whose front does not face the light.
+/// Embree's geometric normal follows counter-clockwise winding. In an instance, ray and normal are
+/// in source coordinates, where a mirrored instance shows its other side.
 template <bool mirrored>
 void rejectBackFaces(const RTCFilterFunctionNArguments* arguments)
 {
@@ -47,17 +47,17 @@ void rejectBackFaces(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
-/// Where a hit on a surface with a cut-out finds its texture coordinates.
+/// The data that finds a hit's texture coordinates on a surface with a cut-out.
 struct CutoutSurface
 {
   std::shared_ptr<const CutoutMask> mask;
   const glm::vec2* textureCoordinates = nullptr; ///< of its vertices
-  const glm::uvec3* triangles = nullptr;         ///< its own, indices into all positions
+  const glm::uvec3* triangles = nullptr;         ///< of the surface; indices into all positions
   std::uint32_t firstVertex = 0;
 };
 
-/// Rejects hits in the holes of a surface, so that the ray goes on behind it. Of an instance, the
-/// triangle is the source's, whose place on the texture all instances share.
+/// Reject hits in the holes of a surface, so that the ray continues behind it. In an instance, the
+/// triangle is the source's, whose texture coordinates all instances share.
 void rejectHoles(const RTCFilterFunctionNArguments* arguments)
 {
   const auto& surface = *static_cast<const CutoutSurface*>(arguments->geometryUserPtr);
@@ -66,7 +66,7 @@ void rejectHoles(const RTCFilterFunctionNArguments* arguments)
   {
     if (!arguments->valid[i])
     {
-      continue; // no hit; its numbers mean nothing
+      continue; // no hit; its numbers are undefined
     }
     const glm::uvec3 corners =
       surface.triangles[RTCHitN_primID(arguments->hit, count, i)] - surface.firstVertex;
@@ -89,10 +89,10 @@ void rejectBackFacesAndHoles(const RTCFilterFunctionNArguments* arguments)
   rejectHoles(arguments);
 }
 
-/// Solids are asked for occlusion alone.
+/// Miss solids: only occlusion queries hit them.
 void meetNoSolid(const RTCIntersectFunctionNArguments* /*arguments*/) {}
 
-/// What has to agree to a hit on a surface; null where every hit counts.
+/// Return the filter of hits on a surface; null if every hit counts.
 RTCFilterFunctionN filterOf(const Surface& surface)
 {
   if (!surface.oneSided)
@@ -106,7 +106,7 @@ RTCFilterFunctionN filterOf(const Surface& surface)
   return surface.mirrored ? rejectBackFaces<true> : rejectBackFaces<false>;
 }
 
-/// The solids of a surface that are not left out, for Embree's calls back.
+/// The solids of a surface that are not left out, for Embree's callbacks.
 struct CastingSolids
 {
   std::vector<PlacedSolid> solids;
@@ -139,7 +139,7 @@ void boundSolid(const RTCBoundsFunctionArguments* arguments)
   box.upper_z = static_cast<float>(bounds.upper.z);
 }
 
-/// Ray by ray, so that each has the same answer alone as in a packet.
+/// Test ray by ray, so that each ray has the same answer alone as in a packet.
 void occludeBySolid(const RTCOccludedFunctionNArguments* arguments)
 {
   const auto& casters = *static_cast<const CastingSolids*>(arguments->geometryUserPtr);
@@ -166,23 +166,23 @@ void occludeBySolid(const RTCOccludedFunctionNArguments* arguments)
 struct Caster
 {
   Geometry geometry;
-  /// Of a surface with instances, the scene that holds its triangles once.
+  /// For a surface with instances, the scene that holds its triangles once.
   Scene source;
-  /// What is attached to the tracer's scene, by Embree's numbers: the triangles, or those instances
-  /// of the source's scene that are not left out.
+  /// The geometries attached to the tracer's scene, by Embree's numbers: the triangles, or the
+  /// instances of the source's scene that are not left out.
   std::vector<unsigned int> attached;
   RTCFilterFunctionN filter = nullptr;
-  std::unique_ptr<CutoutSurface> cutout; ///< stays where it is, since Embree is told
+  std::unique_ptr<CutoutSurface> cutout; ///< on the heap, because Embree keeps its address
   std::unique_ptr<CastingSolids> solids; ///< likewise
   std::uint64_t positionsVersion = 0;
-  /// Where Embree was told to look.
+  /// The arrays that Embree's buffers share.
   const glm::vec3* positions = nullptr;
   std::size_t positionCount = 0;
   const glm::uvec3* triangles = nullptr;
 };
 
 /// Traces a tile's rays in squares of 4 x 4 pixels, whose rays stay closer together than those of a
-/// row. Of squares where few are needed, the rays of several go together.
+/// row. Squares with few rays share a packet.
 template <typename Packet>
 class TileTracer
 {
@@ -191,11 +191,11 @@ public:
     : scene_(scene)
     , rayFar_(rayFar)
   {
-    // Rays have their answers by themselves, whichever of their neighbours are traced as well.
-    // Coherent packets enter boxes together: whether a ray meets an edge that lies in its box's
-    // side, to within a rounding, then depends on the packet. In scenes with instances Embree
-    // 3.13.5 hangs on coherent packets of 16 that hit some, too: it keeps numbers in AVX-512
-    // registers that the traversal of an instance overwrites.
+    // A ray's answer must not depend on the packet's other rays. Coherent packets enter boxes
+    // together: if a ray meets an edge on its box's side, to within a rounding, its answer would
+    // depend on the packet. In scenes with instances, Embree 3.13.5 also hangs on coherent packets
+    // of 16 that hit some: it keeps numbers in AVX-512 registers that the traversal of an instance
+    // overwrites.
     for (std::size_t lane = 0; lane < lanes; ++lane)
     {
       this->packet_.tnear[lane] = shadowRayNear;
@@ -206,7 +206,7 @@ public:
     }
   }
 
-  /// Takes what blocked rays stand for off the visibility of their pixels.
+  /// Subtract what blocked rays stand for from the visibility of their pixels.
   /// @return the number of rays
   std::size_t trace(TracedTile& tile)
   {
@@ -227,7 +227,8 @@ private:
   static constexpr std::size_t side = 4;
   static constexpr std::size_t rowsOfPacket = lanes / side;
 
-  /// Takes the rays that a square needs into the packet, which is traced whenever it is full.
+  /// Add the rays that a square needs to the packet, which is traced whenever it is full.
+  /// @return their number
   std::size_t take(TracedTile& tile, std::size_t corner)
   {
     std::array<std::uint16_t, lanes> needed;
@@ -238,7 +239,8 @@ private:
       needed[count] = static_cast<std::uint16_t>(pixel);
       count += tile.needed[pixel] != 0 ? 1 : 0;
     }
-    // What is taken already would be torn from its neighbours by a square that is nearly full.
+    // If the square does not fit, trace the packet first, so that no square is split between
+    // packets.
     if (this->taken_ > 0 && this->taken_ + count > lanes)
     {
       this->traceTaken(tile);
@@ -281,13 +283,13 @@ private:
     {
       const bool taken = lane < this->taken_;
       valid[lane] = taken ? -1 : 0;
-      // Where a processor lacks the lanes Embree goes by the interval instead of the mask.
+      // If the processor lacks the lanes, Embree uses the interval instead of the mask.
       this->packet_.tfar[lane] = taken ? this->rayFar_ : -std::numeric_limits<float>::infinity();
     }
     occlude(valid.data(), this->scene_, this->context_, this->packet_);
     for (std::size_t lane = 0; lane < this->taken_; ++lane)
     {
-      // Embree sets the far end of a ray that hits to minus infinity.
+      // Embree sets the far end of a blocked ray to minus infinity.
       const std::uint16_t pixel = this->pixels_[lane];
       const bool blocked = this->packet_.tfar[lane] < 0.0f;
       // Nearly always there is one channel.
@@ -305,12 +307,12 @@ private:
   EmbreeContext context_{ EmbreeRays::Incoherent };
   float rayFar_;
   std::size_t taken_ = 0;                     ///< rays in the packet
-  std::array<std::uint16_t, lanes> pixels_{}; ///< of the tile, whose rays they are
+  std::array<std::uint16_t, lanes> pixels_{}; ///< the rays' pixels in the tile
 };
 
-/// Traces rays as packets in their order.
+/// Trace rays as packets in their order.
 /// @param load fills the origins and directions of lanes with rays: load(packet, first, count)
-/// @param ofBlocked the answer, 0 or 1, of a ray that is blocked; others have the other
+/// @param ofBlocked the answer, 0 or 1, for a blocked ray; other rays get the other
 template <typename Packet, typename Load>
 void traceRays(RTCScene scene, std::size_t count, float rayFar, const Load& load,
   std::uint8_t ofBlocked, std::uint8_t* answers)
@@ -347,7 +349,7 @@ void loadOrigins(Packet& packet, const PointArrays& origins, std::size_t first, 
   std::copy_n(origins.z + first, count, packet.org_z);
 }
 
-/// Says of segments whether they are free.
+/// Test if segments are free.
 template <typename Packet>
 void findFree(RTCScene scene, std::size_t count, const PointArrays& from, const PointArrays& to,
   std::uint8_t* free)
@@ -367,7 +369,7 @@ void findFree(RTCScene scene, std::size_t count, const PointArrays& from, const 
     0, free);
 }
 
-/// Says of rays whether they are blocked.
+/// Test if rays are blocked.
 template <typename Packet>
 void findBlocked(RTCScene scene, std::size_t count, const PointArrays& origins,
   const PointArrays& directions, float rayFar, std::uint8_t* blocked)
@@ -402,12 +404,12 @@ struct EmbreeTracer::Impl
   template <typename Packet>
   std::size_t trace(const TracedPicture& picture) const;
 
-  std::atomic<std::ptrdiff_t> bytes{ 0 }; // outlives the device, which counts into it
+  std::atomic<std::ptrdiff_t> bytes{ 0 }; // must outlive the device, which counts into it
   Device device;
   Scene scene;
-  bool lanes16 = false; ///< packets of 16; else of 8, whose answers are the same
+  bool lanes16 = false; ///< packets of 16, else of 8; the answers are the same
   std::unordered_map<std::uint64_t, Caster> casters; ///< by the surface's topologyVersion
-  /// What is attached, by Embree's numbers.
+  /// The surface of an attached geometry, by Embree's numbers.
   struct Named
   {
     std::uint32_t surface;       ///< Occluders::surfaces index
@@ -436,10 +438,10 @@ EmbreeTracer::Impl::Impl()
   this->lanes16 =
     rtcGetDeviceProperty(this->device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   this->scene = Scene(rtcNewScene(this->device.get()));
-  // Two levels, one structure per surface below: that is what these two settings mean together. A
-  // moved surface then costs its own refit, and tracing 2 % more than in one level (with 400
-  // surfaces 7 %). The structures below are as good as ever: surfaces ask for refits, not for
-  // speed.
+  // Together these two settings give two levels, with one structure per surface below. A moved
+  // surface then costs only its own refit. Tracing takes 2 % longer than in one level (with 400
+  // surfaces 7 %). The lower structures keep their full quality, because surfaces set the quality
+  // REFIT, not LOW.
   rtcSetSceneFlags(
     this->scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
   rtcSetSceneBuildQuality(this->scene.get(), RTC_BUILD_QUALITY_LOW);
@@ -456,7 +458,7 @@ void EmbreeTracer::Impl::check(const char* what) const
   }
 }
 
-/// Points Embree to the snapshot's arrays, where they are now. Indices count over all its vertices.
+/// Share the snapshot's current arrays with Embree. Indices count over all its vertices.
 void EmbreeTracer::Impl::setBuffers(
   Caster& caster, const Surface& surface, const Occluders& occluders) const
 {
@@ -560,13 +562,13 @@ void EmbreeTracer::Impl::attachInstances(Caster& caster, const Surface& surface)
   this->move(caster, surface);
 }
 
-/// Refits a surface's structure to its moved vertices, or takes over its instances' matrices: as
-/// many as are attached, in their order.
+/// Refit a surface's structure to its moved vertices, or set the matrices of its attached
+/// instances, in their order.
 void EmbreeTracer::Impl::move(Caster& caster, const Surface& surface) const
 {
   if (caster.solids)
   {
-    caster.solids->place(surface); // as many as before
+    caster.solids->place(surface); // their number is unchanged
     rtcCommitGeometry(caster.geometry.get());
     return;
   }
@@ -588,7 +590,7 @@ void EmbreeTracer::Impl::move(Caster& caster, const Surface& surface) const
   }
 }
 
-/// Takes note of what each of Embree's numbers is.
+/// Record the surface of each of Embree's numbers.
 void EmbreeTracer::Impl::nameSurfaces(const Occluders& occluders)
 {
   this->named.clear();
@@ -608,7 +610,7 @@ void EmbreeTracer::Impl::nameSurfaces(const Occluders& occluders)
   }
 }
 
-/// The normal of the triangle that was hit, in centred coordinates.
+/// Return the hit triangle's normal, in centred coordinates.
 glm::vec3 EmbreeTracer::Impl::normalOf(const RTCHit& hit) const
 {
   const glm::vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
@@ -619,7 +621,7 @@ glm::vec3 EmbreeTracer::Impl::normalOf(const RTCHit& hit) const
   glm::mat4x3 centredFromSource;
   rtcGetGeometryTransform(rtcGetGeometry(this->scene.get(), hit.instID[0]), 0.0f,
     RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &centredFromSource[0][0]);
-  // Regular (Surface::centredFromSource).
+  // The matrix is regular (Surface::centredFromSource).
   return glm::normalize(glm::inverseTranspose(glm::mat3(centredFromSource)) * normal);
 }
 

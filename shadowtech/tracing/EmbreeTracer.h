@@ -8,14 +8,15 @@
 namespace gnomon
 {
 
-/// Shadow rays on the CPU, by Embree in robust mode. It has a structure for each surface.
+/// Traces shadow rays on the CPU, by Embree in robust mode, with one acceleration structure per
+/// surface.
 class EmbreeTracer
   : public ShadowTracer
   , public FreeSegments
   , public CasterHits
 {
 public:
-  /// @throws std::runtime_error where Embree cannot be started
+  /// @throws std::runtime_error if Embree cannot be started
   EmbreeTracer();
   ~EmbreeTracer() override;
   EmbreeTracer(const EmbreeTracer&) = delete;
@@ -27,11 +28,11 @@ public:
   void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
     std::uint8_t* free) const override;
 
-  /// Which rays are blocked, each as it is in a picture (trace()). Called from several threads at
-  /// once.
+  /// Test which rays are blocked; each ray has the same answer as in a picture (trace()). Called
+  /// from several threads at once.
   /// @param origins, directions centred; directions of any length
-  /// @param rayFar where the rays end, in lengths of their directions (ShadowRay.h)
-  /// @param blocked gets 1 for each ray that a caster blocks, else 0
+  /// @param rayFar far end of the rays, in lengths of their directions (ShadowRay.h)
+  /// @param blocked set to 1 for each ray that a caster blocks, else 0
   void areBlocked(std::size_t count, const PointArrays& origins, const PointArrays& directions,
     float rayFar, std::uint8_t* blocked) const;
 
@@ -39,7 +40,7 @@ public:
   std::optional<Hit> nearest(
     const glm::vec3& origin, const glm::vec3& direction, float after, float until) const override;
 
-  /// As Embree reports it.
+  /// Return the bytes that Embree reports.
   std::size_t bytes() const override;
   std::size_t bytesOfTable() const override;
 

@@ -10,20 +10,20 @@ namespace gnomon
 namespace
 {
 
-/// Rays that the GPU traces side by side come from squares of so many pixels a side: they stay
-/// closer together than those of a row.
+/// The side in pixels of squares whose rays the GPU traces side by side: they stay closer together
+/// than the rays of a row.
 constexpr std::size_t side = 8;
 constexpr std::size_t squaresAcross = TracedTile::columns / side;
 static_assert(
   TracedTile::columns % side == 0 && TracedTile::rows % side == 0, "squares fill a tile");
 
-/// The rays that there is room for, in sum, where a picture has several per pixel.
+/// The largest number of rays collected at once, if pixels have several.
 constexpr std::size_t roomForRays = std::size_t(1) << 22;
 
-/// Writes the rays that a tile needs, square by square.
-/// @param to has room for those of a whole tile
-/// @param samplesTo the same for how many samples each stands for, by channel
-/// @return how many there are
+/// Write the rays that a tile needs, square by square.
+/// @param to has room for all rays of a tile
+/// @param samplesTo set to the number of samples that each ray stands for, by channel
+/// @return the number of rays
 std::size_t writeRays(const TracedTile& tile, float rayFar, TracedRay* to, float* samplesTo)
 {
   TracedRay* const first = to;
@@ -65,7 +65,7 @@ ShadowTracer::Update GpuShadowTracer::update(const Occluders& occluders)
 {
   if (occluders.castsSolids())
   {
-    throw std::runtime_error("it does not know spheres and cylinders (impostors)");
+    throw std::runtime_error("it does not support spheres and cylinders (impostors)");
   }
   this->buffers_.update(occluders);
   const CasterBvh::Change change = this->tracer_.update(occluders, this->buffers_);
@@ -78,9 +78,9 @@ ShadowTracer::Update GpuShadowTracer::update(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-/// Fills the picture but for its rays, and collects these in the order of the tiles, whichever
-/// thread visits them.
-/// @return how many there are
+/// Fill the picture without its rays, and collect these in the order of the tiles, whichever thread
+/// visits them.
+/// @return the number of rays
 std::size_t GpuShadowTracer::collectRays(
   const TracedPicture& picture, const TracedPicture::SampleRange& samples)
 {

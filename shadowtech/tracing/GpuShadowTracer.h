@@ -10,13 +10,13 @@
 namespace gnomon
 {
 
-/// Shadow rays on the GPU (GpuTracer): those that a picture needs are collected first, and traced
-/// all together; of an area light some samples at a time. It has one structure for all surfaces.
-/// All calls, the destructor included, want the context to be current.
+/// Traces shadow rays on the GPU (GpuTracer). It first collects the rays of a picture, then traces
+/// them all together; for an area light, some samples at a time. One structure holds all surfaces.
+/// All calls, the destructor included, need the context to be current.
 class GpuShadowTracer : public ShadowTracer
 {
 public:
-  /// @param buffers of the snapshot, which update() brings up to date
+  /// @param buffers of the snapshot; update() updates them
   GpuShadowTracer(OccluderBuffers& buffers, ShaderLibrary& shaders);
 
   Update update(const Occluders& occluders) override;
@@ -31,10 +31,10 @@ private:
   OccluderBuffers& buffers_;
   ShaderLibrary& shaders_;
   GpuTracer tracer_;
-  /// Room for some samples' rays of all pixels. They begin tile by tile where all of a tile's
-  /// would, and then side by side.
+  /// Room for the rays of some samples of all pixels. Rays are written to a range per tile, then
+  /// packed.
   std::vector<TracedRay> rays_;
-  std::vector<float> samplesOfRays_; ///< how many samples each of them stands for, by channel
+  std::vector<float> samplesOfRays_; ///< how many samples each ray stands for, by channel
   std::vector<std::uint8_t> blocked_;
 };
 

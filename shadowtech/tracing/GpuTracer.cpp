@@ -11,7 +11,7 @@ namespace gnomon
 namespace
 {
 
-/// Bindings of buffers, as the shaders have them.
+/// Bindings of buffers, as in the shaders.
 enum TracerBinding : GLuint
 {
   nodesBinding,
@@ -27,10 +27,10 @@ enum TracerBinding : GLuint
 
 constexpr int raysPerGroup = 64;
 
-/// Stacks grow in steps, so that scenes share programs.
+/// Stack sizes are multiples of this, so that scenes share programs.
 constexpr int stackStep = 16;
 
-/// Gives a buffer memory and contents; what there is none of needs no buffer.
+/// Allocate and fill a buffer; without elements, release it.
 /// @return its bytes
 template <typename Element>
 std::size_t send(GlBuffer& buffer, const std::vector<Element>& elements, const char* what)
@@ -40,7 +40,7 @@ std::size_t send(GlBuffer& buffer, const std::vector<Element>& elements, const c
   return bytes;
 }
 
-/// Gives a buffer as much as it had before.
+/// Overwrite a buffer with as many elements as it has.
 template <typename Element>
 void resend(const GlBuffer& buffer, const std::vector<Element>& elements)
 {
@@ -57,8 +57,8 @@ void bind(TracerBinding binding, GLuint buffer)
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
 }
 
-/// The numbers by which cutout_mask.glsl finds a surface's mask, and all masks as bits. Surfaces
-/// may share.
+/// The data by which cutout_mask.glsl finds a surface's mask, and all masks as bits. Surfaces may
+/// share masks.
 class CutoutTable
 {
 public:
@@ -114,7 +114,7 @@ private:
 //------------------------------------------------------------------------------
 bool isSoftwareRenderer(const std::string& renderer)
 {
-  // Mesa's, Google's and Microsoft's.
+  // The software renderers of Mesa, Google and Microsoft.
   const std::array<const char*, 7> names = { "llvmpipe", "softpipe", "SWR", "Software Rasterizer",
     "SwiftShader", "GDI Generic", "Microsoft Basic Render" };
   return std::any_of(names.begin(), names.end(),
@@ -140,13 +140,13 @@ std::string GpuTracer::whyUnsupported()
   if (!GNOMON_HAS_GL(VERSION_4_3))
   {
     const GLubyte* version = glGetString(GL_VERSION);
-    return std::string("tracing on the GPU takes OpenGL 4.3, and this is ") +
+    return std::string("tracing on the GPU needs OpenGL 4.3, and this is ") +
       (version ? reinterpret_cast<const char*>(version) : "none");
   }
   GLint buffers = 0;
   glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &buffers);
   return buffers >= static_cast<GLint>(tracerBindings) ? std::string()
-                                                       : "compute shaders take too few buffers";
+                                                       : "compute shaders support too few buffers";
 }
 
 //------------------------------------------------------------------------------
@@ -192,7 +192,7 @@ void GpuTracer::sendScene(const Occluders& occluders)
   }
   catch (const TextureMemoryError&)
   {
-    this->bvh_ = CasterBvh(); // the next update tries again
+    this->bvh_ = CasterBvh(); // the next update builds again
     this->bytesOfScene_ = 0;
     throw;
   }

@@ -15,49 +15,49 @@
 namespace gnomon
 {
 
-/// Whether OpenGL draws on the CPU, by the name of its renderer (GL_RENDERER): there, tracing on
-/// the GPU is tracing on the CPU by a slower road.
+/// True if OpenGL draws on the CPU, by the name of its renderer (GL_RENDERER). Compute shaders
+/// would then trace on the CPU, more slowly than Embree.
 bool isSoftwareRenderer(const std::string& renderer);
 
-/// Shadow rays against the casting surfaces on the GPU, by compute shaders (OpenGL 4.3).
+/// Traces shadow rays against the casting surfaces on the GPU, by compute shaders (OpenGL 4.3).
 ///
-/// It answers as EmbreeTracer does, but for rays that pass an edge of a triangle, or end on one, to
-/// within a rounding. There it has no cracks: a ray that goes through a closed surface is blocked,
-/// at corners too. The answers are the same whatever tree is built, on any GPU that rounds as IEEE
-/// 754 says.
+/// Its answers are EmbreeTracer's, except for rays that pass an edge of a triangle, or end on a
+/// triangle, to within a rounding. There it has no cracks: a ray through a closed surface is
+/// blocked, at corners too. The answers depend neither on the tree nor on the GPU, if it rounds as
+/// IEEE 754 requires.
 ///
-/// All calls want the context to be current. They leave OpenGL's state as it was.
+/// All calls need the context to be current. They restore OpenGL's state.
 class GpuTracer
 {
 public:
-  /// Takes the fastest way for rays and answers that the context knows.
+  /// Use the fastest transfer of rays and answers that the context supports.
   GpuTracer();
   explicit GpuTracer(RayTransfer transfer);
 
-  /// What the current context lacks; empty where it has all.
+  /// Return what the current context lacks; empty if it lacks nothing.
   static std::string whyUnsupported();
 
-  /// Brings the acceleration structure up to date with the snapshot.
-  /// @param buffers up to date with it, too; they must stay until the next update, as their
-  /// positions are read while rays are traced
-  /// @throws TextureMemoryError where there is no room, and std::runtime_error as
-  /// CasterBvh::update(); nothing blocks rays then
+  /// Update the acceleration structure for the snapshot.
+  /// @param buffers of the same snapshot. They must live until the next update, because tracing
+  /// reads their positions
+  /// @throws TextureMemoryError if there is no room, and std::runtime_error like
+  /// CasterBvh::update(). Nothing blocks rays then
   CasterBvh::Change update(const Occluders& occluders, const OccluderBuffers& buffers);
 
-  /// Whether nothing casts.
+  /// True if nothing casts.
   bool empty() const { return this->bvh_.empty(); }
 
-  /// Traces rays from their origin (shadowRayNear) to their far end. Both sides of a triangle block
-  /// unless its surface is one-sided; holes do not. Rays with numbers that are not finite, other
-  /// than the far end, or without a direction are not blocked.
+  /// Trace rays from their origin (shadowRayNear) to their far end. Both sides of a triangle block
+  /// unless its surface is one-sided; holes do not block. Rays without a direction, or with numbers
+  /// that are not finite, are not blocked; the far end may be infinite.
   ///
-  /// @param blocked resized to the rays, in their order: 1 where something is in the way, else 0
+  /// @param blocked resized to the rays, in their order: 1 if a caster blocks the ray, else 0
   /// @throws ShaderError; std::runtime_error if the context is lost
   void trace(const TracedRay* rays, std::size_t count, ShaderLibrary& shaders,
     std::vector<std::uint8_t>& blocked);
 
   std::size_t bytes() const { return this->bvh_.bytes(); }
-  /// What is kept on the GPU, the snapshot's positions excepted.
+  /// Return the bytes on the GPU, without the snapshot's positions.
   std::size_t bytesOnGpu() const;
 
 private:
@@ -67,14 +67,14 @@ private:
 
   RayTransfer transfer_;
   CasterBvh bvh_;
-  GLuint positions_ = 0; ///< the OccluderBuffers'
+  GLuint positions_ = 0; ///< of the OccluderBuffers
   GlBuffer nodes_;
   GlBuffer records_;
   GlBuffer instances_;
   GlBuffer cutouts_;
   GlBuffer textureCoordinates_;
   std::size_t bytesOfScene_ = 0;
-  std::array<RayBatch, 3> batches_; ///< one is filled, one traced, one read
+  std::array<RayBatch, 3> batches_; ///< one is written, one traced, one read
 };
 
 } // namespace gnomon

@@ -42,7 +42,7 @@ void RayBatch::reserve(RayTransfer transfer)
 void RayBatch::send(
   const TracedRay* rays, std::size_t count, GLuint rayBinding, GLuint answerBinding)
 {
-  this->wait(); // for what nobody received, which may still be read
+  this->wait(); // for rays without a receive(), which the GPU may still read
   glBindBufferBase(target, answerBinding, this->answers_.name());
   const GLuint unblocked = 0;
   glClearBufferData(target, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &unblocked);

@@ -11,52 +11,49 @@
 namespace gnomon
 {
 
-/// A ray as the GPU reads it, in centred coordinates. It counts from its origin to `rayFar`
-/// times its direction, which has any length.
+/// A ray in the GPU's layout, in centred coordinates. It counts from its origin to `rayFar` times
+/// its direction, which has any length.
 struct TracedRay
 {
   glm::vec3 origin;
   float rayFar = std::numeric_limits<float>::infinity(); ///< >= 0
   glm::vec3 direction;
-  std::uint32_t pixel = 0; ///< whose ray it is; nobody looks at it while it is traced
+  std::uint32_t pixel = 0; ///< the ray's pixel; unused by the tracer
 };
 
 static_assert(sizeof(TracedRay) == 32, "as trace_rays.comp.glsl reads it");
 
-/// How rays get to the GPU and answers back.
+/// How rays are sent to the GPU and answers are read back.
 enum class RayTransfer
 {
-  Mapped, ///< through memory that both sides see all the time (OpenGL 4.4)
-  Copied  ///< through copies that OpenGL makes
+  Mapped, ///< by persistently mapped memory (OpenGL 4.4)
+  Copied  ///< by copies that OpenGL makes
 };
 
-/// A bounded number of rays on their way to the GPU, and their answers, a bit for each, on their
-/// way back. While one batch is on its way others can be filled. All calls want the context to be
-/// current.
+/// A bounded number of rays on their way to the GPU, and their answers, a bit each, on their way
+/// back. Other batches can be filled meanwhile. All calls need the context to be current.
 class RayBatch
 {
 public:
-  /// 4 MB: enough to keep a GPU busy, and so few that no driver's watchdog finds it busy for too
-  /// long.
+  /// 4 MB of rays: enough to keep a GPU busy, but too few to trigger a driver's watchdog.
   static constexpr std::size_t mostRays = std::size_t(1) << 17;
 
   RayBatch() = default;
   ~RayBatch() { this->deleteFence(); }
   RayBatch(RayBatch&& other) = delete;
 
-  /// Takes the memory for rays and answers, unless it has.
+  /// Allocate the memory for rays and answers, unless already done.
   /// @throws TextureMemoryError
   void reserve(RayTransfer transfer);
 
-  /// Writes rays, at most `mostRays`, and binds them and their answers, all unblocked so far, for
-  /// shaders. Memory must have been reserved.
+  /// Write rays, at most `mostRays`, and bind them and their cleared answers for shaders. Memory
+  /// must have been reserved.
   void send(const TracedRay* rays, std::size_t count, GLuint rayBinding, GLuint answerBinding);
-  /// To be called when the work on what was sent has been given to OpenGL.
+  /// Mark the end of the work on the sent rays. Called after its dispatch.
   void markSent();
 
-  /// Waits for the answers and writes them, in the order of the rays: 1 for one that is blocked,
-  /// else 0.
-  /// @param blocked has room for as many as were sent
+  /// Wait for the answers and write them, in the order of the rays: 1 for a blocked ray, else 0.
+  /// @param blocked has room for the sent rays
   /// @throws std::runtime_error if the context is lost
   void receive(std::uint8_t* blocked);
 

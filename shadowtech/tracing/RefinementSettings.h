@@ -10,15 +10,15 @@
 namespace gnomon
 {
 
-/// How soft shadows that are traced on the CPU refine while nothing moves.
+/// How soft shadows traced on the CPU refine while nothing moves.
 struct RefinementSettings
 {
   int movingSamples = 0; ///< of an area light, in the first frame after a change; 0: all
 };
 
-/// How many of an area light's samples a frame takes.
+/// Return how many of an area light's samples a frame traces.
 /// @param first samples of the first frame after a change; 0: all
-/// @param before samples of the frame before; 0 where that showed something else
+/// @param before samples of the previous frame; 0 if it showed something else
 /// @param all the light's samples
 inline int samplesOfStep(int first, int before, int all)
 {
@@ -26,7 +26,7 @@ inline int samplesOfStep(int first, int before, int all)
   return first > 0 ? std::min(before > 0 ? growth * before : first, all) : all;
 }
 
-/// Of techniques that take any number of samples.
+/// Return the settings of techniques that work with any number of samples.
 inline const SettingsTable& refinementSettings()
 {
   constexpr auto refused = [](const ShadowLight& light) -> std::string
@@ -34,7 +34,7 @@ inline const SettingsTable& refinementSettings()
     const int samples = light.of<RefinementSettings>().movingSamples;
     return light.area && light.lightSampling == LightSampling::Jittered && !isSquare(samples)
       ? "'moving_samples' " + std::to_string(samples) +
-        " is no square, which 'light_sampling' jittered asks for"
+        " is no square, which 'light_sampling' jittered needs"
       : "";
   };
   static const SettingsTable table = { "Refinement of area lights' shadows",

@@ -12,42 +12,42 @@ namespace gnomon
 
 struct TracedTile;
 
-/// Which rays to an area light's samples a pixel needs, of those of a tile that need any.
+/// The rays to an area light's samples that a pixel needs.
 struct PixelSamples
 {
-  /// How many samples arrive unless rays are blocked.
+  /// The number of lit samples if no ray is blocked.
   std::uint32_t lit = 0;
-  /// How many of these its first ray stands for: all of them are blocked if it is. The other rays
-  /// stand for one each.
+  /// How many of these its first ray stands for: all of them are dark if it is blocked. Each other
+  /// ray stands for one.
   std::uint32_t ofFirstRay = 1;
   ///@{
-  /// Its rays' samples, a part of SampleRays::samples.
+  /// The samples of its rays, a range of SampleRays::samples.
   std::uint32_t first = 0, count = 0;
   ///@}
 };
 
-/// The same of a tile's pixels.
+/// The rays of a tile's pixels to an area light's samples.
 struct SampleRays
 {
   std::vector<PixelSamples> pixels; ///< one for each pixel of a whole tile
   std::vector<std::uint32_t> samples;
 };
 
-/// Who knows that some of a pixel's rays to an area light decide the others.
+/// Chooses, of a pixel's rays to an area light, the few that decide the others.
 class SampleChooser
 {
 public:
   virtual ~SampleChooser() = default;
 
-  /// A pixel's rays to all samples, in their order: directions as they would be traced.
+  /// Computes a pixel's rays to all samples, in their order, as they would be traced.
   using DirectionsOf =
     std::function<void(std::size_t pixel, const LightSamples::Coordinates& directions)>;
 
-  /// Chooses the rays of a tile. Called by several threads at once.
-  /// @param tile whose pixels that need a ray may get another class
-  /// @param rays with all rays of these pixels
-  /// @param again whether it did so before, as where a picture's rays are traced in parts: what it
-  /// counts is counted then
+  /// Choose the rays of a tile. Called by several threads at once.
+  /// @param tile its pixels that need a ray may get another class
+  /// @param rays holds all rays of these pixels on entry
+  /// @param again true if it has chosen for this tile, because a picture's rays are traced in
+  /// parts. It must not count its statistics again
   virtual void choose(
     TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays, bool again) const = 0;
 };

@@ -17,15 +17,16 @@ namespace gnomon
 namespace
 {
 
-/// A group takes about as long as the rays of half a cell. So groups smaller than tiles, and than
-/// many of a level that are asked in vain, are worth it only if a share of those above is decided.
+/// Testing a group takes about as long as the rays of half a cell. So groups smaller than tiles are
+/// tested only if one in `leastDecided` groups of the level above was decided. Larger groups are
+/// tested unless the level above has at least `manyInVain` groups and none was decided.
 constexpr std::size_t manyInVain = 64;
-constexpr std::size_t leastDecided = 4; // one of so many
+constexpr std::size_t leastDecided = 4; // one in four
 
-/// More boxes of casting surfaces than these are one.
+/// More boxes of casting surfaces than these are replaced by one around all.
 constexpr std::size_t mostBoxes = 32;
 
-/// The boxes of what casts, as few as possible.
+/// Return the boxes of the casters.
 std::vector<Bounds> boxesOfCasters(const Occluders& occluders)
 {
   std::vector<Bounds> boxes;
@@ -39,7 +40,7 @@ std::vector<Bounds> boxesOfCasters(const Occluders& occluders)
   return boxes.size() > mostBoxes ? std::vector<Bounds>{ occluders.castersCentred } : boxes;
 }
 
-/// Where a box lies along a direction.
+/// The extent of a box along a direction.
 struct Extent
 {
   double lower, upper;
@@ -54,10 +55,9 @@ struct Extent
   }
 };
 
-/// Whether a spot light's cone holds no point of a box, by a plane that touches the cone on the
-/// side of the box.
+/// True if a plane that touches a spot light's cone separates it from a box.
 /// @param fromLight the box relative to the light
-/// @param noise what rounding does not reach
+/// @param noise upper bound of rounding errors
 bool isOutsideCone(const Bounds& fromLight, const ShadowRayLight& light, double noise)
 {
   const glm::dvec3 axis = -glm::dvec3(light.toLight);
@@ -70,13 +70,13 @@ bool isOutsideCone(const Bounds& fromLight, const ShadowRayLight& light, double 
   }
   const double cosine = 1.0 / std::sqrt(1.0 + static_cast<double>(light.tangentSquared));
   const double sine = std::sqrt(static_cast<double>(light.tangentSquared)) * cosine;
-  // A box around the axis is not outside, so that its plane need not be one.
+  // A box around the axis is never outside, so the plane may be arbitrary there.
   const glm::dvec3 normal = cosine / std::max(length, noise) * across - sine * axis;
   return Extent(fromLight, normal).lower > noise;
 }
 
-/// Whether a directional light's box holds no point of another.
-/// @param fromLight the other relative to the middle of the light's near face
+/// True if a directional light's box holds no point of another box.
+/// @param fromLight the other box relative to the middle of the light's near face
 bool isOutsideBox(const Bounds& fromLight, const ShadowRayLight& light, double noise)
 {
   const glm::dmat3 axes = glm::transpose(glm::dmat3(light.lightFromCentred));
@@ -86,7 +86,7 @@ bool isOutsideBox(const Bounds& fromLight, const ShadowRayLight& light, double n
     y.upper < -box.y - noise || z.lower > box.z + noise || z.upper < -noise;
 }
 
-/// What is known of all receivers in a box.
+/// Decides all receivers in a box.
 class BoxJudge
 {
 public:
@@ -101,7 +101,7 @@ public:
   {
   }
 
-  /// @param centred with the starts of the receivers' rays; not empty
+  /// @param centred includes the starts of the receivers' rays; not empty
   Certainty of(const Bounds& centred)
   {
     const Bounds from = inflated(centred, this->noise_);
@@ -135,7 +135,7 @@ private:
   ShadowRayLight rays_;
   RayEnds ends_;
   std::vector<Bounds> casters_;
-  double noise_;                         ///< of a position in float, with room
+  double noise_;                         ///< upper bound of a float position's error
   std::optional<std::uint32_t> blocker_; ///< of the last box in shadow: neighbours mostly share it
 };
 
@@ -145,7 +145,7 @@ struct Group
   std::size_t column, row;
 };
 
-/// The groups that some are made of, in the level below.
+/// Return the parts of groups in the level below.
 std::vector<Group> partsOf(const std::vector<Group>& groups, const ReceiverBoxes::Level& below)
 {
   std::vector<Group> parts;
@@ -186,7 +186,7 @@ TileVerdicts::TileVerdicts(const ShadowLight& light, const Occluders& occluders,
 }
 
 //------------------------------------------------------------------------------
-/// The tile that a cell is of.
+/// Return the tile of a cell.
 std::size_t TileVerdicts::tileOf(std::size_t cell) const
 {
   const std::size_t columns = this->boxes_.levels()[0].columns;
@@ -263,8 +263,8 @@ void TileVerdicts::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& ce
 }
 
 //------------------------------------------------------------------------------
-/// Calls `visit` for each part of a tile's rows that is of one cell, with its pixels and what is
-/// known of it.
+/// Call `visit` for each part of a tile's rows that lies in one cell, with its first and end pixel
+/// and what is known of it. Equal neighbours are merged.
 template <typename Visit>
 void TileVerdicts::visitRows(std::size_t tile, const Visit& visit) const
 {
@@ -352,12 +352,12 @@ void TileVerdicts::tell(const ShadowLight& light, LightReport& report) const
   report.tilesLit =
     static_cast<int>(this->darkTiles_.size()) - report.tilesDark - report.tilesTraced;
   report.skipReason = report.tilesTraced > 0 ? ""
-    : hides && report.tilesLit == 0          ? "what casts hides it from all that is seen"
-    : hides   ? "parts of what is seen are hidden from it, and nothing that casts is before others"
-    : reaches ? "nothing that casts is between it and what is seen"
-    : light.kind == LightKind::Spot ? "its cone reaches nothing that is seen"
-    : light.box                     ? "its box reaches nothing that is seen"
-                                    : "nothing is seen";
+    : hides && report.tilesLit == 0          ? "casters hide it from all that is visible"
+    : hides   ? "casters hide it from some visible parts, and none is before the others"
+    : reaches ? "no caster is between it and what is visible"
+    : light.kind == LightKind::Spot ? "its cone reaches nothing visible"
+    : light.box                     ? "its box reaches nothing visible"
+                                    : "nothing is visible";
 }
 
 } // namespace gnomon

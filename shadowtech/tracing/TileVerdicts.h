@@ -17,42 +17,42 @@ namespace gnomon
 struct LightReport;
 struct Occluders;
 
-/// What is known of a light's visibility in whole parts of the picture, so that these need no rays:
+/// A light's visibility in whole parts of the picture, as far as it is known without rays:
 ///
-/// - Unreached: the light's cone or box holds nothing that is seen there;
-/// - Lit: no casting surface's box is between what is seen there and the light;
-/// - Shadow: one blocker hides the light from all that is seen there (UmbraProof).
+/// - Unreached: nothing visible there lies in the light's cone or box;
+/// - Lit: no casting surface's box lies between the receivers there and the light;
+/// - Shadow: one blocker hides the light from all receivers there (UmbraProof).
 ///
-/// Tracing finds the same, bit for bit. Whole pictures are asked about first, then quarters of what
-/// is not known, down to cells. Lights without texture only.
+/// Tracing finds the same, bit for bit. Whole pictures are tested first, then quarters of what is
+/// undecided, down to cells. Lights without texture only.
 class TileVerdicts
 {
 public:
-  /// @param boxes of the picture; they live as long as this
+  /// @param boxes of the picture; they must outlive this object
   /// @param hits of the same snapshot
   TileVerdicts(const ShadowLight& light, const Occluders& occluders, const ReceiverBoxes& boxes,
     const CasterHits& hits);
 
-  /// Says what is known of a tile's receivers: Lit of those that face the light, Shadow or
+  /// Set what is known of a tile's receivers: Lit for those that face the light, Shadow or
   /// Unreached. Leaves all others as they are.
   /// @param certain by pixel of the tile
   void ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const;
-  /// By tile, row by row: 1 if all of its receivers are dark.
+  /// Return, by tile, row by row, 1 if all of its receivers are dark.
   const std::vector<std::uint8_t>& darkTiles() const { return this->darkTiles_; }
   bool areAllDark() const;
-  /// Whether rays are needed in more than an eighth of the cells.
+  /// True if more than an eighth of the cells need rays.
   bool needManyRays() const;
 
   ///@{
-  /// Fills what tracing a dark tile would: the visibility, and each pixel's TracedClass. That is
-  /// Shadow for receivers in shadow that are turned away from the light, too.
+  /// Fill a dark tile's visibility, or each pixel's TracedClass, as tracing would. The class is
+  /// Shadow also for receivers in shadow that face away from the light.
   /// @param lit the visibility of pixels that show no receiver
   void fillDark(std::size_t tile, float lit, std::vector<float>& visibility) const;
   void classifyDark(std::size_t tile, std::vector<std::uint8_t>& classes) const;
   void classifyAllDark(std::vector<std::uint8_t>& classes) const;
   ///@}
 
-  /// Counts tiles, and says why no ray was needed if so.
+  /// Report the counts of tiles, and the reason if no ray was needed.
   void tell(const ShadowLight& light, LightReport& report) const;
 
 private:

@@ -7,7 +7,7 @@
 namespace gnomon
 {
 
-/// Traces every receiver's shadow rays: one, or as many as an area light has samples.
+/// Trace every receiver's shadow rays: one, or one per sample of an area light.
 void traceAllReceivers(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report);
 

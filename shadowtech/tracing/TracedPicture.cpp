@@ -18,16 +18,16 @@ static_assert(static_cast<int>(TracedClass::Traced) == static_cast<int>(Certaint
     static_cast<int>(TracedClass::Unreached) == static_cast<int>(Certainty::Unreached),
   "a receiver's class is what is known of it");
 
-/// Whether a pixel of this class is dark without a ray.
+/// True if a pixel of this class is dark without a ray.
 constexpr bool isDark(TracedClass of)
 {
   return of == TracedClass::Unreached || of == TracedClass::Shadow;
 }
 
-/// The rays of one row of a tile from its receivers.
-/// @param columns a number, or a constant so that the loop becomes vector code
-/// @param from where the row's receivers begin
-/// @param to where the row's pixels begin
+/// Compute the rays of one row of a tile from its receivers.
+/// @param columns a number, or a constant that lets the compiler vectorise the loop
+/// @param from index of the row's first receiver
+/// @param to index of the row's first pixel
 template <typename Columns, typename MakeRay>
 void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns,
   const MakeRay& makeRay, std::size_t to, TracedTile& tile)
@@ -55,8 +55,8 @@ void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns
   }
 }
 
-/// Fills a row of a tile whose pixels are all of one class, none of them traced.
-/// @param lit the visibility of what is lit, by channel
+/// Fill a row of a tile whose pixels are all of one class and need no rays.
+/// @param lit the visibility of lit pixels, by channel
 void fillRow(TracedClass of, const std::array<float, 3>& lit, std::size_t columns, std::size_t to,
   TracedTile& tile)
 {
@@ -68,11 +68,11 @@ void fillRow(TracedClass of, const std::array<float, 3>& lit, std::size_t column
   }
 }
 
-/// What becomes of the pixels of one row of a tile, and so which rays are needed, and what shows
-/// without any.
+/// Classify the pixels of one row of a tile: which rays are needed, and the visibility without
+/// them.
 /// @param receives by surface + 1: 1 or 0
-/// @param certain null: nothing is
-/// @param lit the visibility of what is lit, by channel
+/// @param certain null: nothing is certain
+/// @param lit the visibility of lit pixels, by channel
 void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* receives,
   const Certainty* certain, const std::array<float, 3>& lit, std::size_t to, TracedTile& traced)
 {
@@ -97,8 +97,8 @@ void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* re
   }
 }
 
-/// Each pixel's rays to all samples.
-/// @param count of the samples
+/// Request each pixel's rays to all samples.
+/// @param count the number of samples
 void wantAll(const TracedTile& tile, std::size_t count, SampleRays& rays)
 {
   rays.samples.resize(count);
@@ -114,7 +114,7 @@ void wantAll(const TracedTile& tile, std::size_t count, SampleRays& rays)
   }
 }
 
-/// Whether all pixels of a row of a tile are left out or not covered, and of one class.
+/// True if all pixels of a row are left out or not covered, and all are of one class.
 bool isAlike(const ReceiverTile& tile, std::size_t from)
 {
   const auto columns = static_cast<std::ptrdiff_t>(tile.receivers.width);
@@ -203,7 +203,7 @@ float TracedPicture::rayFar() const
 }
 
 //------------------------------------------------------------------------------
-/// What is known of a tile's receivers; null: nothing.
+/// Return what is known of a tile's receivers; null: nothing.
 const Certainty* TracedPicture::certaintiesOf(const ReceiverTile& tile, std::size_t number) const
 {
   if (!this->certain_)
@@ -227,7 +227,7 @@ const Certainty* TracedPicture::certaintiesOf(const ReceiverTile& tile, std::siz
 }
 
 //------------------------------------------------------------------------------
-/// Fills the tiles that are dark and not kept.
+/// Fill the dark tiles that are not reused.
 void TracedPicture::fillDarkTiles() const
 {
   for (std::size_t tile = 0; tile < this->tiles(); ++tile)
@@ -244,7 +244,7 @@ void TracedPicture::fillDarkTiles() const
 }
 
 //------------------------------------------------------------------------------
-/// Makes a tile as it shows without its rays, and those that it needs.
+/// Prepare a tile: its visibility without rays, and the rays that it needs.
 template <typename MakeRay>
 void TracedPicture::prepare(
   const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const
@@ -292,7 +292,7 @@ void TracedPicture::prepare(
 }
 
 //------------------------------------------------------------------------------
-/// Takes a tile into the picture.
+/// Copy a tile into the picture.
 void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) const
 {
   const auto columns = static_cast<std::size_t>(tile.receivers.width);
@@ -313,7 +313,7 @@ void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) con
 }
 
 //------------------------------------------------------------------------------
-/// Visits a tile with each of these rays to an area light.
+/// Visit a tile with a range of its rays to an area light.
 std::size_t TracedPicture::visitSamples(const SampleRange& samples, const ReceiverTile& tile,
   TracedTile& traced, const std::function<std::size_t(TracedTile&)>& trace) const
 {
@@ -404,7 +404,7 @@ std::size_t TracedPicture::visitTiles(
           {
             this->tiles_->note(tile);
           }
-          TracedTile traced; // 56 KB that are not cleared
+          TracedTile traced; // 56 KB, uninitialised on purpose
           this->prepare(tile, makeRay, traced);
           if (!this->samples_)
           {
@@ -439,7 +439,7 @@ void TracedPicture::finish() const
   {
     for (std::size_t i = first; i < first + columns; ++i)
     {
-      // Samples that gave way to brighter ones may come to more than all of the light.
+      // Samples replaced by brighter opposite ones may sum to more than all of the light.
       const float whole = this->texture_ ? this->wholes_[i] : count;
       this->visibility_[i] = std::min(this->visibility_[i] / whole, 1.0f);
     }
@@ -459,9 +459,8 @@ void TracedPicture::finish() const
 }
 
 //------------------------------------------------------------------------------
-/// Has a pixel's sums of colours scaled so that all of its samples together have the texture's
-/// mean.
-/// @param all the sum of their colours; channels that none of them has stay as they are
+/// Scale a pixel's sums of colours so that all of its samples together have the texture's mean.
+/// @param all the sum of their colours; channels without any colour stay as they are
 void TracedPicture::scale(std::size_t pixel, const glm::vec3& all) const
 {
   for (int channel = 0; channel < 3; ++channel)

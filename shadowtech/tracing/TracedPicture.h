@@ -21,19 +21,20 @@
 namespace gnomon
 {
 
-/// How a pixel comes to its visibility where rays are traced: indices into classesOfTracing().
+/// How a pixel's visibility was decided, if rays are traced: indices into classesOfTracing().
 enum class TracedClass : std::uint8_t
 {
   Traced,
-  Lit,       ///< for certain, without a ray
-  Shadow,    ///< the same
-  Unreached, ///< turned away from the light, or outside its cone or box
-  NoReceiver ///< nothing is seen, or what receives no shadow
+  Lit,       ///< certainly, without a ray
+  Shadow,    ///< likewise
+  Unreached, ///< faces away from the light, or outside its cone or box
+  NoReceiver ///< no surface, or one that receives no shadows
 };
+/// Return the names and colours of the TracedClass values.
 std::vector<PixelClass> classesOfTracing();
 
-/// A tile of the picture: which of its pixels need their shadow ray, and what they show unless it
-/// is blocked.
+/// A tile of the picture: the pixels that need their shadow ray, and their visibility if it is not
+/// blocked.
 struct alignas(64) TracedTile
 {
   static constexpr std::size_t columns = ReceiverTile::mostColumns;
@@ -44,81 +45,80 @@ struct alignas(64) TracedTile
   template <typename Number>
   using Plane = std::array<Number, pixels>;
 
-  /// The shadow rays of all pixels, needed or not. Their direction has any length.
+  /// The shadow rays of all pixels, needed or not. Directions have any length.
   Plane<float> originX, originY, originZ;
   Plane<float> directionX, directionY, directionZ;
   Plane<int> needed; ///< 1 or 0; 0 beyond the picture's border
   ///@{
-  /// How many of the light's samples are seen, and how many of them a blocked ray takes off; of a
-  /// light with a texture the sums of their colours in 255ths, channel by channel.
+  /// The number of samples of the light that are seen, and the number that a blocked ray takes off.
+  /// For a light with a texture, the sums of their colours in 255ths, channel by channel.
   std::array<Plane<float>, 3> visibility;
   std::array<Plane<float>, 3> samplesOfRay;
   ///@}
   Plane<std::uint8_t> classes; ///< TracedClass
 
   std::size_t channels;         ///< of the visibility: 1 or 3
-  std::size_t number;           ///< of the picture's tiles, row by row
-  std::size_t firstPixel;       ///< of the picture
-  std::size_t columnsOfPicture; ///< from a row of the picture to the next
+  std::size_t number;           ///< index among the picture's tiles, row by row
+  std::size_t firstPixel;       ///< index in the picture
+  std::size_t columnsOfPicture; ///< width of the picture
 
-  /// The picture's pixel that one of the tile's is.
+  /// Return the picture's index of a pixel of the tile.
   std::size_t pixelOfPicture(std::size_t pixel) const
   {
     return this->firstPixel + pixel / columns * this->columnsOfPicture + pixel % columns;
   }
 };
 
-/// A picture's shadow rays in one light: what the tracers have in common is here, and which rays
-/// are blocked is theirs to say. Each pixel has one to the light's centre, or one to each of an
-/// area light's samples. Until finish(), visibility counts those that arrive.
+/// A picture's shadow rays for one light: the common part of all tracers, which only decide which
+/// rays are blocked. Each pixel has one ray to the light's centre, or one to each of an area
+/// light's samples. Until finish(), visibility counts the rays that arrive.
 class TracedPicture
 {
 public:
-  /// Some of a pixel's rays, one after another: nearly always its samples.
+  /// A range of a pixel's rays, which nearly always are its samples.
   struct SampleRange
   {
     int first, end;
   };
 
-  /// @param decider decides receivers without rays; null: all are traced. It is asked about a
-  /// tile's pixels once, however often the tile is visited
-  /// @param visibility resized to one for each pixel of the picture; of several channels one image
+  /// @param decider decides receivers without rays; null: all are traced. It is called once for a
+  /// tile's pixels, however often the tile is visited
+  /// @param visibility resized to one value per pixel of the picture; of several channels one image
   /// after the other
-  /// @param classes where not null, resized to one for each pixel
-  /// @param tiles which of them keep what visibility and classes hold; null: none
-  /// @param verdicts what is known of tiles without rays; null: nothing. Lights with textures have
-  /// none
-  /// @param samples of the light's area, which it has a texture with if any; null: its centre
-  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is
-  /// none for textures
+  /// @param classes if not null, resized to one per pixel
+  /// @param tiles which tiles reuse visibility and classes; null: none
+  /// @param verdicts what is known of tiles without rays; null: nothing. Must be null for textures
+  /// @param samples of the light's area, and of its texture, if any; null: its centre
+  /// @param chooser chooses the rays that decide the others; null: all are traced. Must be null for
+  /// textures
   TracedPicture(const ShadowLight& light, const Occluders& occluders, const Receivers& receivers,
     const ReceiverDecider* decider, std::vector<float>& visibility,
     std::vector<std::uint8_t>* classes, TracedTiles* tiles, const TileVerdicts* verdicts,
     const LightSamples* samples, const SampleChooser* chooser = nullptr);
 
-  /// How many tiles it has.
+  /// Return the number of tiles.
   std::size_t tiles() const;
-  /// Where the rays end, in lengths of their direction.
+  /// Return the far end of the rays, in lengths of their direction.
   float rayFar() const;
 
-  /// How many rays a pixel has, if any.
+  /// Return the number of rays of a pixel that has any.
   int samples() const { return this->samples_ ? this->samples_->count() : 1; }
   SampleRange allSamples() const { return { 0, this->samples() }; }
-  /// Of its visibility: 3 of an area light with a texture, else 1.
+  /// Return the channels of the visibility: 3 of an area light with a texture, else 1.
   std::size_t channels() const { return this->texture_ ? 3 : 1; }
 
-  /// Fills visibility and classes, tile by tile; several threads do so at once.
-  /// @param samples whose rays are traced; visibility and classes are filled with the first of them
-  /// all
-  /// @param trace gets a tile with one ray for each pixel that needs one, for all samples in turn;
-  /// at first as it shows without any. It may take samplesOfRay off the visibility of pixels whose
-  /// ray is blocked, and returns the number of rays
-  /// @return the sum of those
+  /// Fill visibility and classes, tile by tile, by several threads at once.
+  /// @param samples the range of rays to trace; the range that begins at 0 also fills visibility
+  /// and classes
+  /// @param trace gets a tile with one ray per pixel that needs one, for each sample in turn; the
+  /// first time with the visibility without rays. It may subtract samplesOfRay from the visibility
+  /// of pixels whose ray is blocked, and returns the number of rays
+  /// @return the sum of these numbers
   std::size_t visitTiles(
     const SampleRange& samples, const std::function<std::size_t(TracedTile&)>& trace) const;
 
-  /// Takes a blocked ray off a pixel of a tile that was visited.
-  /// @param samples that the ray stands for, one number for each channel
+  /// Subtract a blocked ray from a pixel of a visited tile.
+  /// @param samples that the ray stands for, one number per channel
   void darken(std::size_t pixel, const float* samples) const
   {
     for (std::size_t channel = 0; channel < this->channels(); ++channel)
@@ -127,7 +127,7 @@ public:
     }
   }
 
-  /// Makes shares of counts, once all rays are traced.
+  /// Turn counts into shares, after all rays are traced.
   void finish() const;
 
 private:
@@ -152,16 +152,16 @@ private:
   const LightSamples* samples_;
   const PlacedTexture* texture_; ///< null: all samples count alike
   const SampleChooser* chooser_;
-  /// What verdicts and the decider have said of each tile's receivers, row by row; empty where they
-  /// were not asked yet. Null without any.
+  /// The answers of verdicts and the decider for each tile's receivers, row by row; empty until
+  /// they are asked. Null without any.
   std::unique_ptr<std::vector<Certainty>[]> certain_;
-  /// What is lit, by channel, in the unit of TracedTile::visibility.
+  /// The visibility of lit pixels, by channel, in the unit of TracedTile::visibility.
   std::array<float, 3> lit_;
-  /// What the sums are divided by, as `visibility_` is laid out; null without texture.
+  /// The divisors of the sums, laid out like `visibility_`; null without texture.
   std::unique_ptr<float[]> wholes_;
-  /// By tile: 1 for those that are kept or known to be dark, whose receivers are not asked for.
+  /// By tile: 1 for tiles that are reused or known to be dark, whose receivers are not computed.
   std::vector<std::uint8_t> skipped_;
-  /// By surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0.
+  /// By surface + 1, so that `notCovered` + 1 = 0 is the first: 1 if it receives, else 0.
   std::vector<std::uint8_t> receives_;
 };
 

@@ -17,7 +17,7 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// More boxes of moved surfaces than these take longer than they save.
+/// More boxes of moved surfaces than these would cost more time than they save.
 constexpr std::size_t mostBoxes = 32;
 
 Bounds everything()
@@ -31,7 +31,7 @@ bool haveCommonPoint(const Bounds& a, const Bounds& b)
     glm::all(glm::lessThanEqual(b.lower, a.upper));
 }
 
-/// The part of t in [first, last] where a + b t <= 0.
+/// Reduce [first, last] to the part where a + b t <= 0.
 void clip(double a, double b, double& first, double& last)
 {
   if (b > 0.0)
@@ -48,7 +48,7 @@ void clip(double a, double b, double& first, double& last)
   }
 }
 
-/// Whether two pictures show the same triangles in a tile.
+/// True if two pictures show the same triangles in a tile.
 bool showSame(const ReceiverImages& images, const std::vector<glm::vec2>& before,
   std::size_t firstColumn, std::size_t firstRow)
 {
@@ -115,7 +115,7 @@ void TracedTiles::forget()
 }
 
 //------------------------------------------------------------------------------
-/// Old and new boxes of surfaces that moved since the last image.
+/// Return the old and new boxes of surfaces that moved since the last image.
 std::vector<Bounds> TracedTiles::movedSince(const Occluders& occluders) const
 {
   std::vector<Bounds> moved;

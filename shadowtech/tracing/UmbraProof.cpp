@@ -14,18 +14,18 @@ namespace gnomon
 namespace
 {
 
-/// The share of (longest edge + farthest corner) times the other lengths of a product that its
-/// rounding does not reach. Let u = 2^-24, E be the longest edge, R the farthest corner from a
-/// ray's start and D the longest direction. Corners relative to the start are off by u R, edges by
-/// u (E + 2R), directions by 4 u D. The cross product of two products and a subtraction adds
-/// 7 u E R, the dot product 3 u, so that F is off by less than 40 u (E + R) R D. Distances to the
-/// plane are, likewise, by less than 40 u (E + R) E R. This is 64 u.
+/// The bound of rounding, as a share of (longest edge + farthest corner) times the product's other
+/// lengths. Let u = 2^-24, E the longest edge, R the distance of the farthest corner from a ray's
+/// start and D the longest direction. Corners relative to the start are off by u R, edges by u (E +
+/// 2R), directions by 4u D. The cross product of two products and a subtraction adds 7u E R, the
+/// dot product 3u. So F is off by less than 40u (E + R) R D. Likewise distances to the plane are
+/// off by less than 40u (E + R) E R. This constant is 64u.
 constexpr double productNoise = 1.0 / 262144.0; // 2^-18
 
-/// More triangles are not looked at for one blocker.
+/// The most triangles of one blocker.
 constexpr std::size_t mostTriangles = 8;
 
-/// Nor more along a ray.
+/// The most hits along a ray.
 constexpr int mostHits = 8;
 
 const Surface& surfaceOf(const Occluders& occluders, std::uint32_t triangle)
@@ -71,9 +71,9 @@ double RayEnds::lengthFrom(const glm::dvec3& start) const
 struct UmbraProof::Triangle
 {
   std::array<glm::dvec3, 3> corners; ///< counter-clockwise
-  bool isBack;                       ///< whether the light sees its back
+  bool isBack;                       ///< the light sees its back
 
-  /// As the snapshot has it.
+  /// The triangle as in the snapshot.
   Triangle(const Occluders& occluders, std::uint32_t triangle)
     : isBack(false)
   {
@@ -95,7 +95,8 @@ struct UmbraProof::Triangle
     this->isBack = !this->isBack;
   }
 
-  /// Has the corners begin with an edge, if it is one of the triangle.
+  /// Rotate or turn over the corners so that they begin with an edge. False if the triangle does
+  /// not have it.
   bool beginWith(const glm::dvec3& from, const glm::dvec3& to)
   {
     for (int side = 0; side < 2; ++side)
@@ -133,7 +134,7 @@ UmbraProof::UmbraProof(
 }
 
 //------------------------------------------------------------------------------
-/// How far a point is from the start of a ray, at most.
+/// Return the largest distance of a point from the start of a ray.
 double UmbraProof::farthest(const glm::dvec3& corner) const
 {
   return glm::distance(corner, this->middle_) + this->radius_;
@@ -156,9 +157,9 @@ bool UmbraProof::finds(std::optional<std::uint32_t>& triangle) const
 }
 
 //------------------------------------------------------------------------------
-/// Calls `visit` with triangles on a ray, from the light's end on, until it returns true: those
-/// next to a lamp hide it from most.
-/// @return whether it did
+/// Call `visit` with triangles on a ray, from the light's end on, until it returns true: triangles
+/// next to a lamp hide it from most receivers.
+/// @return true if `visit` did
 template <typename Visit>
 bool UmbraProof::visitHits(const Ray& ray, const Visit& visit) const
 {
@@ -185,7 +186,7 @@ bool UmbraProof::visitHits(const Ray& ray, const Visit& visit) const
 }
 
 //------------------------------------------------------------------------------
-/// F(A, B) of a ray: positive if it passes the edge on its left.
+/// Return F(A, B) of a ray: positive if it passes the edge on its left.
 double UmbraProof::leftOf(const glm::dvec3& a, const glm::dvec3& b, const Ray& ray) const
 {
   const glm::dvec3 direction = this->ends_.isDirectional ? ray.end : ray.end - ray.start;
@@ -193,9 +194,9 @@ double UmbraProof::leftOf(const glm::dvec3& a, const glm::dvec3& b, const Ray& r
 }
 
 //------------------------------------------------------------------------------
-/// Looks for rays that do not surely pass the edge from a to b on its left.
-/// @return a ray that passes it closely on its right, to find what is there; none if all rays
-/// surely pass it on its left
+/// Find a ray that does not certainly pass the edge from a to b on its left.
+/// @return a ray that passes it closely on its right, for finding the triangle there; none if all
+/// rays certainly pass it on its left
 std::optional<UmbraProof::Ray> UmbraProof::rayBeside(const glm::dvec3& a, const glm::dvec3& b) const
 {
   const double far = std::max(this->farthest(a), this->farthest(b));
@@ -219,7 +220,7 @@ std::optional<UmbraProof::Ray> UmbraProof::rayBeside(const glm::dvec3& a, const 
   {
     return std::nullopt;
   }
-  // As F is affine, or nearly so between rays to an area.
+  // F is affine, or nearly so between rays to an area.
   const double ofMiddle = this->leftOf(a, b, middle);
   const double share =
     ofMiddle > least ? std::clamp(ofMiddle / (ofMiddle - least) + 0.05, 0.0, 2.0) : 1.0;
@@ -228,7 +229,7 @@ std::optional<UmbraProof::Ray> UmbraProof::rayBeside(const glm::dvec3& a, const 
 }
 
 //------------------------------------------------------------------------------
-/// Whether all rays surely start behind a triangle's plane and end in front of it, as the light
+/// True if all rays certainly start behind a triangle's plane and end in front of it, as the light
 /// sees it.
 bool UmbraProof::isBetween(const Triangle& triangle) const
 {
@@ -237,7 +238,7 @@ bool UmbraProof::isBetween(const Triangle& triangle) const
   const double longestEdge =
     std::max(glm::distance(a, b), std::max(glm::distance(b, c), glm::distance(c, a)));
   const double far = std::max(this->farthest(a), std::max(this->farthest(b), this->farthest(c)));
-  const double noise = productNoise * (longestEdge + far) * longestEdge; // for a unit of length
+  const double noise = productNoise * (longestEdge + far) * longestEdge; // per unit of length
   const auto isBehind = [&, a = a](const glm::dvec3& start)
   { return glm::dot(normal, a - start) > noise * far; };
   const auto endsInFront = [&, a = a](const glm::dvec3& end)
@@ -246,7 +247,7 @@ bool UmbraProof::isBetween(const Triangle& triangle) const
     {
       return glm::dot(normal, end - a) > noise * (far + this->longest_);
     }
-    // Rays from the face itself go on for a little, which takes them farther to the front.
+    // Rays from the face itself extend a little beyond it, which takes them farther to the front.
     return glm::dot(normal, end) > noise * this->longest_ &&
       (!this->ends_.hasFace ||
         std::all_of(this->starts_.begin(), this->starts_.end(),
@@ -262,8 +263,8 @@ bool UmbraProof::isBetween(const Triangle& triangle) const
 }
 
 //------------------------------------------------------------------------------
-/// Whether a triangle blocks all rays, or a blocker that it grows to: over edges that rays pass on
-/// the wrong side, to the triangles beside them.
+/// True if all rays are blocked by a triangle, or by a blocker grown from it: over edges that rays
+/// pass on the wrong side, to the triangles beside them.
 bool UmbraProof::isBlockedBy(std::uint32_t first) const
 {
   struct Edge

@@ -16,37 +16,38 @@ namespace gnomon
 
 struct Occluders;
 
-/// Where a light's shadow rays go: to the convex hull of some points, or along that of some
-/// directions.
+/// The ends of a light's shadow rays: the convex hull of some points, or of some directions.
 struct RayEnds
 {
   RayEnds(const ShadowLight& light, const Occluders& occluders);
 
-  /// How long a ray of a directional light is, in lengths of its direction: as far as its box's
-  /// near face, or beyond all casters.
+  /// Return the length of a directional light's ray, in lengths of its direction: to its box's near
+  /// face, or beyond all casters.
   double lengthFrom(const glm::dvec3& start) const;
 
   bool isDirectional;
-  bool hasFace;                    ///< of a directional light: whether it has a box
-  glm::dvec3 middle;               ///< centred; of a directional light a direction
+  bool hasFace;                    ///< true for a directional light with a box
+  glm::dvec3 middle;               ///< centred; for a directional light a direction
   std::vector<glm::dvec3> corners; ///< likewise
   glm::dvec3 onFace, toLight;      ///< a point of the face, centred, and its unit normal
   Bounds castersCentred;
 };
 
 /// Proves that casters block all shadow rays from a box to a light, so that tracing them would find
-/// the same.
+/// the same (docs/theory/blockers.md).
 ///
-/// Embree's robust test says that a ray O + t D passes a directed edge from A to B on its left if
-/// F(A, B) = (B - A) x D . (A - O) is not negative, and that it hits a triangle if it passes all
-/// three edges on one side, and t is in the ray's interval. F is affine in O and in the light's
-/// point, so that it is positive for all rays if it is for those between corners, and by more than
-/// rounding. So are the distances to the triangle's plane that t follows from.
+/// Embree's robust test lets a ray O + t D pass a directed edge from A to B on its left if F(A, B)
+/// = (B
+/// - A) x D . (A - O) is not negative. The ray hits a triangle if it passes all three edges on one
+///   side, and t is in the ray's interval. F is affine in O and in the light's point. So F is
+///   positive for all rays if it exceeds rounding for the rays between corners. The same holds for
+///   the distances to the triangle's plane, from which t follows.
 ///
-/// A blocker is one triangle, or n that are joined along n - 1 edges that they share bit by bit. If
-/// all rays pass all other edges on their left, each hits one of the triangles: it passes a joint on
-/// the right as one triangle sees it at most, as F(B, A) rounds to -F(A, B), so that for one
-/// triangle it passes none so. A blocker need be neither flat nor convex.
+/// A blocker is one triangle, or n triangles joined along n - 1 edges that they share bit by bit.
+/// If all rays pass all other edges on their left, each ray hits one of the triangles. As F(B, A)
+/// rounds to -F(A, B), a ray passes a joint on the right for at most one of its two triangles. So
+/// one triangle remains that the ray passes nowhere on the right. A blocker need be neither flat
+/// nor convex.
 class UmbraProof
 {
 public:
@@ -55,8 +56,8 @@ public:
   UmbraProof(
     const Bounds& from, const RayEnds& ends, const Occluders& occluders, const CasterHits& hits);
 
-  /// Whether a blocker is found that blocks all rays.
-  /// @param triangle that may be one of it, which is looked at first; gets one that is
+  /// True if a blocker is found that blocks all rays.
+  /// @param triangle tried first, if set; set to a triangle of the blocker if one is found
   bool finds(std::optional<std::uint32_t>& triangle) const;
 
 private:

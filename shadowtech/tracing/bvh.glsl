@@ -1,5 +1,5 @@
-// The casters' bounding volume hierarchy, and rays against its boxes. CasterBvh.h is its other side
-// and says how it is laid out.
+// The casters' bounding volume hierarchy, and rays against its boxes. CasterBvh.h documents the
+// layout.
 
 #ifndef GNOMON_BVH
 #define GNOMON_BVH
@@ -35,31 +35,30 @@ vec3 positionOf(uint vertex)
   return vec3(positions[i], positions[i + 1u], positions[i + 2u]);
 }
 
-// A ray as boxes see it.
+// A ray, prepared for tests against boxes.
 struct BoxRay
 {
   vec3 inverse;     // of the direction
-  vec3 fromOfLower; // its origin, so far up that lower sides lie below where rounding may take them
+  vec3 fromOfLower; // origin, raised so that lower sides keep below all rounding
   vec3 fromOfUpper;
   float far;
 };
 
-// No box may be missed that holds a triangle that is met: only then the answer is that of all
-// triangles, whatever the tree. What has to be allowed for, with u = 2^-24:
+// A ray must never miss a box that holds a triangle it meets: only then is the answer that of all
+// triangles, whatever the tree. Boxes allow for these errors, with u = 2^-24:
 //
-// - triangleIsMet() (watertight.glsl) takes corners relative to the origin, shears and rounds them:
-//   along one axis u |A| for the first rounding, on that and on A_z, 5u |A_z| for a shear whose
-//   division is off by 2.5 units in the last place (as much as GLSL allows), u |A_z| for its
-//   product with A_z, and u (|A| +
-//   |A_z|) for the difference: at most 10u of the corner's largest coordinate relative to the origin. So
-//   the triangle that is tested lies as near to the true one, and boxes grow by as much on all
-//   sides.
+// - triangleIsMet() (watertight.glsl) takes corners relative to the origin, shears and rounds them.
+//   Along one axis this costs u |A| for the first rounding, on that and on A_z; 5u |A_z| for a
+//   shear whose division is off by 2.5 units in the last place (as much as GLSL allows); u |A_z|
+//   for its product with A_z; and u (|A| + |A_z|) for the difference. Together that is at most 10u
+//   of the corner's largest coordinate relative to the origin. The tested triangle lies as near to
+//   the true one, so boxes grow by as much on all sides.
 // - Moving the origin instead of the box rounds once more, u of the coordinate itself.
 // - An instance's box has to allow for rays in source coordinates (imageBounds(), CasterBvh.cpp).
 //
 // The distances to the sides are off by a rounding of the difference, one of the product and 5u of
-// the inverse: 7u, so that near and far ends are compared with 16u between them (Ize, Robust BVH
-// Ray Traversal, 2013, eq. 8).
+// the inverse: 7u. So near and far ends are compared with 16u between them (Ize, Robust BVH Ray
+// Traversal, 2013, eq. 8).
 #ifdef INSTANCES
 const float boxSlack = 7.6293945e-6; // 2^-17
 #else
@@ -67,8 +66,8 @@ const float boxSlack = 9.5367432e-7; // 2^-20
 #endif
 const float farSlack = 1.00000095; // 1 + 2^-20
 
-// Directions along an axis would divide by zero, and zero times infinity is no number. Their
-// component becomes so small that it takes the ray off by less than 2^-60 of its way.
+// A zero component of a direction would divide by zero, and zero times infinity is no number. It is
+// replaced by one so small that the ray is off by less than 2^-60 of its way.
 const float smallestShare = 8.6736174e-19; // 2^-60
 
 float largestOf(vec3 v)
@@ -88,7 +87,7 @@ BoxRay boxRay(vec3 origin, vec3 direction, float far, vec3 lower, vec3 upper)
   return BoxRay(1.0 / safe, origin + slack, origin - slack, far);
 }
 
-// Whether a ray may meet what is in a box. entry: where along its direction it enters.
+// True if a ray may meet the contents of a box. entry: where along its direction it enters.
 bool meetsBox(BoxRay ray, BvhNode node, out float entry)
 {
   vec3 toLower = (node.lower - ray.fromOfLower) * ray.inverse;

@@ -1,12 +1,12 @@
 // Holes of casters' textures for ray tracing: the twin of CutoutMask.cpp, on masks in a buffer.
-// Samplers would filter with rounded weights, and there are few of them.
+// Samplers would filter with rounded weights, and OpenGL has few of them.
 
 #ifndef GNOMON_CUTOUT_MASK
 #define GNOMON_CUTOUT_MASK
 
-// For each surface with holes (GpuTracer.cpp writes them): where its texture coordinates are, less
-// its first vertex; where its mask is; how that is to be read; width; height. Then all masks, a bit
-// per texel.
+// For each surface with holes, five numbers from GpuTracer.cpp: the place of its texture
+// coordinates minus its first vertex; the place of its mask; how to read the mask; width; height.
+// All masks follow, a bit per texel.
 layout(std430, binding = 6) readonly buffer Cutouts { uint cutouts[]; };
 layout(std430, binding = 7) readonly buffer TextureCoordinates { vec2 textureCoordinates[]; };
 
@@ -19,7 +19,7 @@ const int wrapClampToBorder = 3;
 
 struct CutoutMask
 {
-  uint coordinates; // added to a vertex, gives its texture coordinates
+  uint coordinates; // plus a vertex: index of its texture coordinates
   uint firstBit;    // of cutouts
   int wrap;
   bool interpolated;
@@ -35,7 +35,7 @@ CutoutMask cutoutMask(uint number)
     (reading & 8u) != 0u, ivec2(cutouts[i + 3u], cutouts[i + 4u]));
 }
 
-// Into [0, 1], or, if there is a border, [-1, 2].
+// Wrap a coordinate into [0, 1], or [-1, 2] if there is a border.
 float reduced(float coordinate, int wrap)
 {
   float folded = coordinate - 2.0 * floor(0.5 * coordinate);
@@ -43,10 +43,10 @@ float reduced(float coordinate, int wrap)
     : wrap == wrapRepeat                 ? coordinate - floor(coordinate)
     : wrap == wrapMirroredRepeat         ? min(folded, 2.0 - folded)
                                          : clamp(coordinate, -1.0, 2.0);
-  return result >= -1.0 && result <= 2.0 ? result : 0.0; // what is not finite has no place
+  return result >= -1.0 && result <= 2.0 ? result : 0.0; // not finite
 }
 
-// The texel at indices that are out of range by no more than the size.
+// True if the texel at indices that are out of range by no more than the size has alpha above 0.
 bool texelDrawn(CutoutMask mask, ivec2 texel)
 {
   bvec2 outside = bvec2(texel.x < 0 || texel.x >= mask.size.x, texel.y < 0 || texel.y >= mask.size.y);
@@ -75,8 +75,9 @@ bool isDrawn(CutoutMask mask, vec2 coordinates)
     (nextColumn && nextRow && texelDrawn(mask, texel + ivec2(1, 1)));
 }
 
-// Whether a point of a triangle lies on the surface and not in a hole.
-// corners: indices into all positions; weights: of them, times a common factor other than 0
+// True if a point of a triangle lies on the surface and not in a hole.
+// @param corners indices into all positions
+// @param weights of the corners, times a common factor other than 0
 bool isOnSurface(uint number, uvec3 corners, vec3 weights)
 {
   CutoutMask mask = cutoutMask(number);

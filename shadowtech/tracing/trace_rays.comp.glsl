@@ -1,12 +1,12 @@
-// Shadow rays against the casters: for each ray whether anything blocks it, a bit per ray.
+// Traces shadow rays against the casters. The result is a bit per ray: 1 if a caster blocks it.
 //
-// INSTANCES, CUTOUTS: the scene has such; STACK: how many links may wait; GROUP: rays of a work
-// group.
+// INSTANCES, CUTOUTS: the scene has them; STACK: the size of the stack of links; GROUP: rays per
+// work group.
 //
-// The walk goes down to leaves first and looks at triangles then, so that rays that go together do
-// the same at the same time (Aila, Laine: Understanding the Efficiency of Ray Traversal on GPUs,
-// 2009). Whatever blocks a ray ends it. As no box is missed that holds a triangle that is met, the
-// answer depends neither on the tree nor on the order.
+// The traversal descends to leaves first and then tests triangles, so that neighbouring rays do the
+// same at the same time (Aila, Laine: Understanding the Efficiency of Ray Traversal on GPUs, 2009).
+// It ends at the first blocker. A ray misses no box that holds a triangle it meets, so the answer
+// depends neither on the tree nor on the order.
 
 #include "shadowtech/tracing/bvh.glsl"
 #include "shadowtech/tracing/watertight.glsl"
@@ -25,7 +25,7 @@ struct TracedRay
 };
 
 layout(std430, binding = 3) readonly buffer Rays { TracedRay rays[]; };
-layout(std430, binding = 4) buffer Blocked { uint blocked[]; }; // all 0 before
+layout(std430, binding = 4) buffer Blocked { uint blocked[]; }; // all 0 at first
 
 uniform int rayCount;
 uniform int root; // the bits of a link
@@ -44,8 +44,8 @@ struct BvhInstance
 layout(std430, binding = 5) readonly buffer BvhInstances { BvhInstance bvhInstances[]; };
 #endif
 
-// Links beside those of the tree: where the walk ends, where an instance is left, and, with its
-// number, an instance to enter. Leaves have this bit unset.
+// Links besides those of the tree: the end of the traversal, the end of an instance, and, with its
+// number, an instance to enter. Leaves have enterBit unset.
 const uint enterBit = 0x40000000u;
 const uint walkEnd = 0xffffffffu;
 const uint instanceEnd = 0xfffffffeu;
@@ -70,7 +70,7 @@ bool blocks(uvec4 record, TriangleRay ray)
     ray, positionOf(record.x), positionOf(record.y), positionOf(record.z), crossed);
   bool oneSided = (record.w & oneSidedFlag) != 0u;
   bool mirrored = (record.w & mirroredFlag) != 0u;
-  // Where the front faces the light, the ray, which goes there, comes to the back.
+  // The ray goes to the light. So it meets the back of a triangle whose front faces the light.
   met = met && (!oneSided || (crossed.facing < 0.0) != mirrored);
 #ifdef CUTOUTS
   if (met && (record.w & cutoutFlag) != 0u)
@@ -82,7 +82,7 @@ bool blocks(uvec4 record, TriangleRay ray)
 }
 
 #ifdef INSTANCES
-// A ray in the source coordinates of an instance. Where it is along its direction stays the same.
+// Transform a ray to an instance's source coordinates. Places along its direction stay the same.
 LevelRay sourceRay(TracedRay traced, BvhInstance instance)
 {
   vec3 origin, direction;
@@ -164,7 +164,7 @@ bool isBlocked(TracedRay traced)
   }
 }
 
-// What is not finite, or goes nowhere, is blocked by nothing.
+// True if a ray has finite numbers and a direction; other rays are not blocked.
 bool isSound(TracedRay ray)
 {
   const float largest = 3.4028235e38;

@@ -3,9 +3,9 @@
 #ifndef GNOMON_WATERTIGHT
 #define GNOMON_WATERTIGHT
 
-// A ray as triangles see it: coordinates relative to its origin, turned so that z is the axis along
-// which it goes farthest, and sheared so that it goes along z (Woop, Benthin, Wald: Watertight
-// Ray/Triangle Intersection, JCGT 2013).
+// A ray, prepared for tests against triangles. Coordinates are relative to its origin, turned so
+// that z is the ray's largest component, and sheared so that the ray follows z (Woop, Benthin,
+// Wald: Watertight Ray/Triangle Intersection, JCGT 2013).
 struct TriangleRay
 {
   vec3 origin;
@@ -13,7 +13,7 @@ struct TriangleRay
   vec3 permuted; // the direction, turned
   vec2 shear;
   float far;
-  int axis; // which one z was
+  int axis; // which axis became z
 };
 
 vec3 turned(vec3 v, int axis) { return axis == 0 ? v.yzx : (axis == 1 ? v.zxy : v); }
@@ -27,17 +27,18 @@ TriangleRay triangleRay(vec3 origin, vec3 direction, float far)
   return TriangleRay(origin, direction, permuted, permuted.xy / permuted.z, far, axis);
 }
 
-// Where a ray's line goes through a triangle.
+// The crossing of a ray's line through a triangle.
 struct Crossing
 {
   bool inside;
   vec3 weights; // of the corners, times a common factor
-  float facing; // above 0 where the ray comes to the front (counter-clockwise), below 0 to the back
+  float facing; // > 0: the ray meets the front (counter-clockwise), < 0: the back
 };
 
-// The corners: relative to the origin, turned. Every edge's sign is that of the exact cross product
-// of its corners as sheared, which neighbours share, so that they agree on it to the bit. Without
-// `precise` a compiler might contract a product and a sum here and not there, and they would not.
+// a, b, c: corners relative to the origin, turned. Each edge's sign is that of the exact cross
+// product of its sheared corners. Neighbours share these corners, so they agree on the sign to the
+// bit. Without `precise` a compiler might contract a product and a sum in one place only, and the
+// signs would differ.
 Crossing crossing(TriangleRay ray, vec3 a, vec3 b, vec3 c)
 {
   precise vec2 p = a.xy - ray.shear * a.z;
@@ -46,8 +47,8 @@ Crossing crossing(TriangleRay ray, vec3 a, vec3 b, vec3 c)
   precise vec3 plus = vec3(r.x * q.y, p.x * r.y, q.x * p.y);
   precise vec3 minus = vec3(r.y * q.x, p.y * r.x, q.y * p.x);
   precise vec3 edges = plus - minus;
-  // Products are rounded without changing their order. Only where they come out the same, the sign
-  // is open; in double precision they are exact.
+  // Rounding keeps the order of products, so the sign is open only if they are equal. In double
+  // precision they are exact.
   if (any(equal(edges, vec3(0.0))))
   {
     dvec2 pd = dvec2(p);
@@ -57,21 +58,20 @@ Crossing crossing(TriangleRay ray, vec3 a, vec3 b, vec3 c)
   }
   bool mixed = any(lessThan(edges, vec3(0.0))) && any(greaterThan(edges, vec3(0.0)));
   float sum = edges.x + edges.y + edges.z;
-  // Turning keeps the handedness; looking along -z shows the other side. Of a line that sees
-  // neither side the sum is 0, and where something is not finite it is no number.
+  // Turning keeps the handedness; looking along -z shows the other side. The sum is 0 for a line in
+  // the triangle's plane, and NaN if something is not finite.
   return Crossing(!mixed && abs(sum) > 0.0, edges, ray.permuted.z < 0.0 ? -sum : sum);
 }
 
-// Whether the ray counts where it goes through the triangle's plane: from its origin to its far
-// end.
+// True if the ray meets the triangle's plane between its origin and its far end.
 //
-// The sign of the volume that origin and triangle span tells on which side the ray starts;
-// ShadowRay.h says what rounding does to it, and lets shadow rays start so far off their own
-// triangle that it is right. It depends on the plane and not on the direction, as weighted sums of
-// the corners' depths would: a plane along two axes gives exact signs. Which side the ray comes
-// from is known already, so that triangles seen nearly from their edge do not get lost between
-// neighbours. And where all corners lie on one side of the origin, or of the far end, along z, none
-// of this is asked: their differences are exact.
+// The sign of the volume of origin and triangle tells on which side the ray starts. ShadowRay.h
+// bounds its rounding, and starts shadow rays so far off their own triangle that the sign is right.
+// The volume depends on the plane and not on the direction, unlike weighted sums of the corners'
+// depths: a plane along two axes gives exact signs. The side from which the ray comes is known
+// already, so triangles seen nearly edge-on do not get lost between neighbours. If all corners lie
+// on one side of the origin, or of the far end, along z, these depths decide instead: their
+// differences are exact.
 bool isWithinEnds(
   TriangleRay ray, vec3 a, vec3 b, vec3 c, vec3 normal, vec3 corner, float facing)
 {
@@ -89,8 +89,8 @@ bool isWithinEnds(
   return ahead && before;
 }
 
-// Whether a ray meets a triangle, on whichever side.
-// crossed: where, and on which side
+// True if a ray meets a triangle, on either side.
+// @param crossed where, and on which side
 bool triangleIsMet(TriangleRay ray, vec3 a, vec3 b, vec3 c, out Crossing crossed)
 {
   vec3 fromA = a - ray.origin;

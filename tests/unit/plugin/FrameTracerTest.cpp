@@ -158,7 +158,7 @@ TEST_F(FrameTracers, embreeTakesOverWhatTheGpuHasNoRoomFor)
   this->makeHuge();
   EXPECT_EQ(this->tracer_.update(gpuIfPossible, this->occluders_).builds, 2);
   EXPECT_FALSE(this->tracer_.taken().gpu);
-  EXPECT_THAT(this->tracer_.gpuFailure(), HasSubstr("vertices ask for "));
+  EXPECT_THAT(this->tracer_.gpuFailure(), HasSubstr("vertices need "));
   EXPECT_EQ(
     this->tracer_.taken().reason, "tracing on the GPU failed: " + this->tracer_.gpuFailure());
   const std::vector<float> visibility = this->trace();

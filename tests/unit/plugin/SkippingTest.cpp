@@ -77,7 +77,7 @@ TEST_F(Skipping, leavesEachLampOfABuildingAsItIs)
   {
     EXPECT_EQ(light.tilesLit + light.tilesDark + light.tilesTraced, tiles);
     EXPECT_EQ(light.rays == 0, light.tilesTraced == 0) << light.sceneIndex;
-    EXPECT_EQ(light.skipReason, light.rays == 0 ? "what casts hides it from all that is seen" : "");
+    EXPECT_EQ(light.skipReason, light.rays == 0 ? "casters hide it from all that is visible" : "");
     withoutRays += light.rays == 0 ? 1 : 0;
   }
   EXPECT_GT(withoutRays, 40u);

@@ -252,16 +252,16 @@ const ShadowLight lampOverWall = pointLight({ 0.0, 0.0, 9.0 });
 TEST(TileVerdicts, SayWhyALightTakesNoRays)
 {
   Judged scene(makeWallAndFloor(), cameraOverFloor());
-  EXPECT_EQ(scene.report(lampOverWall).skipReason, "what casts hides it from all that is seen");
+  EXPECT_EQ(scene.report(lampOverWall).skipReason, "casters hide it from all that is visible");
   EXPECT_GT(scene.report(lampOverWall).tilesDark, 0);
   EXPECT_EQ(scene.report(lampOverWall).tilesTraced, 0);
   EXPECT_EQ(scene.report(pointLight({ 0.0, 0.0, 0.5 })).skipReason,
-    "nothing that casts is between it and what is seen");
+    "no caster is between it and what is visible");
   EXPECT_EQ(scene.report(spotLight({ 0.0, 0.0, 9.0 }, { 0.0, 0.0, 20.0 }, 30.0)).skipReason,
-    "its cone reaches nothing that is seen");
+    "its cone reaches nothing visible");
   EXPECT_EQ(
     scene.report(boxLight({ 0.0, 0.0, -1.0 }, { 0.0, 0.0, -3.0 }, glm::dvec3(2.0))).skipReason,
-    "its box reaches nothing that is seen");
+    "its box reaches nothing visible");
 }
 
 //------------------------------------------------------------------------------
