@@ -10,7 +10,7 @@
 
 uniform sampler2DArray discs_LIGHT; // a layer for each point, a texel for each disc
 
-// Returns the sum of hidden shares over some of the disc's points.
+// Return the sum of hidden shares over some of the disc's points.
 float hiddenOf_LIGHT(ViewPoint point, mat2 shape, ivec2 disc, int first, int end, float slack)
 {
   float hidden = 0.0;

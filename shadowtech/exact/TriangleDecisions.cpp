@@ -37,7 +37,7 @@ public:
   /// @param normal of unit length
   int facing(const Corners& corners, const glm::dvec3& normal) const
   {
-    constexpr double leastCosine = 1.52587890625e-5; // 2^-16; facesLight() asks 2^-20
+    constexpr double leastCosine = 1.52587890625e-5; // 2^-16; facesLight() uses 2^-20
     double along = glm::dot(normal, this->towards_);
     double least = leastCosine;
     if (this->light_.kind != LightKind::Directional)

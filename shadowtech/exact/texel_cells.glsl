@@ -49,7 +49,7 @@ void lower(uint at, float number)
   lowerBits(at, orderedBits(number));
 }
 
-// Returns the depth up to which there is one layer, if any (Cell of TexelCells.h). All casters must
+// Return the depth up to which there is one layer, if any (Cell of TexelCells.h). All casters must
 // be rasterized.
 float oneLayerUpTo(uint cell)
 {
@@ -59,7 +59,7 @@ float oneLayerUpTo(uint cell)
   return upTo;
 }
 
-// Keeps the two least depths. Each depth ends up as the first, or is compared with the second when
+// Keep the two least depths. Each depth ends up as the first, or is compared with the second when
 // it or a depth that it displaced meets a smaller one. So the second is the least of all others.
 // Equal depths count twice.
 void addLayer(uint cell, float depth)

@@ -158,7 +158,7 @@ bool keepBetween(inout Part part, double from, double perTexel, double low, doub
   return part.first <= part.last;
 }
 
-// Clips an edge to a row.
+// Clip an edge to a row.
 bool keepRow(inout Part part, SegmentRecord segment, int y)
 {
   precise double low = double(y) - segment.margin;
@@ -166,7 +166,7 @@ bool keepRow(inout Part part, SegmentRecord segment, int y)
   return keepBetween(part, segment.y, segment.perY, low, high);
 }
 
-// Clips that part to a column.
+// Clip that part to a column.
 bool keepColumn(inout Part part, SegmentRecord segment, int x)
 {
   precise double low = double(x) - segment.margin;

@@ -5,7 +5,7 @@
 #include "shadowtech/moment_map/moment_map.glsl"
 #include "shadowtech/moment_map/chebyshev.glsl"
 
-// Returns the bound by one of the functions. All values are divided by the function's value at the
+// Return the bound by one of the functions. All values are divided by the function's value at the
 // receiver, so small ones keep their digits. If the mean far exceeds that value, the square may
 // overflow; the variance has no effect then.
 float warpedBound_LIGHT(vec2 moments, float warped, float exponent)

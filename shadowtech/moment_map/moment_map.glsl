@@ -14,7 +14,7 @@
 #include "shadowtech/moment_map/moments_blurred.glsl"
 #endif
 
-// Returns the receiver's depth in [-1, 1], as of moments, nearer by its rounding and a bias in
+// Return the receiver's depth in [-1, 1], as of moments, nearer by its rounding and a bias in
 // depths of [0, 1]. Receivers that do not cast may lie behind all depths of the map. They count as
 // far as empty texels.
 float centredDepth_LIGHT(ViewPoint point, float bias)
@@ -22,7 +22,7 @@ float centredDepth_LIGHT(ViewPoint point, float bias)
   return 2.0 * clamp(viewDepth_LIGHT(point, point.position.z) - bias, 0.0, 1.0) - 1.0;
 }
 
-// Returns the change of depth per texel on the receiver's plane, along both axes.
+// Return the change of depth per texel on the receiver's plane, along both axes.
 vec2 planeSlope_LIGHT(ViewPoint point)
 {
   vec2 x = vec2(0.5, 0.0);
@@ -33,7 +33,7 @@ vec2 planeSlope_LIGHT(ViewPoint point)
   return 2.0 * viewDepths_LIGHT[point.view].x * max(point.position.z - nearest, 0.0);
 }
 
-// Returns the bound as a visibility: a share up to the setting counts as shadow, and the rest is
+// Return the bound as a visibility: a share up to the setting counts as shadow, and the rest is
 // rescaled to [0, 1].
 float withoutBleeding_LIGHT(float bound)
 {

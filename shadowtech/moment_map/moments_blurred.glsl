@@ -5,7 +5,7 @@ uniform sampler2DArray momentMap_LIGHT; // linear; its border has the moments of
 
 #if MOMENT_LEVELS_LIGHT > 1
 
-// Returns the level at which the kernel is as wide as the part of the receiver in a pixel. Squares
+// Return the level at which the kernel is as wide as the part of the receiver in a pixel. Squares
 // of widths add up (variances). So of a width f, the blur's box covers n, and sqrt(f^2 - n^2) is
 // left for the level.
 float level_LIGHT(ViewPoint point)
@@ -15,7 +15,7 @@ float level_LIGHT(ViewPoint point)
   return min(0.5 * log2(left), float(MOMENT_LEVELS_LIGHT - 1));
 }
 
-// Returns the width of the kernel along both axes of the map. Texels t times as wide as the map's
+// Return the width of the kernel along both axes of the map. Texels t times as wide as the map's
 // add (t^2 - 1) / 12 to the box's variance. The bilinear filter between two of them adds up to (t^2
 // - 1) / 4. Together that equals a squared box width that grows by 4 (t^2 - 1).
 vec2 kernelTexels_LIGHT(ViewPoint point)
@@ -34,7 +34,7 @@ float level_LIGHT(ViewPoint point)
   return 0.0;
 }
 
-// Returns the width of the kernel along both axes of the map.
+// Return the width of the kernel along both axes of the map.
 vec2 kernelTexels_LIGHT(ViewPoint point)
 {
   return vec2(KERNEL_TEXELS_LIGHT);
@@ -42,7 +42,7 @@ vec2 kernelTexels_LIGHT(ViewPoint point)
 
 #endif
 
-// Returns the moments over a square of the box's width around a point. The bilinear filter moves the
+// Return the moments over a square of the box's width around a point. The bilinear filter moves the
 // square to the point. The square starts at the middle of the point's texel, or for boxes of even
 // width at that texel's lower corner.
 vec4 momentsAt_LIGHT(ViewPoint point)

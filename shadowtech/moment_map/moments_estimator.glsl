@@ -10,7 +10,7 @@
 const float momentBias = 3.0e-6;
 const vec4 momentsOfBias = vec4(0.0, 0.375, 0.0, 0.375);
 
-// Returns the largest share of depths at least as far as `depth`, for these moments. Among
+// Return the largest share of depths at least as far as `depth`, for these moments. Among
 // distributions with four given moments, the one with the least before `depth` consists of that
 // depth and two others. These are the roots of c.x + c.y z + c.z z^2, where
 //     (1  b1 b2)
@@ -67,7 +67,7 @@ float hamburgerBound(vec4 moments, float depth)
 
 #endif
 
-// Returns the standard deviation of depths on the receiver's own plane. It covers the kernel's
+// Return the standard deviation of depths on the receiver's own plane. It covers the kernel's
 // texels, the point's place between them (the bilinear filter's two texels), and each texel's
 // spread.
 float planeDeviation_LIGHT(ViewPoint point)

@@ -5,7 +5,7 @@
 
 uniform float widestKernel_LIGHT; // in texels; the table's units are made for it
 
-// Returns the width of the kernel around a point along both axes of the map. It belongs to the
+// Return the width of the kernel around a point along both axes of the map. It belongs to the
 // rectangle with the kernel's variance along each axis.
 vec2 kernelTexels_LIGHT(ViewPoint point)
 {
@@ -15,7 +15,7 @@ vec2 kernelTexels_LIGHT(ViewPoint point)
   return clamp(float(KERNEL_TEXELS_LIGHT) * spread, 1.0, widestKernel_LIGHT);
 }
 
-// Returns the moments over a rectangle of that width around a point.
+// Return the moments over a rectangle of that width around a point.
 vec4 momentsAt_LIGHT(ViewPoint point)
 {
   vec2 halfWidth = 0.5 * kernelTexels_LIGHT(point);

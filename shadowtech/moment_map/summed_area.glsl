@@ -4,14 +4,14 @@ uniform usampler2DArray momentTable_LIGHT; // sums of all texels up to each, in 
 uniform vec4 tableUnits_LIGHT;             // number of units in 1
 uniform vec4 emptyMoments_LIGHT;           // the value outside a layer
 
-// Returns the sum over all texels before one along both axes.
+// Return the sum over all texels before one along both axes.
 uvec4 sumBefore_LIGHT(ivec2 texel, int layer)
 {
   uvec4 sum = texelFetch(momentTable_LIGHT, ivec3(max(texel - 1, 0), layer), 0);
   return all(greaterThan(texel, ivec2(0))) ? sum : uvec4(0u);
 }
 
-// Returns the mean over a rectangle at any place, in texels, where partly covered texels count in
+// Return the mean over a rectangle at any place, in texels, where partly covered texels count in
 // part. Along an axis it is the interval up to the last whole texel, plus a share of the last, less
 // a share of the first. These are three intervals with one beginning. Their products with those of
 // the other axis are rectangles of whole texels, whose sums do not wrap.

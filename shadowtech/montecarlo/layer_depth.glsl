@@ -16,9 +16,9 @@ float layerDepth()
 #endif
 }
 
-// Returns the plane's change of depth over the texel. That much behind each surface counts as
-// solid, so a sheet on a slope has no gaps between texels. For triangles along the light it ends at
-// the whole depth.
+// Return the plane's change of depth over the texel. That much behind each surface counts as solid,
+// so a sheet on a slope has no gaps between texels. For triangles along the light it ends at the
+// whole depth.
 float layerSpan(float depth)
 {
   return min(abs(dFdx(depth)) + abs(dFdy(depth)), 1.0);

@@ -44,7 +44,7 @@ FourPoints fourPoints(ivec2 pixel, int number)
   return points;
 }
 
-// Returns one of the points, relative to the light's centre.
+// Return one of the points, relative to the light's centre.
 vec3 lightPoint(FourPoints points, int number)
 {
   uint across = points.across[number % 4];

@@ -18,7 +18,7 @@ Shine shineAt(vec3 offset)
   return vec3(texelFetch(lightTexture, texel, 0).rgb);
 }
 
-// Returns visibility from colours. The colours of a few points seldom have the texture's mean, so
+// Return visibility from colours. The colours of a few points seldom have the texture's mean, so
 // they are scaled to it. Unhidden receivers then get the mean, without noise. Opposite points may
 // be brighter than those they replace, so the result is limited to 1.
 // @param seen sum over the points that are seen

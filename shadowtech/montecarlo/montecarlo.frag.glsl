@@ -63,9 +63,9 @@ Place placeOf(Receiver receiver, int view)
   return Place(rayFromView[view] * vec4(receiver.position, 1.0), plane * viewFromRay[view]);
 }
 
-// Finds how far the receiver's own surface rises in its texel. Where surfaces bend, another
-// triangle may be in the texel's centre, whose depth is that of the whole texel. It may lie above
-// the receiver's plane there.
+// Find how far the receiver's own surface rises in its texel. Where surfaces bend, another triangle
+// may be in the texel's centre, whose depth is that of the whole texel. It may lie above the
+// receiver's plane there.
 //
 // Slabs that begin less than a quarter of a texel above the plane count as the same surface.
 // Surfaces that bend up by 27 degrees do so within half a texel. Without this, smooth meshes with
@@ -96,7 +96,7 @@ void findOwnSurface(inout Receiver receiver)
   }
 }
 
-// Clips the range in which position + t * way is on the positive side of a plane.
+// Clip the range in which position + t * way is on the positive side of a plane.
 void cut(inout vec2 range, float position, float way)
 {
   float t = -position / way;
@@ -105,7 +105,7 @@ void cut(inout vec2 range, float position, float way)
   range.y = way == 0.0 && position < 0.0 ? -1.0 : range.y; // along the plane, on its negative side
 }
 
-// Returns the part of a ray on a view's map.
+// Return the part of a ray on a view's map.
 // @param place the receiver's in the view
 // @param depths of the map between which there may be slabs
 // @param cutAtBorders true to clip at the map's borders, too
@@ -160,14 +160,14 @@ Segment onMap(int view, Receiver receiver, Place place, vec3 way, float length, 
   return segment;
 }
 
-// Returns a point of the light in front of the receiver's plane: the given one or the opposite. The
+// Return a point of the light in front of the receiver's plane: the given one or the opposite. The
 // twin of sideOfSample() in ShadowRay.h.
 vec3 inFront(Receiver receiver, vec3 toCentre, vec3 offset)
 {
   return facesLight(receiver.normal, toCentre + offset) ? offset : -offset;
 }
 
-// Returns where rays to the light end, in lengths of their way.
+// Return where rays to the light end, in lengths of their way.
 float lengthOfRays(Receiver receiver)
 {
 #if defined(BOX)
@@ -186,7 +186,7 @@ vec2 depthsOf(int view)
 #ifdef CLASSIFY_PIXELS
 #define REGIONS 4 // how often the region is narrowed at most
 
-// Returns a corner of a box around the light, relative to its centre.
+// Return a corner of a box around the light, relative to its centre.
 vec3 cornerOfLight(int i)
 {
   vec3 corner = 2.0 * vec3(i & 1, (i >> 1) & 1, i >> 2) - 1.0;
@@ -219,7 +219,7 @@ bool liesBelow(Receiver receiver, vec4 plane, ivec2 lower, ivec2 upper, float de
   return true;
 }
 
-// Classifies all rays of a pixel by the region of the map that they can meet.
+// Classify all rays of a pixel by the region of the map that they can meet.
 //
 // All rays lie between those to the corners of a box around the light. So do their parts behind the
 // depth where the first slab begins (Curtis 2009, section 3.6, which states this for square
@@ -306,7 +306,7 @@ float classOf(Receiver receiver, Place place, vec3 toCentre, inout vec2 depths)
 #endif
 
 #ifdef CLASSIFY_RAYS
-// Classifies a single ray in the same way.
+// Classify a single ray in the same way.
 // @param where for UMBRA, the point in a slab that is nearest to the receiver as far as known: 0 at
 // the receiver, 1 at the light
 float classOf(int view, Segment segment, out float where)
@@ -336,14 +336,14 @@ float classOf(int view, Segment segment, out float where)
 }
 #endif
 
-// Returns where a point of a view's map lies on a ray, in lengths of its way.
+// Return where a point of a view's map lies on a ray, in lengths of its way.
 float lengthTo(int view, Receiver receiver, vec3 way, vec3 point)
 {
   vec4 place = viewFromRay[view] * vec4(point, 1.0);
   return max(dot(place.xyz / place.w - receiver.position, way), 0.0) / dot(way, way);
 }
 
-// Traces a ray through all views.
+// Trace a ray through all views; true if one of them blocks it.
 // @param first the receiver's place in the first view
 // @param depths between which there may be slabs, for a single view
 // @param searched set to true if the ray needed a search
@@ -387,7 +387,7 @@ bool isBlocked(Receiver receiver, Place first, vec3 way, float length, vec2 dept
   return false;
 }
 
-// Returns the gradient of visibility around a receiver in the penumbra of an edge, in view
+// Return the gradient of visibility around a receiver in the penumbra of an edge, in view
 // coordinates. While the receiver crosses the penumbra, the edge crosses the light.
 // @param across from the middle of the light's hidden part to that of its seen part
 // @param at where the edge is, in lengths of the way to the light

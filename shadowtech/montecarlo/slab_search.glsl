@@ -10,8 +10,7 @@ uniform sampler2DArray slabBounds;
 uniform int mapSide;  // in texels
 uniform int topLevel; // its single cell covers the whole map
 
-// Returns the cell that a ray enters at a texel: the one that extends farthest ahead, or the
-// grid's.
+// Return the cell that a ray enters at a texel: the one that extends farthest ahead, or the grid's.
 ivec2 cellFrom(ivec2 texel, int level, bvec2 ahead)
 {
 #ifdef NBUFFER
@@ -22,7 +21,7 @@ ivec2 cellFrom(ivec2 texel, int level, bvec2 ahead)
 #endif
 }
 
-// Returns the bounds of a cell (slab_bounds.comp.glsl).
+// Return the bounds of a cell (slab_bounds.comp.glsl).
 vec4 boundsOfCell(int view, ivec2 cell, int level)
 {
 #ifdef NBUFFER
@@ -35,7 +34,7 @@ vec4 boundsOfCell(int view, ivec2 cell, int level)
 #endif
 }
 
-// Returns bounds of all texels from one to another, and possibly of a few around them.
+// Return bounds of all texels from one to another, and possibly of a few around them.
 vec4 boundsOfRegion(int view, ivec2 lower, ivec2 upper)
 {
   ivec2 size = upper - lower + 1;
@@ -113,7 +112,7 @@ bool mayMeet(int first, int second)
   return (second == BEFORE && first != BEFORE) || (first == BEHIND && second != BEHIND);
 }
 
-// Tests whether a line meets a slab.
+// True if a line meets a slab.
 // @param begin at the receiver
 // @param where it does, from 0 at `begin` to 1 at `end`
 bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
@@ -166,7 +165,7 @@ bool meetsSlab(int view, ivec2 texel, float least, float greatest)
 
 int cellsVisited = 0; // by all searches of the invocation; tests read it
 
-// Tests whether the line from `begin` to `end`, in ray space and on the map, meets a slab.
+// True if the line from `begin` to `end`, in ray space and on the map, meets a slab.
 // @param where it enters the texel of that slab, from 0 at `begin` to 1 at `end`
 bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
 {

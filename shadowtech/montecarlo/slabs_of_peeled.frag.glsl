@@ -19,7 +19,7 @@ vec2 surfaceAt(int number, int firstLayer)
                          : vec2(2.0, 0.0);
 }
 
-// Returns where a solid ends that begins at a surface facing the light. On slopes, bodies thinner
+// Return where a solid ends that begins at a surface facing the light. On slopes, bodies thinner
 // than the surface's span would have gaps between texels. Such a body ends where its front surface
 // is in the next texel.
 float endOfSolid(vec2 front, float back)

@@ -7,17 +7,17 @@
 // as the filter's width). So penumbrae keep their width, and the filter removes noise along them.
 // Where all or no rays are blocked, visibility may differ by no more than noise.
 //
-// Receivers turned away from the light stay as they are and do not contribute. A pixel without a
-// pixel in its square that rays decided keeps its visibility bit for bit.
+// Receivers turned away from the light stay as they are and do not contribute. A pixel keeps its
+// visibility bit for bit if rays decided no pixel in its square.
 
 #include "shadowtech/montecarlo/classes.glsl"
 
 uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
 uniform sampler2D unfiltered;        // x: visibility, y: class
-// X: visibility, y: the greatest class in the row, as results of the first pass.
+// x: visibility, y: the greatest class in the row, as results of the first pass.
 uniform sampler2D source;
-// Xyz: visibility's gradient, 0 where rays tell none. The second pass reads its mean in the row.
+// xyz: visibility's gradient, 0 where rays tell none. The second pass reads its mean in the row.
 uniform sampler2D slopes;
 uniform ivec2 axis;     // direction of the pass
 uniform float lit;      // the visibility of unhidden receivers
@@ -31,7 +31,7 @@ layout(location = 1) out vec3 slopeOfRow;
 // the filter widens it by sqrt(1 + 12 * 0.09^2), which is less than 5 %.
 #define SIGMA_WIDTHS 0.09
 
-// Returns the squared distance of two visibilities in deviations of noise, which are sqrt(6) times
+// Return the squared distance of two visibilities in deviations of noise, which are sqrt(6) times
 // the error of RAYS x RAYS jittered rays.
 //
 // If a line across the light leaves a share v of it, that error squared is v (1 - v) / RAYS^3. Its

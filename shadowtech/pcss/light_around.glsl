@@ -16,8 +16,8 @@ struct SeenLight_LIGHT
 // The fewest texels between the ray of a separation and the light's rim.
 const float texelsToRim_LIGHT = 8.0;
 
-// Returns the axes of a ball's outline: the disk across the way from its centre to the receiver.
-// The disk is the same from every face. Its axes are those of the plane across the face, turned the
+// Return the axes of a ball's outline: the disk across the way from its centre to the receiver. The
+// disk is the same from every face. Its axes are those of the plane across the face, turned the
 // shortest way.
 mat2x3 ballAcross_LIGHT(float radius, vec3 position)
 {
@@ -41,13 +41,13 @@ SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
     vec3(point.normal * axes, -dot(point.normal, point.position)), most);
 }
 
-// Converts a vector from the receiver's face to another one.
+// Convert a vector from the receiver's face to another one.
 vec3 onFace_LIGHT(ViewPoint point, int face, vec3 v)
 {
   return face == point.face ? v : cubeFaceFromLight(face, lightFromCubeFace(point.face, v));
 }
 
-// Converts the receiver to another face, which need not see it.
+// Convert the receiver to another face, which need not see it.
 ViewPoint onFace_LIGHT(ViewPoint point, int face)
 {
   point.position = onFace_LIGHT(point, face, point.position);
@@ -57,20 +57,20 @@ ViewPoint onFace_LIGHT(ViewPoint point, int face)
   return point;
 }
 
-// Returns the distance from the light along a face's axis that a depth of its map means.
+// Return the distance from the light along a face's axis that a depth of its map means.
 float distanceOf_LIGHT(ViewPoint onFace, float depth)
 {
   vec2 depths = viewDepths_LIGHT[onFace.view];
   return (depth - depths.y) / depths.x;
 }
 
-// Returns the slack of another face. Faces of larger depths round these less.
+// Return the slack of another face. Faces of larger depths round these less.
 float slackOn_LIGHT(ViewPoint onFace, ViewPoint point, float slack)
 {
   return slack * max(viewDepths_LIGHT[onFace.view].x / viewDepths_LIGHT[point.view].x, 1.0);
 }
 
-// Returns the separation of the caster at the place where a point of the light is looked up; -1 if
+// Return the separation of the caster at the place where a point of the light is looked up; -1 if
 // none hides that.
 // @param beside the point times the separation of the lookup
 float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, float slack)
@@ -110,7 +110,7 @@ struct FaceWindow_LIGHT
   vec2 own; // the least and the largest distance of a ray at the receiver, along the face's axis
 };
 
-// Returns the largest m in [-1, 1] for which x >= m z holds for all corners, and so for all between
+// Return the largest m in [-1, 1] for which x >= m z holds for all corners, and so for all between
 // them.
 float leastSlope_LIGHT(vec4 x, vec4 z)
 {
@@ -155,7 +155,7 @@ FaceWindow_LIGHT windowOn_LIGHT(
   return window;
 }
 
-// Estimates the largest separation of casters at least as far along a face's axis as a depth of its
+// Estimate the largest separation of casters at least as far along a face's axis as a depth of its
 // map.
 //
 // That depth alone gives a bound, which is tight if the light lies across the axis. Elsewhere
@@ -207,7 +207,7 @@ float separationEstimate_LIGHT(
   return largest;
 }
 
-// Estimates the largest separation of a caster within the light's reach at that separation. Each
+// Estimate the largest separation of a caster within the light's reach at that separation. Each
 // step searches a smaller area.
 float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 {
@@ -231,7 +231,7 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
   return separation;
 }
 
-// Returns how many texels away the receiver's plane is evaluated at a separation.
+// Return how many texels away the receiver's plane is evaluated at a separation.
 float texelsAcross_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
   FaceWindow_LIGHT window = windowOn_LIGHT(point, point, light, separation);
@@ -239,7 +239,7 @@ float texelsAcross_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separatio
   return 0.5 * max(texels.x, texels.y);
 }
 
-// Decides all lookups at a separation by the map's bounds: 1 lit, 0 hidden, -1 undecided.
+// Decide all lookups at a separation by the map's bounds: 1 lit, 0 hidden, -1 undecided.
 float decidedWithin_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation, float slack)
 {
   bool lit = true;
@@ -265,7 +265,7 @@ float decidedWithin_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separati
   return lit ? 1.0 : 0.0;
 }
 
-// Returns the least separation of casters, if the map's bounds decide that all lookups are hidden.
+// Return the least separation of casters, if the map's bounds decide that all lookups are hidden.
 float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
   float least = light.most;
@@ -286,9 +286,9 @@ float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separa
   return least;
 }
 
-// Spreads a point of the light's shape for the search, and returns its weight: the share of the
-// area around it. Points are denser in the middle, where low casters are found. All angles get
-// equally many, and so do casters at all distances between light and receiver.
+// Spread a point of the light's shape for the search, and return its weight: the share of the area
+// around it. Points are denser in the middle, where low casters are found. All angles get equally
+// many, and so do casters at all distances between light and receiver.
 // @param place on return, relative to the largest separation
 float spreadForSearch_LIGHT(inout vec2 place, SeenLight_LIGHT light, ViewPoint point, float largest)
 {

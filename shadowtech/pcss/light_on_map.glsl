@@ -8,7 +8,7 @@ struct SeenLight_LIGHT
   vec3 facing; // how far its axes and its centre are in front of the receiver's plane
 };
 
-// Projects the light to the plane across the view through its centre. A directional light is at
+// Project the light to the plane across the view through its centre. A directional light is at
 // distance 1.
 SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
 {
@@ -24,7 +24,7 @@ SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
   return SeenLight_LIGHT(texels, reach, vec3(point.normal.xy * across, centre));
 }
 
-// Returns the separation of a caster at a depth of the map.
+// Return the separation of a caster at a depth of the map.
 float separationOf_LIGHT(ViewPoint point, float depth)
 {
   vec2 depths = viewDepths_LIGHT[point.view];
@@ -38,7 +38,7 @@ float separationOf_LIGHT(ViewPoint point, float depth)
 #endif
 }
 
-// Returns the separation of the caster at the place where a point of the light is looked up; -1 if
+// Return the separation of the caster at the place where a point of the light is looked up; -1 if
 // none hides that.
 // @param beside the point times the separation of the lookup
 float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, float slack)
@@ -53,7 +53,7 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
   return separationOf_LIGHT(point, linearDepth_LIGHT(point.view, texel, depth));
 }
 
-// Returns the largest separation of a caster within the light's reach at that separation. Each step
+// Return the largest separation of a caster within the light's reach at that separation. Each step
 // searches a smaller area.
 float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 {
@@ -73,28 +73,28 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
   return separation;
 }
 
-// Returns how many texels away the receiver's plane is evaluated at a separation.
+// Return how many texels away the receiver's plane is evaluated at a separation.
 float texelsAcross_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
   vec2 farthest = min(light.reach * separation, vec2(viewSize_LIGHT));
   return max(farthest.x, farthest.y);
 }
 
-// Decides all lookups at a separation by the map's bounds: 1 lit, 0 hidden, -1 undecided.
+// Decide all lookups at a separation by the map's bounds: 1 lit, 0 hidden, -1 undecided.
 float decidedWithin_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation, float slack)
 {
   return decided_LIGHT(point, light.reach * separation, slack);
 }
 
-// Returns the least separation of casters, if the map's bounds decide that all lookups are hidden.
+// Return the least separation of casters, if the map's bounds decide that all lookups are hidden.
 float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
   TexelWindow_LIGHT window = windowAround_LIGHT(point, light.reach * separation + 0.01);
   return separationOf_LIGHT(point, boundsOf_LIGHT(point, window).y);
 }
 
-// Spreads a point of the light's shape for the search, and returns its weight: the share of the
-// area around it. Points are denser in the middle, where low casters are found.
+// Spread a point of the light's shape for the search, and return its weight: the share of the area
+// around it. Points are denser in the middle, where low casters are found.
 // @param place on return, relative to the largest separation
 float spreadForSearch_LIGHT(inout vec2 place, SeenLight_LIGHT light, ViewPoint point, float largest)
 {

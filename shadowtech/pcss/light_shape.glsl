@@ -2,7 +2,7 @@
 
 uniform mat3 lightFromUnit_LIGHT; // the shape's axes in light space
 
-// Returns how far out a point of the shape is, from 0 in the middle to 1 at the rim.
+// Return how far out a point of the shape is, from 0 in the middle to 1 at the rim.
 float extentOf_LIGHT(vec2 place)
 {
 #if PCSS_RECTANGLE_LIGHT
@@ -12,7 +12,7 @@ float extentOf_LIGHT(vec2 place)
 #endif
 }
 
-// Returns the extent of the whole shape along a direction.
+// Return the extent of the whole shape along a direction.
 // @param axes extents of its two axes along it
 float extentAlong_LIGHT(vec2 axes)
 {

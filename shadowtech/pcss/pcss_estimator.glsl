@@ -23,8 +23,8 @@ const float leastShareOfSeparation_LIGHT = 0.75;
 #define PCSS_NO_BLOCKER 6
 
 #if PCSS_ASKS_BOUNDS_LIGHT
-// Decides search and filter by the map's bounds: 1 lit, 0 hidden, -1 undecided. Neither looks
-// beyond the largest separation.
+// Decide search and filter by the map's bounds: 1 lit, 0 hidden, -1 undecided. Neither looks beyond
+// the largest separation.
 float decidedByBounds_LIGHT(ViewPoint point, SeenLight_LIGHT light, float largest, float slack)
 {
   float decided = decidedWithin_LIGHT(point, light, largest, slack);
@@ -37,7 +37,7 @@ float decidedByBounds_LIGHT(ViewPoint point, SeenLight_LIGHT light, float larges
 }
 #endif
 
-// Returns a cell's pattern of points: the x axis of a rotated disk, or a shift of the square.
+// Return a cell's pattern of points: the x axis of a rotated disk, or a shift of the square.
 vec2 patternOf_LIGHT(ViewPoint point)
 {
   ivec2 cell = ivec2(4.0 * point.texel);
@@ -49,7 +49,7 @@ vec2 patternOf_LIGHT(ViewPoint point)
 #endif
 }
 
-// Returns a point of the light's shape by its number and the cell's pattern.
+// Return a point of the light's shape by its number and the cell's pattern.
 // @param facing how far the shape's axes and centre are in front of the receiver's plane
 vec2 lightPoint_LIGHT(int number, vec2 pattern, vec3 facing)
 {
@@ -84,7 +84,7 @@ void add_LIGHT(inout Blockers_LIGHT blockers, float separation, float area)
   blockers.least = min(blockers.least, separation);
 }
 
-// Searches up to the largest separation for casters that hide any point of the light.
+// Search up to the largest separation for casters that hide any point of the light.
 Blockers_LIGHT blockersOf_LIGHT(
   ViewPoint point, SeenLight_LIGHT light, vec2 pattern, float largest, float slack)
 {
@@ -108,10 +108,10 @@ Blockers_LIGHT blockersOf_LIGHT(
   return blockers;
 }
 
-// Returns the separation of the caster that hides a point of the light from the receiver; -1 if
-// none does. A caster found at another separation hides another point, so the point is looked up
-// again at that separation. Examples are the wall of a corner, or a surface farther down or nearer
-// to the light.
+// Return the separation of the caster that hides a point of the light from the receiver; -1 if none
+// does. A caster found at another separation hides another point, so the point is looked up again
+// at that separation. Examples are the wall of a corner, or a surface farther down or nearer to the
+// light.
 // @param separation of the first lookup
 // @param largest separation of any caster
 float hiderOf_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 place, float separation,
@@ -144,8 +144,8 @@ float hiderOf_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 place, float se
   return -1.0;
 }
 
-// Searches with the filter's points for the casters that hide each. There are more of them, and
-// none is tested in vain.
+// Search with the filter's points for the casters that hide each. There are more of them, and none
+// is tested in vain.
 Blockers_LIGHT blockersOfFilter_LIGHT(
   ViewPoint point, SeenLight_LIGHT light, vec2 pattern, float largest, float slack)
 {

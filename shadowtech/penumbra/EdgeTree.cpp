@@ -48,7 +48,7 @@ EdgeTriangle edgeTriangle(const std::array<glm::vec3, 3>& corners, bool oneSided
   return triangle;
 }
 
-/// Return a cone around both. It says nothing if one of them does not.
+/// Return a cone around both; it is undefined if one of them is.
 EdgeTree::Cone joined(const EdgeTree::Cone& one, const EdgeTree::Cone& other)
 {
   EdgeTree::Cone cone;
@@ -262,8 +262,8 @@ TreeEdge EdgeTree::treeEdge(const std::array<std::uint32_t, 2>& triangles, const
 }
 
 //------------------------------------------------------------------------------
-/// Return for each triangle a cone around its own normal and those across its edges. A cone that
-/// says nothing marks triangles with an edge that may have a weight from anywhere.
+/// Return for each triangle a cone around its own normal and those across its edges. An undefined
+/// cone marks triangles with an edge that may have a weight from anywhere.
 std::vector<EdgeTree::Cone> EdgeTree::conesOfTriangles() const
 {
   std::vector<Cone> cones(this->triangles_.size());

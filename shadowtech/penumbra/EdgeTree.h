@@ -28,7 +28,8 @@ struct EdgeTriangle
   glm::vec3 unsure;
   /// How far off its plane, times its height, a tracer may see a point in its box.
   float noise;
-  bool oneSided; ///< true if it blocks only rays through its back, which face away from the light
+  /// True if it blocks only rays through its back, which then faces away from the light.
+  bool oneSided;
 
   /// Bounds rounding of a direction's product with twice the triangle's area vector. The factor
   /// applies to the direction's length times the squared reach of the corners
@@ -99,7 +100,7 @@ public:
   struct Cone
   {
     glm::vec3 axis{ 0.0f };
-    float cosine = -1.0f; ///< of its half angle; says nothing if not above 0
+    float cosine = -1.0f; ///< of its half angle; the cone is undefined if not above 0
     float sine = 0.0f;
     float mostPerHeight = 0.0f; ///< 1 over the least height of these triangles
     float reach = 0.0f;         ///< the largest reach of their edges

@@ -13,7 +13,7 @@ uniform usampler2D planesOfPrimitives; // 0, or 1 + the plane
 // 0: receives no shadow; 1: on none of the chosen planes; n + 2: on the n-th plane.
 out uint plane;
 
-// Returns the entry of planesOfPrimitives for a drawn surface's primitive.
+// Return the entry of planesOfPrimitives for a drawn surface's primitive.
 uint planeOf(uint surface, uint primitive)
 {
   // Find the last block that begins at or before the primitive.

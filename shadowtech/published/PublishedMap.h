@@ -16,7 +16,7 @@ namespace gnomon
 /// comparison with exact maps. docs/techniques/published.md lists their errors.
 ///
 /// Only triangles that face away from the light cast. One layer holds them dilated, another eroded,
-/// by the same offset on all sides. Its depth is that of the triangle's plane at the texel's
+/// by the same offset on all sides. Both hold the depth of the triangle's plane at the texel's
 /// centre. A receiver is lit if it is no deeper than both layers, in shadow if it is deeper than
 /// both, else uncertain.
 

@@ -6,7 +6,7 @@
 uniform sampler2D lightPoints_LIGHT; // the search's points, then the filter's
 uniform float widthLight_LIGHT;
 
-// Returns the distance from the light of the caster at a place on the map; beyond everything if
+// Return the distance from the light of the caster at a place on the map; beyond everything if
 // there is none.
 float distanceAt_LIGHT(ViewPoint point, vec2 place)
 {
@@ -21,7 +21,7 @@ float distanceAt_LIGHT(ViewPoint point, vec2 place)
   return along * length(vec3(acrossOf_LIGHT(point.view, vec2(texel) + 0.5), 1.0));
 }
 
-// Returns the listings' random number for a pixel.
+// Return the listings' random number for a pixel.
 float random_LIGHT(vec2 pixel)
 {
   return fract(sin(dot(pixel, vec2(12.9898, 78.233))) * 43758.5453);

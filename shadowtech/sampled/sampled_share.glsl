@@ -10,7 +10,7 @@ uniform vec3 pointShine_LIGHT;
 #define pointShine_LIGHT 1.0
 #endif
 
-// Returns the contribution for a receiver that faces the centre. `normalCentre` and `toCentre` are
+// Return the contribution for a receiver that faces the centre. `normalCentre` and `toCentre` are
 // in the centre's light space.
 Shine share_LIGHT(vec3 positionView, vec3 normalView, vec3 normalCentre, vec3 toCentre)
 {
