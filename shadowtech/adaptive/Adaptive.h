@@ -6,23 +6,23 @@
 namespace gnomon
 {
 
-/// The disc that is filtered over, in numbers whose squares count.
+/// Settings of the disc; each counts by its square.
 struct AdaptiveSettings
 {
-  int discGrid = 8;  ///< points of a disc
-  int discSets = 16; ///< discs that differ
+  int discGrid = 8;  ///< a disc has discGrid^2 points
+  int discSets = 16; ///< there are discSets^2 different discs
 };
 const SettingsTable& adaptiveSettings();
 
-/// `adaptive`: percentage closer filtering over a jittered disc (Uralsky, GPU Gems 2, chapter 17;
-/// Rzeczkowski, section 3.2.4), which reads few texels where all of the disc is lit or hidden
-/// (docs/techniques/pcf.md).
+/// `adaptive`: percentage closer filtering over a jittered disc, which reads few texels where the
+/// whole disc is lit or hidden (docs/techniques/pcf.md). Sources: Uralsky, GPU Gems 2, chapter 17;
+/// Rzeczkowski, section 3.2.4.
 ///
-/// `early_out` `exact` asks the least and the largest depth that the map has in blocks around the
-/// point. Where the receiver's plane is in front of all of a block's casters, or behind them, each
-/// of the disc's points would say so. First blocks as large as the disc; then, since a plane's own
-/// depths differ by more than the map is pushed back within such blocks, those of a quarter to half
-/// of that.
+/// `early_out` `exact` compares the receiver's plane with the least and the largest depth of blocks
+/// of the map around the point. Where the plane is in front of all of a block's casters, or behind
+/// them, all of the disc's points agree. Blocks as large as the disc come first. Within these, a
+/// plane's own depths may differ by more than the map's push. So blocks of a quarter to half of
+/// that size follow.
 class Adaptive : public DepthMapTechnique
 {
 public:
@@ -42,7 +42,7 @@ private:
   GlTexture discs_; ///< a layer for each point of the disc, a texel for each disc
   int discGrid_ = 0;
   int discSets_ = 0;
-  DepthBounds bounds_; ///< none where the light does not ask for them
+  DepthBounds bounds_; ///< empty unless `early_out` is exact
 };
 
 } // namespace gnomon

@@ -12,7 +12,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 std::vector<glm::vec2> jitteredDiscs(int grid, int discs)
 {
-  // The standard's engines give the same numbers everywhere, its distributions do not.
+  // The standard's engines give the same numbers everywhere; its distributions do not.
   std::mt19937 random(1);
   const auto jittered = [&](int cell) { return (cell + random() / 4294967296.0) / grid; };
   std::vector<glm::vec2> points;

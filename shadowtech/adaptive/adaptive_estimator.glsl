@@ -1,6 +1,6 @@
-// Percentage closer filtering over a jittered disc, which reads less of it where all of it is lit
-// or hidden (Adaptive.h). DISC_TEXELS_LIGHT is the disc's diameter, DISC_POINTS_LIGHT are its
-// points, the first DISC_RING_LIGHT of which lie on its rim.
+// Percentage closer filtering over a jittered disc, which reads fewer points where the whole disc
+// is lit or hidden (Adaptive.h). DISC_TEXELS_LIGHT is the disc's diameter. DISC_POINTS_LIGHT is the
+// number of its points, of which the first DISC_RING_LIGHT lie on its rim.
 
 #include "shadowtech/base/kernel_units.glsl"
 #include "shadowtech/depth_map/kernel.glsl"
@@ -10,7 +10,7 @@
 
 uniform sampler2DArray discs_LIGHT; // a layer for each point, a texel for each disc
 
-// The share of some of the disc's points that is hidden, times their number.
+// Return the sum of hidden shares over some of the disc's points.
 float hiddenOf_LIGHT(ViewPoint point, mat2 shape, ivec2 disc, int first, int end, float slack)
 {
   float hidden = 0.0;

@@ -8,7 +8,7 @@ namespace gnomon
 namespace
 {
 
-/// What has more texels is worth a work group.
+/// A shape with more texels than this is worth a work group of its own.
 constexpr double mostTexelsOfWalk = 256.0;
 
 template <typename Element>
@@ -84,7 +84,7 @@ void SegmentBatch::add(const SegmentOnTexels& segment)
 {
   const SegmentRecord& record = segment.record();
   const Span rows = segment.rows();
-  // Of what is steeper, each row has few columns.
+  // Each row of a steep segment has few columns.
   this->walks.add(this->records.size(), rows,
     2.0 + std::abs(record.alongX) * std::min(1.0, std::abs(record.perY)));
   this->records.push_back(record);

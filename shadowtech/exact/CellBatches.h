@@ -14,37 +14,40 @@ namespace gnomon
 {
 
 /// @file
-/// What some rows of a conservative map are drawn from on the GPU, as shaders read it.
+/// Records from which compute shaders rasterize some rows of a conservative map.
 
-/// How many invocations a work group has.
+/// Invocations per work group.
 constexpr int invocationsPerGroup = 64;
 
-/// Who walks which rows of what is drawn by compute shaders.
+/// Lists of which invocations rasterize which rows.
 struct RowWalks
 {
-  ///@{ The number of a shape and a row of it.
-  std::vector<glm::uvec2> ofShapes; ///< an invocation walks all that follow
-  std::vector<glm::uvec2> ofRows;   ///< those of a work group walk a row each
+  ///@{ Pairs of a shape's number and a row of it.
+  std::vector<glm::uvec2> ofShapes; ///< one invocation rasterizes this row and all that follow
+  /// Each invocation of a work group rasterizes one row, from this one on.
+  std::vector<glm::uvec2> ofRows;
   ///@}
 
-  /// @param columns how many the shape has, about
+  /// Add the rows of a shape to one of the lists.
+  /// @param columns the shape's approximate width, in texels
   void add(std::size_t shape, Span rows, double columns);
-  /// That the larger of them takes; so of all below.
+  /// Return the bytes of the larger list. The functions of this name below return those of their
+  /// largest buffer.
   std::size_t largestBytes() const;
 };
 
-/// Polygons.
+/// Polygons and their sides.
 struct PolygonBatch
 {
   std::vector<PolygonRecord> records;
   std::vector<SideRecord> sides;
 
-  /// @return its number
+  /// @return the polygon's number
   std::size_t add(const PolygonOnTexels& polygon);
   std::size_t largestBytes() const;
 };
 
-/// Edges.
+/// Edges and their rows.
 struct SegmentBatch
 {
   std::vector<SegmentRecord> records;
@@ -54,7 +57,7 @@ struct SegmentBatch
   std::size_t largestBytes() const;
 };
 
-/// Triangles, of which some spoil texels.
+/// Triangles and their rows.
 struct TriangleBatch
 {
   PolygonBatch polygons;
@@ -64,7 +67,7 @@ struct TriangleBatch
   std::size_t largestBytes() const;
 };
 
-/// Which polygons are a ring, the middle first, and which edges are around it.
+/// A ring: its polygons, the middle first, and the edges around it.
 struct RingRecord
 {
   std::uint32_t firstPolygon, polygonCount;
@@ -72,7 +75,7 @@ struct RingRecord
 };
 static_assert(sizeof(RingRecord) == 16, "as shaders read it");
 
-/// Parts of the casters' surface.
+/// Rings of triangles, the edges around them, and their rows.
 struct RingBatch
 {
   PolygonBatch polygons;
@@ -84,19 +87,19 @@ struct RingBatch
   std::size_t largestBytes() const;
 };
 
-/// What threads collect of a kind of batch, in so many that shaders can read each from one buffer.
+/// Batches of one kind that threads fill, each small enough for the buffers of shaders.
 template <typename Batch>
 class CollectedBatches
 {
 public:
-  /// @param mostBytes of a buffer, after which another batch begins; so it may become larger by
-  /// what is added last
+  /// @param mostBytes of a buffer after which the next batch begins. The item added last may exceed
+  /// it.
   explicit CollectedBatches(std::size_t mostBytes)
     : mostBytes_(mostBytes)
   {
   }
 
-  /// Where the calling thread adds.
+  /// Return the batch that the calling thread adds to.
   Batch& local()
   {
     std::vector<Batch>& mine = this->ofThreads_.local();
@@ -107,7 +110,7 @@ public:
     return mine.back();
   }
 
-  /// Hands over all batches and forgets them. No thread may add meanwhile.
+  /// Pass all batches to `draw`, then drop them. No thread may add meanwhile.
   template <typename Draw>
   void drawAll(const Draw& draw)
   {

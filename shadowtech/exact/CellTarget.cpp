@@ -18,7 +18,7 @@ namespace gnomon
 namespace
 {
 
-/// Bindings of buffers, as the shaders have them.
+/// Binding points of the shaders' buffers.
 enum CellBinding : GLuint
 {
   polygonsBinding,
@@ -30,14 +30,14 @@ enum CellBinding : GLuint
   bindings
 };
 
-constexpr const char* whatIsDrawnFrom = "what a conservative map is drawn from";
+constexpr const char* whatIsDrawnFrom = "the records of a conservative map";
 
 constexpr const char* folder = "shadowtech/exact/";
 
-/// As OpenGL promises of one dispatch.
+/// OpenGL guarantees this many work groups per dispatch and axis.
 constexpr std::size_t mostGroups = 65535;
 
-/// As texel_cells.glsl orders them.
+/// In the order of texel_cells.glsl.
 enum Number
 {
   nearest,
@@ -51,7 +51,7 @@ enum Number
 };
 constexpr std::size_t bytesOfCell = numbers * sizeof(std::uint32_t);
 
-/// The bits of infinity, as shaders order them: of all minima, before there is any.
+/// The shaders' ordered bits of infinity, with which all minima start.
 constexpr std::uint32_t nothing = 0xff800000u;
 
 float numberOf(std::uint32_t ordered)
@@ -75,7 +75,7 @@ Cell cellOf(const std::uint32_t* ordered)
   return cell;
 }
 
-/// A number as GLSL's double precision has it.
+/// Return a number as a GLSL literal in double precision.
 std::string literalOf(double number)
 {
   std::ostringstream text;
@@ -91,7 +91,7 @@ const std::vector<std::string>& sampleDefines()
   return defines;
 }
 
-/// Gives shaders a buffer of what there is; where there is nothing they do not look.
+/// Upload elements to a buffer and bind it. Shaders do not read a binding without elements.
 template <typename Element>
 void bind(CellBinding binding, GlBuffer& buffer, const std::vector<Element>& elements)
 {
@@ -110,7 +110,7 @@ std::string CellTarget::whyUnsupported()
   if (!GNOMON_HAS_GL(VERSION_4_3))
   {
     const GLubyte* version = glGetString(GL_VERSION);
-    return std::string("drawing conservative maps on the GPU takes OpenGL 4.3, whose shaders have "
+    return std::string("baking conservative maps on the GPU takes OpenGL 4.3, whose shaders have "
                        "double precision, and this is ") +
       (version ? reinterpret_cast<const char*>(version) : "none");
   }
@@ -145,7 +145,8 @@ int CellTarget::mostRows(int width, std::size_t mostBytes)
 }
 
 //------------------------------------------------------------------------------
-/// To be called before the next buffer is made, which forgets errors.
+/// Throw if OpenGL reports an error. Must be called before the next allocation, which clears
+/// errors.
 void CellTarget::requireNoError() const
 {
   const GLenum error = glGetError();
@@ -154,7 +155,7 @@ void CellTarget::requireNoError() const
     return;
   }
   std::ostringstream what;
-  what << "a conservative map of " << this->width_ << " texels could not be drawn on the GPU: ";
+  what << "a conservative map of " << this->width_ << " texels could not be baked on the GPU: ";
   if (error == GL_OUT_OF_MEMORY)
   {
     throw TextureMemoryError(what.str() + "OpenGL is out of memory");

@@ -14,40 +14,40 @@ namespace gnomon
 {
 
 /// @file
-/// The cells of a conservative map on the GPU.
+/// Cells of a conservative map on the GPU.
 
-/// Some rows of a map on the GPU. While one of these is alive OpenGL's state is its own; it is put
-/// back in the end.
+/// Some rows of a conservative map on the GPU. While an object lives, it changes OpenGL's state;
+/// its destructor restores it.
 class CellTarget
 {
 public:
-  /// Why the current context cannot draw them, as a clause; empty where it can.
+  /// Return why the current context cannot bake the cells, as a clause; empty if it can.
   static std::string whyUnsupported();
 
-  /// Empty cells.
-  /// @throws TextureMemoryError where there is no room, std::runtime_error where OpenGL fails; so
-  /// does all that follows: what was not drawn would pass for lit
+  /// Allocate empty cells.
+  /// @throws TextureMemoryError without enough memory, std::runtime_error if OpenGL fails. All
+  /// other functions throw these, too, because missing casters would pass for lit.
   CellTarget(ShaderLibrary& shaders, int width, Span rows);
 
-  /// How many rows OpenGL takes at once; one at least.
-  /// @param mostBytes that their cells may take
+  /// Return how many rows OpenGL can hold at once, at least one.
+  /// @param mostBytes limit for the cells of these rows
   static int mostRows(int width, std::size_t mostBytes);
 
-  /// Draws edges.
+  /// Rasterize edges.
   void draw(const SegmentBatch& batch);
-  /// Spoils texels.
+  /// Leave all texels that the triangles touch undecided.
   void spoil(const TriangleBatch& batch);
-  /// Draws triangles.
+  /// Rasterize triangles, or rings of them.
   void draw(const TriangleBatch& batch);
   void draw(const RingBatch& batch);
-  /// Notes the noise of triangles.
+  /// Gather the noise of triangles.
   void drawNoise(const TriangleBatch& batch);
-  /// To be called between edges and what spoils texels, triangles, and their noise: each looks at
-  /// what was drawn before.
+  /// Separate passes that read results of earlier ones. Call it after edges and spoil(), after
+  /// triangles, and after noise.
   void endPass();
 
-  /// Reads the cells, row by row.
-  /// @param take told of each, from several threads, with its number among these rows
+  /// Read the cells back, row by row.
+  /// @param take called with each cell and its number among these rows, from several threads
   void read(const std::function<void(std::size_t texel, const Cell& cell)>& take);
 
 private:

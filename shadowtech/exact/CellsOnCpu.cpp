@@ -10,11 +10,10 @@ namespace gnomon
 namespace
 {
 
-/// The triangles of a band whose noise is still to be drawn.
+/// The triangles of a band whose noise is still to be gathered.
 struct DrawnTriangles
 {
-  /// Of how many it is kept where they are among the texels, which takes as long to find as to draw
-  /// them: some 10 MB.
+  /// Limit of `kept`, some 10 MB. Converting a triangle to texels takes as long as rasterizing it.
   static constexpr std::size_t mostKept = std::size_t(1) << 14;
   std::vector<PolygonOnTexels> kept;
   std::vector<BandItem> others;
@@ -25,8 +24,7 @@ struct DrawnTriangles
   }
 };
 
-/// A map while it is drawn: first which rows each triangle and edge lies in, then the rows, band by
-/// band.
+/// A map in the making. Its constructor sorts triangles and edges into bands of rows.
 class CellDrawing
 {
 public:
@@ -50,7 +48,7 @@ public:
 
   bool blind() const { return this->casters_.blind(); }
 
-  /// Draws all bands.
+  /// Rasterize all bands.
   void draw(const TakeCell& take) const
   {
     drawBands<Cell>(
@@ -76,8 +74,8 @@ private:
       });
   }
 
-  /// Ends first: what lies behind one does not matter for how far the layers before it climb. Noise
-  /// last: what lies behind the one layer does not matter for how far off that rays have to start.
+  /// Rasterize ends first, as layers behind an end do not count for climb. Gather noise last, as
+  /// triangles behind the one layer do not matter for how far off it rays must start.
   void drawBand(int band, Span rows, Cell* cells) const
   {
     this->segments_.visit(band,
@@ -110,13 +108,13 @@ private:
     }
   }
 
-  /// Draws the triangles of a band part by part, of each its ends first.
+  /// Rasterize the triangles of a band part by part, the ends of each part first.
   void drawParts(int band, Span rows, Cell* cells, DrawnTriangles& drawn) const
   {
     struct PartItem
     {
       CasterPart part;
-      bool triangle; ///< else an edge
+      bool triangle; ///< false for an edge
       BandItem item;
     };
     std::vector<PartItem> items;

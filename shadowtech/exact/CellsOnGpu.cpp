@@ -12,11 +12,11 @@ namespace gnomon
 namespace
 {
 
-/// Some rows of a map.
+/// Bakes some rows of a map.
 class RowsOnGpu
 {
 public:
-  /// @param mostBytes of what is drawn from in one buffer (CollectedBatches)
+  /// @param mostBytes limit for a buffer of records (CollectedBatches)
   RowsOnGpu(
     ShaderLibrary& shaders, std::size_t mostBytes, const MapCasters& casters, int size, Span rows)
     : casters_(casters)
@@ -94,7 +94,7 @@ public:
   }
 
 private:
-  /// Those that are drawn, so many of them after one another as visitInParts().
+  /// Visit rasterized triangles in parts, as visitInParts().
   template <typename Visit, typename FinishPart>
   void visitTriangles(const Visit& visit, const FinishPart& finishPart) const
   {
@@ -105,7 +105,7 @@ private:
       {
         const BandItem item{ number, placements.surfaceOf(placements[number]).firstTriangle + i };
         const MapPolygon polygon = this->casters_.polygon(item);
-        if (polygon.facing != 0) // else its edges alone are drawn, or it spoils texels
+        if (polygon.facing != 0) // other triangles are edges alone, or leave texels undecided
         {
           visit(item, polygon);
         }
@@ -133,7 +133,7 @@ bool CellsOnGpu::draw(const CasterScene& scene, const CasterEdges& edges, int si
 {
   if (covering == Covering::Silhouette)
   {
-    throw std::logic_error("the GPU does not draw maps by silhouettes");
+    throw std::logic_error("the GPU cannot bake maps of silhouettes");
   }
   tbb::enumerable_thread_specific<std::vector<BandItem>> found;
   const MapCasters casters(scene, edges, covering,

@@ -6,24 +6,25 @@
 namespace gnomon
 {
 
-/// Draws conservative maps' cells on the GPU. The CPU looks at casters as it does where it draws
-/// them, and makes them ready for the texels; which texels they meet and what these keep is found
-/// by shaders (CellTarget.h), which get the same cells, but for G and noise of texels that a caster
-/// has spoilt: nothing asks for these. All calls want the context to be current.
+/// Bakes cells of conservative maps on the GPU. The CPU clips casters and converts them to texels,
+/// as drawCellsOnCpu() does. Shaders then rasterize them (CellTarget.h).
+///
+/// The cells equal those of the CPU, except for climb and noise of texels that a caster leaves
+/// undecided; nothing reads these. All calls need the context to be current.
 class CellsOnGpu
 {
 public:
-  /// What is on the GPU at once, in bytes.
+  /// Memory limits on the GPU, in bytes.
   struct Room
   {
-    /// Of cells: enough for all of a map of 2048; larger ones are drawn in parts.
+    /// For cells: enough for a whole map of side 2048. Larger maps are baked in parts.
     std::size_t cells = std::size_t(1) << 27;
-    /// Of what they are drawn from, in one buffer, before another is begun: half of what shaders
-    /// read at least, by OpenGL 4.3, so that what a single caster's part adds has room.
+    /// For a buffer of records, after which the next one begins. It is half of what OpenGL 4.3
+    /// guarantees to shaders, so one caster's records still fit.
     std::size_t records = std::size_t(1) << 23;
   };
 
-  /// The context must support them (CellTarget::whyUnsupported()).
+  /// The context must pass CellTarget::whyUnsupported().
   /// @param shaders must outlive this
   explicit CellsOnGpu(ShaderLibrary& shaders)
     : CellsOnGpu(shaders, Room())
@@ -35,8 +36,8 @@ public:
   {
   }
 
-  /// As drawCellsOnCpu().
-  /// @throws TextureMemoryError where there is no room, std::runtime_error where OpenGL fails,
+  /// Bake a map's cells as drawCellsOnCpu().
+  /// @throws TextureMemoryError without enough memory, std::runtime_error if OpenGL fails,
   /// std::logic_error for `Covering::Silhouette`
   bool draw(const CasterScene& scene, const CasterEdges& edges, int size, Covering covering,
     const TakeCell& take) const;

@@ -20,10 +20,10 @@ namespace gnomon
 namespace
 {
 
-/// Rounding of depths to float, and of what is computed with them.
+/// Covers rounding of depths to float, and of the arithmetic on them.
 constexpr float depthRounding = 4.76837158e-7f; // 2^-21
 
-/// Depths that are less, or more, whatever was rounded.
+/// Return a depth that is certainly less, or more, despite rounding.
 float below(float depth)
 {
   return std::isfinite(depth) ? depth - depthRounding * (1.0f + std::abs(depth)) : depth;
@@ -33,23 +33,23 @@ float above(float depth)
   return std::isfinite(depth) ? depth + depthRounding * (1.0f + std::abs(depth)) : depth;
 }
 
-/// What follows from a cell, when all is drawn.
+/// Return the bounds that follow from a finished cell.
 TexelBounds boundsOf(const Cell& cell)
 {
   TexelBounds bounds;
   bounds.litUpTo = below(cell.nearest);
-  // The one layer up to here is the receiver's.
+  // The receiver lies on the only layer up to this depth.
   bounds.litUpToOnCasters = std::max(bounds.litUpTo, below(cell.oneLayerUpTo()));
   bounds.leastOffsetOnCasters = cell.noise / static_cast<float>(sharpCosine);
   bounds.shadowFrom = above(std::min(cell.contained, cell.covered));
   return bounds;
 }
 
-/// What holds of all of no texels, to begin with.
+/// The neutral element of bothOf().
 constexpr TexelBounds everyTexel{ std::numeric_limits<float>::infinity(),
   std::numeric_limits<float>::infinity(), 0.0f, -std::numeric_limits<float>::infinity() };
 
-/// What is true of both.
+/// Return bounds that hold in both texels.
 TexelBounds bothOf(const TexelBounds& a, const TexelBounds& b)
 {
   return { std::min(a.litUpTo, b.litUpTo), std::min(a.litUpToOnCasters, b.litUpToOnCasters),
@@ -57,13 +57,13 @@ TexelBounds bothOf(const TexelBounds& a, const TexelBounds& b)
     std::max(a.shadowFrom, b.shadowFrom) };
 }
 
-/// A few receivers as a map sees them.
+/// The lookups of a few receivers.
 struct Looks
 {
   static constexpr std::size_t most = 256;
-  std::array<int, most> texel; ///< -1 where the map cannot say anything
+  std::array<int, most> texel; ///< -1 if the map decides nothing
   ///@{
-  /// What the depth is where the shadow ray starts, at most and at least.
+  /// Bounds on the depth at which the shadow ray starts.
   std::array<float, most> farthest;
   std::array<float, most> nearest;
   ///@}
@@ -95,8 +95,7 @@ void lookAt(
     const float y = (m[0].y * px + m[1].y * py + m[2].y * pz + m[3].y) * perW;
     const float depth = (m[0].z * px + m[1].z * py + m[2].z * pz + m[3].z) * perW + map.depthOffset;
     const float distance = along.x * px + along.y * py + along.z * pz + along.w;
-    // Written so that NaN fails. A shadow ray may start no farther beside its receiver than margins
-    // say.
+    // NaN must fail. A shadow ray may start no farther beside its receiver than margins allow.
     const bool holds = (w > 0.0f) & (distance > 0.0f) & (x >= 0.0f) & (y >= 0.0f) & (x < size) &
       (y < size) & (offset[i] <= map.largestOffset * distance);
     const int column = static_cast<int>(holds ? x : 0.0f);
@@ -116,7 +115,7 @@ LookUp lookUpOf(const CasterScene& scene, const LightView& view)
 {
   LookUp lookUp;
   lookUp.depthOffset = static_cast<float>(scene.space.depthOffset);
-  // What rounding takes off the constant stays with the place.
+  // The matrix gets the part of the constant that rounding to float loses.
   lookUp.mapFromCentred =
     glm::mat4(scene.space.mapFromCentred(scene.space.depthOffset - lookUp.depthOffset));
   if (scene.space.positional)
@@ -169,8 +168,7 @@ ConservativeMap::ConservativeMap(
 void ConservativeMap::buildLevels()
 {
   const std::vector<TexelBounds>* finer = &this->texels_;
-  // Lines are one tile long: they need no coarser level than that of a few texels for the whole
-  // map.
+  // Lines are at most one tile long, so levels of a few texels are coarse enough.
   for (int size = this->lookUp_.size; size > 8;)
   {
     const int half = (size + 1) / 2;
@@ -209,8 +207,8 @@ CasterScene ConservativeMap::sceneOf(const Occluders& occluders) const
 Certainty ConservativeMap::ask(const CasterScene& scene, const MapPolygon& triangle,
   double leastOffset, double mostOffset, bool onCaster) const
 {
-  // Larger triangles are seldom all lit or all in shadow, and their pixels are many, so that it
-  // costs little to ask for each.
+  // Larger triangles are seldom all lit or all in shadow. They have many pixels, so looking up each
+  // pixel costs little in proportion.
   constexpr double mostTexels = 4096.0;
   if (this->texels_.empty() || triangle.facing == 0 ||
     mostOffset > scene.largestOffset(triangle.nearestZ))
@@ -227,7 +225,7 @@ Certainty ConservativeMap::ask(const CasterScene& scene, const MapPolygon& trian
   }
   const double size = this->lookUp_.size;
   const glm::dvec2 extent = high - low + 1.0;
-  // Written so that NaN fails.
+  // NaN must fail.
   if (!(low.x >= 0.0 && low.y >= 0.0 && high.x < size && high.y < size &&
         extent.x * extent.y <= mostTexels))
   {
@@ -257,7 +255,8 @@ Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) co
   {
     return Certainty::Uncertain;
   }
-  // As lookAt(), at both ends: place, depth and distance of all between them are between theirs.
+  // Look up both ends as lookAt() does. Places, depths and distances between them are between
+  // theirs.
   const glm::dmat4 mapFromCentred(this->lookUp_.mapFromCentred);
   glm::dvec2 low(std::numeric_limits<double>::infinity());
   glm::dvec2 high(-std::numeric_limits<double>::infinity());
@@ -269,7 +268,7 @@ Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) co
     const glm::dvec4 map = mapFromCentred * glm::dvec4(end, 1.0);
     const double distance = glm::dot(glm::dvec4(this->lookUp_.distance), glm::dvec4(end, 1.0));
     const double perW = 1.0 / map.w;
-    // Written so that NaN fails.
+    // NaN must fail.
     if (!(map.w > 0.0 && distance > 0.0 &&
           segment.mostOffset <= this->lookUp_.largestOffset * distance * (1.0 - 1e-6)))
     {
@@ -292,7 +291,7 @@ Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) co
   const double moved = (this->lookUp_.rounding + segment.mostOffset) * perUnit;
   nearest -= moved;
   farthest += moved;
-  // Of a level whose texels are so large that there are few.
+  // Choose a level on which the line meets few texels.
   glm::ivec2 first(low), last(high);
   const std::vector<TexelBounds>* texels = &this->texels_;
   for (std::size_t level = 0;

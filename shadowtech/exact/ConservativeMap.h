@@ -21,17 +21,18 @@ class CasterEdges;
 class CellsOnGpu;
 struct ReceiverPixels;
 
-/// What a texel says of the receivers in it, by their depth (ConservativeMap).
+/// What a texel decides about receivers in it, by their depth (ConservativeMap).
 struct TexelBounds
 {
-  float litUpTo;          ///< a receiver of no more depth than this is lit
-  float litUpToOnCasters; ///< the same of a point of a caster's own surface
-  /// For that, shadow rays must start this far off the caster, in world units.
+  float litUpTo;          ///< receivers of at most this depth are lit
+  float litUpToOnCasters; ///< the same for points on a caster's own surface
+  /// World units. For litUpToOnCasters, shadow rays must start at least this far off the caster.
   float leastOffsetOnCasters;
-  float shadowFrom; ///< a receiver of more depth than this is in shadow
+  float shadowFrom; ///< receivers of more than this depth are in shadow
 
-  /// Up to what depth receivers are lit whose shadow rays start at least so far off their surface.
-  /// @param onCaster whether that casts, on both sides
+  /// Return the depth up to which receivers are lit.
+  /// @param onCaster true if their surface casts, on both sides
+  /// @param leastOffset how far off the surface their shadow rays start at least, in world units
   float litUpToOf(bool onCaster, double leastOffset) const
   {
     return onCaster && leastOffset >= this->leastOffsetOnCasters ? this->litUpToOnCasters
@@ -39,60 +40,60 @@ struct TexelBounds
   }
 };
 
-/// How receivers are looked up in a map, in float.
+/// How to look up receivers in a map, in float.
 struct LookUp
 {
-  /// To X, Y, Q and W of MapPoint, but for what Q / W has everywhere, `depthOffset`. As a part of Q
-  /// that would be rounded in proportion to W's terms, by more than depth changes far from a lamp
-  /// that is among its casters.
+  /// Maps centred positions to MapPoint's X, Y, Q and W, with Q / W lacking `depthOffset`. As part
+  /// of Q, the offset would round in proportion to W's terms. Far from a lamp among its casters,
+  /// that is more than depth changes.
   glm::mat4 mapFromCentred{ 1.0f };
-  float depthOffset = 0.0f; ///< MapSpace::depthOffset, whose rest beyond a float is in the matrix
-  /// To z along the view, where the light has a position; else to 1, the distance at which lengths
-  /// across parallel rays are what they are.
+  float depthOffset = 0.0f; ///< MapSpace::depthOffset; the matrix holds what float loses of it
+  /// Maps centred positions to z along the view for positional lights. For parallel rays it is 1,
+  /// the distance at which lengths across the light are true.
   glm::vec4 distance{ 0.0f, 0.0f, 0.0f, 1.0f };
   glm::vec2 depthPerUnit{ 0.0f }; ///< MapSpace::depthPerUnit()
-  float rounding = 0.0f;          ///< world units that this moves a receiver by, at most
-  float largestOffset =
-    std::numeric_limits<float>::infinity(); ///< of a shadow ray across the light, at distance 1
-  int size = 0;                             ///< texels
+  float rounding = 0.0f;          ///< the most that rounding moves a receiver, in world units
+  /// Of a shadow ray's start across the light, at distance 1, in world units.
+  float largestOffset = std::numeric_limits<float>::infinity();
+  int size = 0; ///< side of the map, in texels
 };
 
-/// A map of one view of a light which says of a receiver that it is lit for certain, in shadow for
-/// certain, or neither.
+/// A map of one view of a light. It decides that a receiver is certainly lit, certainly in shadow,
+/// or neither.
 ///
-/// *Depth* is a number that is affine on planes across the map, grows along every ray, and spans
-/// about [0, 1] over the casters: with (X, Y, W) = texelFromAcross * across coordinates, z / W for
-/// parallel rays, and -1 / W for those from a position, then scaled.
+/// *Depth* is affine on planes across the map and grows along every ray. Let (X, Y, W) =
+/// texelFromAcross * across coordinates. Depth is z / W for parallel rays and -1 / W for rays from
+/// a position, scaled to span about [0, 1] over the casters.
 class ConservativeMap
 {
 public:
-  /// @param view, hasBox what was drawn (MapRule)
-  /// @param texels row by row; none where nothing is certain, as a caster is too near to the light
+  /// @param view, hasBox the view that was baked (MapRule)
+  /// @param texels row by row; empty if a caster too near to the light makes everything uncertain
   ConservativeMap(
     const LightView& view, bool hasBox, const LookUp& lookUp, std::vector<TexelBounds> texels);
 
-  /// Decides receivers that are still uncertain.
-  /// @param onCaster by surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts,
-  /// on both sides
+  /// Decide receivers that are still uncertain.
+  /// @param onCaster indexed by surface + 1, so that `notCovered` is at 0: true if the surface
+  /// casts, on both sides
   void ask(const ReceiverPixels& receivers, const std::vector<std::uint8_t>& onCaster,
     std::vector<Certainty>& certain) const;
 
-  /// How it sees casters.
+  /// Return the values that the map's casters share.
   CasterScene sceneOf(const Occluders& occluders) const;
-  /// What it knows of all receivers on a triangle, wherever they are.
-  /// @param triangle as it is seen by this map
+  /// Return what holds for all receivers on a triangle, wherever they are.
+  /// @param triangle as seen by this map
   /// @param leastOffset, mostOffset how far their shadow rays start off it, in world units
-  /// @param onCaster whether its surface casts, on both sides
+  /// @param onCaster true if its surface casts, on both sides
   Certainty ask(const CasterScene& scene, const MapPolygon& triangle, double leastOffset,
     double mostOffset, bool onCaster) const;
 
-  /// What it knows of receivers in a line.
-  /// @param onCaster whether their surface casts, on both sides
+  /// Return what holds for all receivers on a line.
+  /// @param onCaster true if their surface casts, on both sides
   Certainty ask(const ReceiverSegment& segment, bool onCaster) const;
 
   ///@{
-  /// What it is made of, from which a test makes maps that have one of the two answers alone:
-  /// texels row by row.
+  /// The map's parts, row by row. A test builds maps from them that give only one of the two
+  /// answers.
   const LookUp& lookUp() const { return this->lookUp_; }
   const std::vector<TexelBounds>& texels() const { return this->texels_; }
   ///@}
@@ -105,23 +106,23 @@ private:
   bool hasBox_;
   LookUp lookUp_;
   std::vector<TexelBounds> texels_;
-  /// What is known of 2 x 2 texels at once, 4 x 4 and so on; each level by rows, half as many as
-  /// before, rounded up.
+  /// Bounds of 2 x 2 texels, 4 x 4 and so on. Each level has half of the last one's side, rounded
+  /// up, and is stored row by row.
   std::vector<std::vector<TexelBounds>> levels_;
 };
 
-/// How the casters of one view of a light are drawn into a map.
-/// @param hasBox whether the light begins at the near face of a box
+/// Bakes the casters of one view of a light into a map.
+/// @param hasBox true if the light begins at the near face of a box
 using MapRule = std::function<ConservativeMap(const LightView& view, bool hasBox, int sizeTexels,
   const Occluders& occluders, const CasterEdges& edges)>;
 
-/// The rules that are never wrong about a shadow ray, rounding included. docs/theory/exact_maps.md
-/// has them and why they hold.
-/// @param gpu draws the maps; null: the CPU does. Not for `Covering::Silhouette`, whose parts are
-/// drawn one after another
+/// Return the rule that is never wrong about a shadow ray, rounding included.
+/// docs/theory/exact_maps.md proves it.
+/// @param gpu bakes the maps; null for the CPU. `Covering::Silhouette` needs null, as its parts
+/// must be rasterized one after another.
 MapRule certainRule(Covering covering, const CellsOnGpu* gpu = nullptr);
 
-/// How exact positions are looked up, with no slack for rounding.
+/// Return the lookup of exact positions, with no slack for rounding.
 LookUp lookUpOf(const CasterScene& scene, const LightView& view);
 
 } // namespace gnomon

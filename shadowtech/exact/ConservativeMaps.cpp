@@ -13,7 +13,7 @@ namespace gnomon
 void ConservativeMaps::bake(const ShadowLight& light, const LightViews& views,
   const Occluders& occluders, const MapRule& rule)
 {
-  this->clear(); // what they had makes room
+  this->clear(); // frees the old maps' memory first
   this->onCaster_.assign(1, 0);
   for (const Surface& surface : occluders.surfaces)
   {
@@ -22,7 +22,7 @@ void ConservativeMaps::bake(const ShadowLight& light, const LightViews& views,
   requireRoomForMap(
     4 * sizeof(TexelBounds) / 3, light.mapSizeTexels, static_cast<int>(views.views.size()));
   this->edges_.update(occluders);
-  std::vector<ConservativeMap> maps; // all of them or none
+  std::vector<ConservativeMap> maps; // kept only if all maps are baked
   for (const LightView& view : views.views)
   {
     maps.push_back(rule(view, views.box.z > 0.0, light.mapSizeTexels, occluders, this->edges_));
@@ -47,7 +47,7 @@ Certainty ConservativeMaps::ofTriangle(const ReceiverTriangle& triangle) const
 //------------------------------------------------------------------------------
 Certainty ConservativeMaps::ofSegment(const ReceiverSegment& segment) const
 {
-  // Whichever map knows is right, so that it does not matter which of them is the receivers' own.
+  // Every map's decision is right, so it does not matter which map the receivers belong to.
   for (const ConservativeMap& map : this->maps_)
   {
     const Certainty certainty = map.ask(segment, this->onCaster_[segment.surface + 1u] != 0);

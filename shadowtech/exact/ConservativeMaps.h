@@ -11,17 +11,17 @@
 namespace gnomon
 {
 
-/// The conservative maps of all of a light's views, and what they know of receivers.
+/// The conservative maps of all views of a light, and what they decide about receivers.
 class ConservativeMaps : public ReceiverDecider
 {
 public:
-  /// Draws the casters into a map per view, and decides the triangles that they decide.
-  /// @param rule how they are drawn
-  /// @throws TextureMemoryError for maps without room; there are none then
+  /// Bake a map for each view, and decide the triangles that the maps decide.
+  /// @param rule bakes one map
+  /// @throws TextureMemoryError without enough memory; there are no maps then
   void bake(const ShadowLight& light, const LightViews& views, const Occluders& occluders,
     const MapRule& rule);
 
-  /// Forgets them: nothing is known of any receiver.
+  /// Drop the maps, which leaves all receivers uncertain.
   void clear();
 
   Certainty ofTriangle(const ReceiverTriangle& triangle) const override;
@@ -33,7 +33,8 @@ public:
 private:
   CasterEdges edges_;
   std::vector<ConservativeMap> maps_;
-  /// By surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts, on both sides.
+  /// Indexed by surface + 1, so that `notCovered` is at 0: true if the surface casts, on both
+  /// sides.
   std::vector<std::uint8_t> onCaster_;
   TriangleDecisions triangles_;
 };

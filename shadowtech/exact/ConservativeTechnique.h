@@ -10,12 +10,12 @@ namespace gnomon
 
 class CellsOnGpu;
 
-/// How a technique's maps are drawn for a light's settings.
-/// @param gpu draws them, where they are not drawn by the CPU alone; null: the CPU
+/// Returns how to bake a technique's maps for a light's settings.
+/// @param gpu bakes them, unless the technique needs the CPU; null for the CPU
 using RuleOfSettings = MapRule (*)(const ShadowSettings& settings, const CellsOnGpu* gpu);
 
-/// Conservative maps decide which receivers are lit or in shadow for certain, and the others get
-/// their shadow ray.
+/// Conservative maps decide which receivers are certainly lit or in shadow. All others get their
+/// shadow ray.
 class ConservativeTechnique : public CpuScreenTechnique
 {
 public:
@@ -35,14 +35,14 @@ private:
   ConservativeMaps maps_;
 };
 
-/// A technique of this kind: a line of a table.
+/// One technique of this kind, as a table has it.
 struct ConservativeEntry
 {
   TechniqueInfo info;
   RuleOfSettings rule;
 };
 
-/// What such a technique is, where its rule is never wrong.
+/// Return the description of a technique whose rule is never wrong.
 TechniqueInfo infoOfExact(const std::string& name);
 
 } // namespace gnomon

@@ -7,11 +7,11 @@
 namespace gnomon
 {
 
-/// Which triangles around one may cover a texel together with it.
+/// Neighbours of a triangle that may cover a texel together with it.
 enum class AdjacencyRing
 {
-  Edges,   ///< those across its edges
-  Vertices ///< all around its corners
+  Edges,   ///< across its edges
+  Vertices ///< around its corners
 };
 struct CrsmaSettings
 {
@@ -19,12 +19,12 @@ struct CrsmaSettings
 };
 const SettingsTable& crsmaSettings();
 
-/// Exact hard shadows, by what covers a texel of their map:
+/// The exact techniques for hard shadows. They differ in which casters must cover a texel:
 /// - `crsm`: one triangle contains it (conservative shadow maps after Hertel et al. 2009, with
-///   depth bounds that hold);
-/// - `crsma`: a triangle and its neighbours contain it (with adjacency after Morais 2016, with a
-///   border and depth bounds that hold);
-/// - `silhouette`: no edge of the casters' surface is there.
+///   correct depth bounds).
+/// - `crsma`: a triangle and its neighbours contain it (adjacency after Morais 2016, with a border
+///   and correct depth bounds).
+/// - `silhouette`: the texel holds no edge at which the casters' surface ends.
 const std::vector<ConservativeEntry>& exactTechniques();
 
 } // namespace gnomon

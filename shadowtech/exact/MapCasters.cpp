@@ -11,7 +11,7 @@ namespace gnomon
 namespace
 {
 
-/// How many triangles around a corner are followed, to either side: more than there mostly are.
+/// Limit of triangles followed around a corner, to either side; most corners have fewer.
 constexpr int mostAroundCorner = 12;
 
 } // namespace
@@ -37,7 +37,7 @@ MapCasters::MapCasters(const CasterScene& scene, const CasterEdges& edges, Cover
       {
         return;
       }
-      // Written so that NaN is blind.
+      // NaN must count as blind.
       if (!(polygon.margin < std::numeric_limits<double>::infinity()))
       {
         blind = true;
@@ -73,7 +73,7 @@ EdgeKind MapCasters::kindWithinSurface(const Placement& placement, const CasterE
 }
 
 //------------------------------------------------------------------------------
-/// The same of an edge by its number, at which the surface may go on as another one.
+/// Return the kind of an edge by its number. The surface may continue there as another one.
 EdgeKind MapCasters::kindOf(const Placement& placement, std::uint32_t number) const
 {
   CasterEdge edge = this->edges_.of(placement.surface).edges[number];
@@ -139,7 +139,7 @@ MapPolygon MapCasters::polygon(const BandItem& triangle) const
 }
 
 //------------------------------------------------------------------------------
-/// The triangle on which the casters' surface goes on across an edge; `none` where it ends.
+/// Return the triangle across an edge where the casters' surface continues; `none` where it ends.
 std::uint32_t MapCasters::across(
   const Placement& placement, const CasterEdge& edge, std::uint32_t triangle) const
 {
@@ -149,14 +149,14 @@ std::uint32_t MapCasters::across(
 }
 
 //------------------------------------------------------------------------------
-/// A triangle, the first, and those to which its surface goes on around its corners.
+/// Return a triangle, followed by those that continue its surface around its corners.
 std::vector<std::uint32_t> MapCasters::fanOf(
   const Placement& placement, std::uint32_t triangle) const
 {
   const SurfaceEdges& edges = this->edges_.of(placement.surface);
   const std::uint32_t first = this->placements_.surfaceOf(placement).firstTriangle;
   std::vector<std::uint32_t> fan{ triangle };
-  // Around the corner that two sides share, beginning with one of them.
+  // Walk around the corner that two sides share, starting across the first of them.
   const auto walk = [&](std::uint32_t side, std::uint32_t otherSide)
   {
     const CasterEdge& start = edges.edges[side];
@@ -189,7 +189,7 @@ std::vector<std::uint32_t> MapCasters::fanOf(
 }
 
 //------------------------------------------------------------------------------
-/// A triangle, the first, and those to which its surface goes on across its edges.
+/// Return a triangle, followed by those that continue its surface across its edges.
 std::vector<std::uint32_t> MapCasters::edgeNeighboursOf(
   const Placement& placement, std::uint32_t triangle) const
 {

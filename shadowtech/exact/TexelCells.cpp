@@ -11,8 +11,8 @@ namespace gnomon
 namespace
 {
 
-/// Visits the texels that an edge meets, in some rows.
-/// @param visit called with the cell, and with the edge's least depth in it
+/// Visit the texels that an edge meets in some rows.
+/// @param visit called with the cell and the edge's least depth in it
 template <typename Visit>
 void visitCells(
   const MapSegment& segment, double margin, int width, Span rows, Cell* cells, const Visit& visit)
@@ -33,7 +33,7 @@ void drawPolygon(
 {
   if (polygon.facing == 0 && !polygon.role.poison)
   {
-    return; // its edges alone are drawn
+    return; // only its edges are rasterized
   }
   const Span drawn = texels.rows();
   for (int y = drawn.first; y <= drawn.last; ++y)
@@ -134,7 +134,7 @@ void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* ce
   {
     borders.emplace_back(border, margin, rows);
   }
-  std::vector<float> farthest; // of the texels in a row that the middle touches
+  std::vector<float> farthest; // for texels of the row that the middle touches
   for (int y = drawn.first; y <= drawn.last; ++y)
   {
     Cell* const cell = cells + static_cast<std::ptrdiff_t>(y - rows.first) * width;
@@ -156,7 +156,7 @@ void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* ce
         at(x) = std::max(at(x), triangle.farthest(row, x));
       }
     }
-    // Where the ring's border is not, its triangles go on everywhere.
+    // Off the ring's border, its triangles cover the whole texel.
     for (const SegmentOnTexels& border : borders)
     {
       if (y < border.rows().first || y > border.rows().last)

@@ -13,45 +13,47 @@ namespace gnomon
 {
 
 /// @file
-/// What is gathered of a map's texels while casters are drawn into them.
+/// Gathers values per texel of a conservative map while casters are rasterized.
 
-/// What is gathered of a texel while casters are drawn.
+/// The values of a texel. docs/theory/exact_maps.md explains them: N is `nearest`, C `contained`, E
+/// `sharpEnd`, G `climb`, S `second`. The unit is depth unless noted.
 struct Cell
 {
-  float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster
+  float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster or an end
   float contained = std::numeric_limits<
     float>::infinity(); ///< the least, over casters that cover the texel, of their largest depths
-  /// The most that a tracer may see a triangle off its plane, of those that begin before
-  /// oneLayerUpTo(), in world units.
+  /// The most, in world units, that a tracer may see a triangle off its plane. Only triangles that
+  /// begin before oneLayerUpTo() count.
   float noise = 0.0f;
-  float climb = 0.0f; ///< the most that depth changes from anywhere to the sample
+  float climb = 0.0f; ///< the most that depth changes from anywhere in the texel to the sample
   float sharpEnd =
     std::numeric_limits<float>::infinity(); ///< the least depth of an end or a sharp edge
-  float first = std::numeric_limits<float>::infinity();  ///< depth of the first layer at the sample
-  float second = std::numeric_limits<float>::infinity(); ///< and of the second
+  /// The least depth of triangles at the sample.
+  float first = std::numeric_limits<float>::infinity();
+  float second = std::numeric_limits<float>::infinity(); ///< the second least
 
   ///@{
-  /// Of the part of the casters' surface that is being drawn.
+  /// Values of the part of the casters' surface that is being rasterized.
   CasterPart part = noPart;
   float partAcross =
     std::numeric_limits<float>::infinity(); ///< the least of its triangles' largest depths
-  float partEnd = std::numeric_limits<float>::infinity(); ///< the least depth of an end
-  float partClimb = 0.0f;                                 ///< of its triangles, the most
+  float partEnd = std::numeric_limits<float>::infinity(); ///< the least depth of its ends
+  float partClimb = 0.0f;                                 ///< the largest climb of its triangles
   ///@}
-  /// The least depth from which a part covers the texel, of those that were drawn before.
+  /// The least depth from which one of the parts rasterized so far covers the texel.
   float covered = std::numeric_limits<float>::infinity();
 
-  /// Turns to a part. They are drawn one after another, each once: what is taken for one part may
-  /// be several, which only decides less, but of a part that is drawn in pieces a piece would not
-  /// know where the others end.
+  /// Turn to the next part. Parts must be rasterized one after another, each once. Several parts
+  /// taken for one only decide less. Pieces of one part would be wrong, as a piece does not know
+  /// the ends in others.
   void turnTo(CasterPart next)
   {
     if (next == this->part)
     {
       return;
     }
-    // From where the part is no deeper than partAcross it goes on all over the texel, as nothing
-    // ends it, and climbs no more than twice to the sample.
+    // Where the part's depth is at most partAcross, nothing ends it, so it covers the whole texel.
+    // Depth climbs at most twice, by way of the sample.
     const float everywhere = this->partAcross + 2.0f * this->partClimb;
     this->covered =
       this->partEnd > everywhere ? std::min(this->covered, everywhere) : this->covered;
@@ -60,8 +62,8 @@ struct Cell
     this->partClimb = 0.0f;
   }
 
-  /// Up to what depth there is one layer, if any: from anywhere before it walks come to the sample
-  /// before the second, and meet no end.
+  /// Return the depth up to which there is one layer, if any. Walks from anywhere before it reach
+  /// the sample before the second layer, and meet no end.
   float oneLayerUpTo() const { return std::min(this->second, this->sharpEnd) - this->climb; }
 
   void addLayer(float depth)
@@ -71,41 +73,41 @@ struct Cell
   }
 };
 
-/// Draws a polygon into some rows. Of one that lies along the light (MapPolygon::facing) edges
-/// alone are drawn.
-/// @param texels where it is among the texels. Their margin is the same for all that is drawn:
-/// walks from texel to edge must not lose an edge that is taken to be farther away
+/// Rasterize a polygon into some rows. Of polygons along the light (MapPolygon::facing), only the
+/// edges count.
+/// @param texels the polygon among the texels. All casters need the same margin, because walks from
+/// a texel to an edge must not lose an edge taken to be farther away.
 /// @param cells of those rows, `width` each
 void drawPolygon(
   const MapPolygon& polygon, const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
 
-/// Notes how far off its plane a tracer may see a polygon that does not lie along the light and
-/// begins before Cell::oneLayerUpTo(): when all edges and polygons are drawn. Others are behind the
-/// receivers that are lit by that, wherever a tracer sees them.
+/// Gather the noise of a polygon that does not lie along the light and begins before
+/// Cell::oneLayerUpTo(). All edges and polygons must be rasterized before. Polygons behind lie
+/// behind the receivers that the rule lights, wherever a tracer sees them.
 void drawNoise(const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
 
-/// Asks `agrees` about each texel that a polygon touches, with bounds on its depth there, until it
-/// does not agree.
-/// @return whether it always did
+/// Call `agrees` with each texel that a polygon touches, and bounds on its depth there, until it
+/// returns false.
+/// @return true if it never did
 bool allTexels(const MapPolygon& polygon, double margin, int width,
   const std::function<bool(int x, int y, float nearest, float farthest)>& agrees);
 
-/// A triangle and those that go on across its edges: a part of the casters' surface, which covers
-/// every texel that it meets but for those on its border.
+/// A ring: a triangle and the neighbours that continue its surface. It covers every texel that it
+/// meets, except those on its border.
 struct MapRing
 {
-  std::vector<MapPolygon> triangles; ///< the first is in the middle; all of them cover
-  std::vector<MapSegment> border;    ///< all edges but those that two of the triangles share
+  std::vector<MapPolygon> triangles; ///< the middle first; all of them cover
+  std::vector<MapSegment> border;    ///< all edges that no two of the triangles share
 };
 
-/// Notes where a ring covers, for texels that its middle touches.
+/// Gather where a ring covers texels that its middle touches.
 void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* cells);
 
-/// Notes where a part of the casters' surface ends: before its triangles are drawn, of which those
-/// behind an end do not count for how far it climbs.
+/// Gather an end of a part of the casters' surface. Call it before the part's triangles are
+/// rasterized, as triangles behind an end do not count for its climb.
 void drawEndOfPart(const MapSegment& segment, double margin, int width, Span rows, Cell* cells);
 
-/// Draws an edge into some rows.
+/// Rasterize an edge into some rows.
 void drawSegment(const MapSegment& segment, double margin, int width, Span rows, Cell* cells);
 
 } // namespace gnomon

@@ -60,7 +60,7 @@ void PolygonOnTexels::findSides(const MapPolygon& polygon, double orientation, d
     const MapCorner& b = polygon.corners[(i + 1) % polygon.count];
     const double ex = b.x - a.x, ey = b.y - a.y;
     const double length = std::hypot(ex, ey);
-    if (length > 1e-9) // corners may fall together where polygons are cut
+    if (length > 1e-9) // clipping may make corners coincide
     {
       const double nx = -orientation * ey / length, ny = orientation * ex / length;
       this->sides_[this->record_.sideCount++] = { boundPerRest(nx), ny, -(nx * a.x + ny * a.y),

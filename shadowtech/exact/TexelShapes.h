@@ -11,19 +11,21 @@ namespace gnomon
 {
 
 /// @file
-/// What polygons and edges are to the texels of a map, row by row. Each is made ready once, on the
-/// CPU; which texels it meets is then found here or by the twins in texel_shapes.glsl, which read
-/// the records as they lie in memory. Neither divides or fuses, so that both get the same texels
-/// and depths to the last bit where OpenGL rounds to nearest even, which the tests check for each
-/// driver: GLSL leaves that open.
+/// Finds the texels that polygons and edges meet, row by row. The CPU converts each shape once to a
+/// record, which shaders read as it lies in memory.
+///
+/// The rows are found here, or by the twins in texel_shapes.glsl. Neither divides nor fuses
+/// operations, so both get the same texels and depths to the last bit. That takes OpenGL that
+/// rounds to nearest even. GLSL does not promise it, so the tests check each driver.
 
-/// Where layers are counted in a texel: off its centre, where the edges of regular casters often
-/// are.
+/// Offset from a texel's centre of the sample at which layers are counted, in texels. Edges of
+/// regular casters often pass through centres.
 constexpr double sampleOffset = 1.0 / 61.0;
-/// A sample on an edge is in both of its triangles: counted twice rather than not at all.
+/// Width, in texels, by which triangles grow at samples. A sample on an edge then counts in both
+/// triangles rather than in none.
 constexpr double sampleOnEdge = 1e-6;
 
-/// A polygon's side: nx x + ny y + c >= 0 inside, with a unit normal.
+/// A side of a polygon: nx x + ny y + c >= 0 inside, with a unit normal.
 struct SideRecord
 {
   double perNx; ///< boundPerRest(nx)
@@ -31,52 +33,52 @@ struct SideRecord
   double support; ///< how far a texel reaches along the normal
 };
 
-/// A convex polygon, as shaders read it.
+/// A convex polygon, in the layout of the shaders.
 struct PolygonRecord
 {
-  ///@{ Columns between which centres of texels lie that it meets, and of its own places.
+  ///@{ Bounds of the centres of texels that it meets, and of its own x, in texels.
   double touchedLeft, touchedRight;
   double left, right;
   ///@}
-  ///@{ Its plane: the depth at a place, and what that changes by to a texel.
+  ///@{ Its plane: depth at a point, and its change per texel.
   double originX, originY, originDepth;
   double perX, perY;
   ///@}
-  double toSample;      ///< how much that changes from a texel's middle to its sample
-  double spread;        ///< how much, at most, from its middle to anywhere in it
-  float least, most;    ///< its corners' depths
-  float climb;          ///< how much depth changes, at most, from anywhere in a texel to its sample
-  float slack;          ///< depth that a tracer may see it off its plane
-  float noise;          ///< and how far, in world units
-  std::uint32_t covers; ///< whether it blocks all over
+  double toSample;      ///< change of depth from a texel's middle to its sample
+  double spread;        ///< the most that depth changes from a texel's middle to anywhere in it
+  float least, most;    ///< depths of its corners
+  float climb;          ///< the most that depth changes from anywhere in a texel to its sample
+  float slack;          ///< how far off its plane a tracer may see it, as depth
+  float noise;          ///< the same in world units
+  std::uint32_t covers; ///< 1 if it blocks every ray through its inside, else 0
   std::uint32_t firstSide, sideCount;
-  std::int32_t firstRow, lastRow; ///< those that it may meet
+  std::int32_t firstRow, lastRow; ///< rows that it may meet
 };
 static_assert(sizeof(SideRecord) == 32 && sizeof(PolygonRecord) == 128, "as shaders read them");
 
-/// A convex polygon among the texels.
+/// A convex polygon on the grid of texels.
 class PolygonOnTexels
 {
 public:
-  /// @param margin of texels; one that spoils texels has its own, where that is wider
-  /// @param rows of the map in which it is looked for
+  /// @param margin of texels; a polygon that leaves texels undecided uses its own, if that is wider
+  /// @param rows of the map, to which it is clipped
   PolygonOnTexels(const MapPolygon& polygon, double margin, Span rows);
 
-  /// Those of the rows in which it may be.
+  /// Return the rows that it may meet.
   Span rows() const { return { this->record_.firstRow, this->record_.lastRow }; }
 
-  /// A row of texels.
+  /// The polygon's spans in a row of texels.
   struct Row
   {
-    Span touched;   ///< those that it is in
-    Span contained; ///< those that it contains
-    Span sampled;   ///< those whose sample it contains
-    double depth;   ///< of its plane, at the middle of the first texel
+    Span touched;   ///< texels that it meets
+    Span contained; ///< texels that it contains
+    Span sampled;   ///< texels whose sample it contains
+    double depth;   ///< of its plane at the middle of the row's first texel
   };
   Row row(int y, int width) const;
 
   ///@{
-  /// Bounds on its depth in a texel that it touches, and its depth at the sample.
+  /// Return bounds on its depth in a texel that it touches, and its depth at the sample.
   float nearest(const Row& row, int x) const
   {
     return std::max(this->record_.least,
@@ -95,13 +97,13 @@ public:
   }
   ///@}
 
-  /// The most that its depth changes from anywhere in a texel to the sample.
+  /// Return the most that its depth changes from anywhere in a texel to the sample.
   float climb() const { return this->record_.climb; }
 
-  /// How far off its plane a tracer may see it, in world units.
+  /// Return how far off its plane a tracer may see it, in world units.
   float noise() const { return this->record_.noise; }
 
-  /// For shaders; its first side is to be filled in.
+  /// Return the record for shaders. The caller fills in its first side.
   const PolygonRecord& record() const { return this->record_; }
   const SideRecord* sides() const { return this->sides_.data(); }
 
@@ -113,33 +115,33 @@ private:
   std::array<SideRecord, mostCorners> sides_;
 };
 
-/// An edge, as shaders read it.
+/// An edge, in the layout of the shaders.
 struct SegmentRecord
 {
-  double x, y, depth; ///< where it starts
-  double alongX;      ///< how far it goes
+  double x, y, depth; ///< its first end
+  double alongX;      ///< from the first end to the second
   double alongDepth;
-  double perX, perY; ///< of its way that is done to a texel; 0 where it does not go that way
-  double margin;     ///< by which texels are larger
-  double slack;      ///< depth that it may be nearer; may be infinite
+  double perX, perY; ///< share of its length per texel; 0 if it does not run that way
+  double margin;     ///< by which each texel grows
+  double slack;      ///< how much nearer its depth may be; may be infinite
   std::uint32_t isEnd;
-  std::int32_t firstRow, lastRow; ///< those that it may meet
+  std::int32_t firstRow, lastRow; ///< rows that it may meet
   std::uint32_t unused = 0;
 };
 static_assert(sizeof(SegmentRecord) == 88, "as shaders read it");
 
-/// An edge among the texels.
+/// An edge on the grid of texels.
 class SegmentOnTexels
 {
 public:
   /// @param margin of texels
-  /// @param rows of the map in which it is looked for
+  /// @param rows of the map, to which it is clipped
   SegmentOnTexels(const MapSegment& segment, double margin, Span rows);
 
-  /// Those of the rows in which it may be.
+  /// Return the rows that it may meet.
   Span rows() const { return { this->record_.firstRow, this->record_.lastRow }; }
 
-  /// Visits the texels of one of the rows that it meets.
+  /// Visit the texels that it meets in one of its rows.
   /// @param visit called with the column and the edge's least depth there
   template <typename Visit>
   void visitRow(int y, int width, const Visit& visit) const
@@ -158,7 +160,7 @@ public:
       Part part = ofRow;
       if (part.keepBetween(s.x, s.perX, x - s.margin, x + 1.0 + s.margin))
       {
-        // -infinity with endless slack
+        // -infinity if slack is infinite
         visit(x,
           static_cast<float>(
             s.depth + std::min(part.first * s.alongDepth, part.last * s.alongDepth) - s.slack));
@@ -166,19 +168,19 @@ public:
     }
   }
 
-  /// For shaders.
+  /// Return the record for shaders.
   const SegmentRecord& record() const { return this->record_; }
 
 private:
-  /// Which part of the edge, between 0 and 1.
+  /// A part of the edge, from 0 at its first end to 1.
   struct Part
   {
     double first, last;
 
-    /// Leaves what lies between low and high.
-    /// @param from where the edge starts
-    /// @param perTexel what of it is done to a texel; 0 where it does not go that way
-    /// @return whether there is any
+    /// Clip to where one coordinate lies between low and high.
+    /// @param from coordinate of the edge's first end
+    /// @param perTexel share of its length per texel; 0 if it does not run that way
+    /// @return false if nothing is left
     bool keepBetween(double from, double perTexel, double low, double high)
     {
       if (perTexel == 0.0)

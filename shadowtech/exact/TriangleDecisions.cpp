@@ -22,7 +22,7 @@ using Corners = std::array<glm::dvec3, 3>;
 class LightReach
 {
 public:
-  /// @param lateral how far points may be off by rounding, in world units
+  /// @param lateral how far rounding may move points, in world units
   LightReach(const ShadowLight& light, const glm::dvec3& centreWorld, double lateral)
     : light_(light)
     , lightFromCentred_(lightFromCentred(light, centreWorld))
@@ -32,17 +32,17 @@ public:
   {
   }
 
-  /// 1 where all of a triangle faces the light, -1 where all of it is turned away, 0 where rounding
-  /// may have it either way (facesLight()).
-  /// @param normal unit length
+  /// Return 1 if all of a triangle faces the light, -1 if all of it is turned away, or 0 if
+  /// rounding leaves it open (facesLight()).
+  /// @param normal of unit length
   int facing(const Corners& corners, const glm::dvec3& normal) const
   {
-    constexpr double leastCosine = 1.52587890625e-5; // 2^-16; facesLight() asks 2^-20
+    constexpr double leastCosine = 1.52587890625e-5; // 2^-16; facesLight() uses 2^-20
     double along = glm::dot(normal, this->towards_);
     double least = leastCosine;
     if (this->light_.kind != LightKind::Directional)
     {
-      // The same at all of its points, but for the ray's length.
+      // This is the same for all points of the triangle, except for the ray's length.
       along = glm::dot(normal, this->position_ - corners[0]);
       double farthest = 0.0;
       for (const glm::dvec3& corner : corners)
@@ -54,8 +54,8 @@ public:
     return along > least ? 1 : along < -least ? -1 : 0;
   }
 
-  /// Whether all of a triangle lies in the light's cone or box (insideCone(), insideBox()), which
-  /// are convex.
+  /// Return true if all of a triangle lies in the light's cone or box, which are convex
+  /// (insideCone(), insideBox()).
   bool holds(const Corners& corners) const
   {
     for (const glm::dvec3& corner : corners)
@@ -96,10 +96,10 @@ private:
   double margin_;
 };
 
-/// The share of the offset's limit that a triangle's own noise may take. The rest is for pixels.
+/// The largest share of the offset's limit for a triangle's own noise. The rest is for pixels.
 constexpr double mostOfNoise = 1.0 / 8.0;
 
-/// Both sides' certainties as one number.
+/// Return both sides' certainties as one number.
 std::uint8_t packed(Certainty front, Certainty back)
 {
   return static_cast<std::uint8_t>(
@@ -117,7 +117,7 @@ TriangleDecisions::TriangleDecisions(
 {
   if (maps.empty())
   {
-    return; // nobody says how far rounding may move what is seen
+    return; // without a map, no bound on rounding is known
   }
   this->ofTriangles_.assign(
     occluders.triangles.size(), packed(Certainty::Uncertain, Certainty::Uncertain));
@@ -127,7 +127,7 @@ TriangleDecisions::TriangleDecisions(
   {
     scenes.push_back(map.sceneOf(occluders));
     lateral = std::max(lateral, scenes.back().lateral);
-    // Along a view's axis, which ends at 60 degrees, distances are half as long at least.
+    // Up to 60 degrees off a view's axis, z is at least half of the distance.
     this->limitAtUnit_ =
       std::min(this->limitAtUnit_, scenes.back().largestOffset(this->positional_ ? 0.5 : 1.0));
   }
@@ -205,7 +205,7 @@ Certainty TriangleDecisions::of(const ReceiverTriangle& triangle) const
   }
   const auto certainty =
     static_cast<Certainty>(this->ofTriangles_[triangle.triangle] >> (triangle.back ? 4 : 0) & 15);
-  // Pixels at its edges start farthest off it.
+  // Receivers in pixels at its edges start farthest off it.
   const bool holds = certainty != Certainty::Lit && certainty != Certainty::Shadow
     ? true
     : shadowRayOffset(0.0f, static_cast<float>(triangle.mostFootprint)) <=

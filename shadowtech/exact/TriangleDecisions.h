@@ -16,17 +16,17 @@
 namespace gnomon
 {
 
-/// What is known of whole triangles that receive: that they are turned away from the light, or that
-/// all of their points are lit, or in shadow; or that they have shadow rays, and no more than that.
-/// Those of surfaces with instances are left open.
+/// What is known of whole receiving triangles. Either side of a triangle is turned away from the
+/// light, all lit, all in shadow, reached by the light without being decided, or uncertain.
+/// Triangles of instances stay uncertain.
 ///
-/// It does not depend on the camera, but for how large pixels may be: a frame looks each triangle
-/// up, and pixels only where a triangle is not decided.
+/// Only the size of pixels depends on the camera. So a frame looks up triangles, and pixels only of
+/// triangles that are undecided.
 class TriangleDecisions
 {
 public:
   TriangleDecisions() = default;
-  /// @param maps of all of the light's views
+  /// @param maps of all views of the light
   TriangleDecisions(
     const ShadowLight& light, const Occluders& occluders, const std::vector<ConservativeMap>& maps);
 
@@ -34,15 +34,15 @@ public:
   std::size_t bytes() const { return bytesOf(this->ofTriangles_); }
 
 private:
-  /// How far off a triangle shadow rays may start.
+  /// Return how far off a triangle shadow rays may start, in world units.
   double offsetLimit(const std::array<glm::dvec3, 3>& corners) const;
 
-  /// Of each triangle in the snapshot, the front's Certainty in the lower half, the back's in the
-  /// upper.
+  /// For each triangle of the snapshot, the front's Certainty in the lower four bits, the back's in
+  /// the upper.
   std::vector<std::uint8_t> ofTriangles_;
   bool positional_ = false;
   glm::dvec3 positionCentred_{ 0.0 };
-  double limitAtUnit_ = 0.0; ///< offsetLimit(), of a positional light at distance 1
+  double limitAtUnit_ = 0.0; ///< offsetLimit() of a positional light at distance 1
 };
 
 } // namespace gnomon

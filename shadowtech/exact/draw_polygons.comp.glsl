@@ -1,5 +1,6 @@
-// Draws polygons into cells, row by row (drawPolygon() of TexelCells.h). POISON: they spoil the
-// texels that they touch. NOISE: what they give when all else is drawn (drawNoise()).
+// Rasterizes polygons into cells, row by row (drawPolygon() of TexelCells.h).
+// POISON: the polygons leave texels that they touch undecided.
+// NOISE: gathers noise after all other passes (drawNoise()).
 
 #include "shadowtech/exact/texel_shapes.glsl"
 #include "shadowtech/exact/texel_cells.glsl"

@@ -1,11 +1,11 @@
-// Notes where rings cover, for texels that their middles touch, row by row (drawRing() of
+// Gathers where rings cover texels that their middles touch, row by row (drawRing() of
 // TexelCells.h).
 
 #include "shadowtech/exact/texel_shapes.glsl"
 #include "shadowtech/exact/texel_cells.glsl"
 #include "shadowtech/exact/walk_rows.glsl"
 
-// Which polygons, the middle first, and which edges around them.
+// A ring's polygons, the middle first, and the edges around it.
 struct RingRecord
 {
   uint firstPolygon, polygonCount;

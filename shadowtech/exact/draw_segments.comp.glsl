@@ -1,4 +1,4 @@
-// Draws edges into cells, row by row (drawSegment() of TexelCells.h).
+// Rasterizes edges into cells, row by row (drawSegment() of TexelCells.h).
 
 #include "shadowtech/exact/texel_shapes.glsl"
 #include "shadowtech/exact/texel_cells.glsl"

@@ -1,7 +1,8 @@
-// What is gathered of texels: seven minima of each, by atomic operations on bits that are ordered
-// as the numbers are. Of what is the most somewhere, they hold the least of the negative. As minima
-// do not depend on the order, the cells are those of the CPU (TexelCells.h), to the last bit, but
-// for G and noise of spoilt texels, for which nothing asks.
+// Cells of seven minima each, by atomic operations on bits in the order of the numbers. A maximum
+// is stored as the minimum of the negative.
+//
+// The order of minima does not matter, so cells equal the CPU's (TexelCells.h) to the last bit.
+// Climb and noise of undecided texels are an exception, and nothing reads these.
 
 const uint numbersOfCell = 7u;
 const uint nearestInCell = 0u;
@@ -16,7 +17,7 @@ const float infinity = uintBitsToFloat(0x7f800000u);
 
 layout(std430, binding = 3) buffer Cells { uint cells[]; };
 
-uniform int firstRow; // of the map, that the cells begin with
+uniform int firstRow; // of the map, at which the cells begin
 
 uint orderedBits(float number)
 {
@@ -34,7 +35,7 @@ uint cellAt(int x, int y)
   return numbersOfCell * (uint(y - firstRow) * uint(width) + uint(x));
 }
 
-// Cells only ever become less, so that a look at an old value saves most of the atomic operations.
+// Cells only ever decrease, so comparing with an old value saves most atomic operations.
 void lowerBits(uint at, uint bits)
 {
   if (bits < cells[at])
@@ -48,7 +49,8 @@ void lower(uint at, float number)
   lowerBits(at, orderedBits(number));
 }
 
-// Up to what depth there is one layer, if any (Cell of TexelCells.h): when all of that is drawn.
+// Return the depth up to which there is one layer, if any (Cell of TexelCells.h). All casters must
+// be rasterized.
 float oneLayerUpTo(uint cell)
 {
   precise float climb = max(0.0, -numberOf(cells[cell + climbInCell]));
@@ -57,9 +59,9 @@ float oneLayerUpTo(uint cell)
   return upTo;
 }
 
-// The two least of all. Whatever comes is in the end either the first, or was taken for the second
-// when it, or what it gave way to, met a smaller one: so the second is the least of all others, and
-// one that comes twice counts twice.
+// Keep the two least depths. Each depth ends up as the first, or is compared with the second when
+// it or a depth that it displaced meets a smaller one. So the second is the least of all others.
+// Equal depths count twice.
 void addLayer(uint cell, float depth)
 {
   uint bits = orderedBits(depth);

@@ -1,10 +1,11 @@
-// What polygons and edges are to the texels of a map, row by row: the twins of PolygonOnTexels and
-// SegmentOnTexels (TexelShapes.h), in double precision, and to the last bit where OpenGL rounds to
-// nearest even, which the tests check for each driver: GLSL leaves that open. Everything is
-// `precise`, so that no products and sums are fused, and nothing is divided, which need not be
-// exact.
+// Finds the texels that polygons and edges meet, row by row, in double precision. These are the
+// twins of PolygonOnTexels and SegmentOnTexels (TexelShapes.h).
 //
-// SAMPLE_OFFSET, SAMPLE_ON_EDGE: those of TexelShapes.h.
+// They agree to the last bit if OpenGL rounds to nearest even. GLSL does not promise it, so the
+// tests check each driver. `precise` prevents fused operations, and divisions, which need not be
+// exact, are avoided.
+//
+// SAMPLE_OFFSET, SAMPLE_ON_EDGE: constants of TexelShapes.h.
 
 struct SideRecord
 {
@@ -138,7 +139,7 @@ float atSample(PolygonRecord polygon, double depth)
   return float(sampled);
 }
 
-// Which part of an edge, between 0 and 1.
+// A part of an edge, from 0 at its first end to 1.
 struct Part
 {
   double first, last;
@@ -157,7 +158,7 @@ bool keepBetween(inout Part part, double from, double perTexel, double low, doub
   return part.first <= part.last;
 }
 
-// The part of an edge that lies in a row.
+// Clip an edge to a row.
 bool keepRow(inout Part part, SegmentRecord segment, int y)
 {
   precise double low = double(y) - segment.margin;
@@ -165,7 +166,7 @@ bool keepRow(inout Part part, SegmentRecord segment, int y)
   return keepBetween(part, segment.y, segment.perY, low, high);
 }
 
-// Of which what lies in a column.
+// Clip that part to a column.
 bool keepColumn(inout Part part, SegmentRecord segment, int x)
 {
   precise double low = double(x) - segment.margin;

@@ -1,14 +1,16 @@
-// Who walks which rows of what is drawn. An invocation walks all rows of a shape; with ROW_EACH an
-// invocation of a work group has one row of a shape. GROUP: invocations of a work group.
+// Assigns rows of shapes to invocations. By default, an invocation rasterizes all rows of a shape.
+// With ROW_EACH, each invocation of a work group rasterizes one row. GROUP: invocations per work
+// group.
 
 layout(local_size_x = GROUP) in;
 
-layout(std430, binding = 4) readonly buffer Walks { uvec2 walks[]; }; // the number of a shape, and a row of it
+// Pairs of a shape's number and a row of it.
+layout(std430, binding = 4) readonly buffer Walks { uvec2 walks[]; };
 
-uniform int firstWalk; // of these
+uniform int firstWalk; // index into `walks`
 uniform int walkCount;
 
-// To be defined by who includes this.
+// The including shader defines these.
 void walkRow(uint shape, int y);
 int lastRowOf(uint shape);
 

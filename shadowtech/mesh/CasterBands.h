@@ -16,19 +16,19 @@ namespace gnomon
 {
 
 /// @file
-/// How maps are drawn on all cores: the casters are looked at once, to find in which bands of rows
-/// each lies, and then the bands are drawn, each by one core, so that their texels stay in the
-/// processor's cache.
+/// Conservative maps are rasterized on all cores in two steps. The first sorts casters into bands
+/// of rows. The second rasterizes each band on one core, so its texels stay in the processor's
+/// cache.
 
 /// A casting surface, or one instance of it.
 struct Placement
 {
   std::uint32_t surface;
   std::uint32_t instance;
-  std::size_t firstTriangle; ///< of its triangles among those of all placements
+  std::size_t firstTriangle; ///< number of its first triangle among the triangles of all placements
 };
 
-/// All that casts in a snapshot.
+/// All placements of the casting surfaces of a snapshot.
 class CasterPlacements
 {
 public:
@@ -44,22 +44,22 @@ public:
   {
     return this->occluders_.surfaces[placement.surface];
   }
-  /// A triangle's number among those of all placements.
-  /// @param triangle of the snapshot
+  /// Return a triangle's number among the triangles of all placements.
+  /// @param triangle number in the snapshot
   std::size_t numberOf(const Placement& placement, std::uint32_t triangle) const
   {
     return placement.firstTriangle + (triangle - this->surfaceOf(placement).firstTriangle);
   }
 
-  /// The only placement of a casting surface without instances.
+  /// Return the only placement of a casting surface without instances.
   const Placement& placementOf(std::uint32_t surface) const
   {
     return this->placements_[this->firstOfSurface_[surface]];
   }
 
-  /// Visits things of all placements, on all cores.
-  /// @param countOf how many of them a placement has
-  /// @param visit called with the placement's number and the thing's
+  /// Visit items of all placements on all cores.
+  /// @param countOf returns how many items a placement has
+  /// @param visit called with the placement's number and the item's number, from several threads
   template <typename CountOf, typename Visit>
   void visitAll(const CountOf& countOf, const Visit& visit) const
   {
@@ -77,8 +77,8 @@ public:
           });
       });
   }
-  /// The same, so many of them after one another that what is made of them need not be kept.
-  /// @param finishPart called by the calling thread when some, and at last all, have been visited
+  /// Visit items of all placements in parts, so that results can be consumed part by part.
+  /// @param finishPart called by the calling thread after each part, the last one included
   template <typename CountOf, typename Visit, typename FinishPart>
   void visitInParts(const CountOf& countOf, const Visit& visit, const FinishPart& finishPart) const
   {
@@ -116,7 +116,7 @@ public:
     }
     visitPart();
   }
-  /// Visits all triangles, by their numbers in the snapshot.
+  /// Visit all casting triangles by their numbers in the snapshot, once per placement.
   template <typename Visit>
   void visitTriangles(const Visit& visit) const
   {
@@ -129,27 +129,29 @@ public:
 private:
   const Occluders& occluders_;
   std::vector<Placement> placements_;
-  std::vector<std::uint32_t> firstOfSurface_; ///< of its placements, where it has any
+  /// Number of a surface's first placement, if it has any.
+  std::vector<std::uint32_t> firstOfSurface_;
   std::size_t triangleCount_ = 0;
 };
 
-/// What lies in a band of rows.
+/// A triangle or an edge in a band of rows.
 struct BandItem
 {
   std::uint32_t placement;
-  std::uint32_t index; ///< a triangle of the snapshot, or an edge of the surface
+  std::uint32_t index; ///< of a triangle in the snapshot, or of an edge in its surface
 };
 
-/// Items by the bands of rows that they lie in. Takes them from several threads.
+/// Items sorted into bands of rows. Several threads may add at once.
 class CasterBands
 {
 public:
-  static constexpr int rows = 16; ///< of a band
+  static constexpr int rows = 16; ///< per band
 
-  /// @param size of the map, in texels
+  /// @param size side of the map, in texels
   explicit CasterBands(int size);
 
-  /// @param low, high between which rows it lies, in texels
+  /// Add an item to all bands that it touches.
+  /// @param low, high the item's least and largest y on the map, in texels
   void add(double low, double high, const BandItem& item);
 
   template <typename Visit>
@@ -170,7 +172,8 @@ private:
   tbb::enumerable_thread_specific<Lists> lists_;
 };
 
-/// Visits the bands of a map on all cores.
+/// Visit the bands of a map on all cores.
+/// @param size side of the map, in texels
 /// @param visit called with the band's number and its rows
 template <typename Visit>
 void visitBands(int size, const Visit& visit)
@@ -183,8 +186,9 @@ void visitBands(int size, const Visit& visit)
     });
 }
 
-/// Draws all rows of a map, band by band.
-/// @tparam Cell what is gathered of a texel
+/// Rasterize all rows of a map, band by band.
+/// @tparam Cell gathers the values of one texel
+/// @param size side of the map, in texels
 /// @param drawBand called with the band's number, its rows, and their cells, row by row
 /// @param take called with each texel's number on the map and its cell, from several threads
 template <typename Cell, typename DrawBand, typename Take>

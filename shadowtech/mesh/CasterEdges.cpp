@@ -17,16 +17,17 @@ namespace gnomon
 namespace
 {
 
-/// Of half that angle: the normals around a vertex are that close to their mean.
+/// The least cosine between a normal around a vertex and the mean normal there: half of the angle
+/// of sharpCosine.
 const double sharpCosineToMean = std::sqrt(0.5 * (1.0 + sharpCosine));
 
 /// One side of a triangle.
 struct Side
 {
-  std::uint32_t lesser, greater; ///< its ends, as they count
+  std::uint32_t lesser, greater; ///< its ends, as welded vertices
   std::uint32_t triangle;
-  std::uint8_t corner; ///< it runs from this corner to the next
-  bool reversed;       ///< from the greater end to the lesser one
+  std::uint8_t corner; ///< corner where it starts; it runs to the next corner
+  bool reversed;       ///< true if it runs from the greater end to the lesser one
 
   bool operator<(const Side& other) const
   {
@@ -39,8 +40,8 @@ struct Side
   }
 };
 
-/// The sides of all of a surface's triangles, in order.
-/// @param welded the vertices that its vertices count as
+/// Return the sides of all triangles of a surface, sorted.
+/// @param welded for each vertex, the vertex that represents its place (weldedVertices())
 std::vector<Side> sortedSides(
   const Occluders& occluders, const Surface& surface, const std::vector<std::uint32_t>& welded)
 {
@@ -59,7 +60,7 @@ std::vector<Side> sortedSides(
       }
     }
   };
-  // They are dealt out by their lesser ends first: few have the same one.
+  // Bucket the sides by their lesser ends first: few sides share one.
   std::vector<std::uint32_t> end(static_cast<std::size_t>(surface.vertexCount) + 1, 0);
   visit([&](const Side& side) { ++end[side.lesser + 1]; });
   std::partial_sum(end.begin(), end.end(), end.begin());
@@ -76,8 +77,7 @@ std::vector<Side> sortedSides(
   return sides;
 }
 
-/// Unit normals; zero of triangles that are too thin for shadow rays that start on their
-/// neighbours.
+/// Return unit normals; zero for triangles too thin for shadow rays that start on their neighbours.
 std::vector<glm::dvec3> normalsOf(const Occluders& occluders, const Surface& surface)
 {
   std::vector<glm::dvec3> normals(surface.triangleCount);
@@ -101,7 +101,7 @@ std::vector<glm::dvec3> normalsOf(const Occluders& occluders, const Surface& sur
   return normals;
 }
 
-/// Where the normals around each vertex are, by the vertices that count for those at their place.
+/// Return the cone of the normals around each vertex, indexed by welded vertex.
 std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& surface,
   const std::vector<std::uint32_t>& welded, const std::vector<glm::dvec3>& normals)
 {
@@ -116,8 +116,8 @@ std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& s
       }
     }
   };
-  // Which side a normal is on does not matter here, as triangles may be wound either way: where
-  // neighbours are no sharper than that, all around a corner are on one side, or far from the mean.
+  // Signs of normals do not matter here, as triangles may be wound either way. Where no neighbours
+  // are sharp, all normals around a corner lie on one side of the sum, or far from their mean.
   std::vector<glm::dvec3> axes(surface.vertexCount, glm::dvec3(0.0));
   visit([&](std::uint32_t vertex, const glm::dvec3& normal)
     { axes[vertex] += glm::dot(normal, axes[vertex]) < 0.0 ? -normal : normal; });
@@ -140,7 +140,7 @@ std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& s
   return cones;
 }
 
-/// Finds which triangles meet in which edge: those whose sides have the same ends.
+/// Join triangles at the edges they share: sides with the same ends.
 SurfaceEdges joinTriangles(
   const Occluders& occluders, const Surface& surface, std::vector<std::uint32_t> welded)
 {
@@ -193,11 +193,10 @@ SurfaceEdges joinTriangles(
   return found;
 }
 
-/// Where a surface has another place in the snapshot, its vertices and triangles have other
-/// numbers.
+/// Shift vertex and triangle numbers to the surface's present place in the snapshot.
 void renumber(const Surface& surface, SurfaceEdges& found)
 {
-  // Modulo 2^32, so that it may go either way.
+  // Unsigned differences modulo 2^32 also hold negative shifts.
   const std::uint32_t vertices = surface.firstVertex - found.firstVertex;
   const std::uint32_t triangles = surface.firstTriangle - found.firstTriangle;
   if (vertices == 0 && triangles == 0)
@@ -215,14 +214,14 @@ void renumber(const Surface& surface, SurfaceEdges& found)
   }
 }
 
-/// Finds which edges are sharp, and the normals around the rims' corners.
+/// Classify edges as sharp or not, and fill in the normal cones of the rims' corners.
 void findSharp(const Occluders& occluders, const Surface& surface, SurfaceEdges& found)
 {
   const std::vector<glm::dvec3> normals = normalsOf(occluders, surface);
   const std::vector<NormalCone> cones = normalCones(occluders, surface, found.welded, normals);
   const auto coneOf = [&](std::uint32_t vertex) -> const NormalCone&
   { return cones[vertex - surface.firstVertex]; };
-  // Written so that NaN is sharp.
+  // NaN must count as sharp.
   const auto isSharp = [&](std::uint32_t vertex)
   { return !(coneOf(vertex).leastCosine > sharpCosineToMean); };
   const auto normalOf = [&](std::uint32_t triangle) -> const glm::dvec3&
@@ -299,7 +298,7 @@ void CasterEdges::joinParts(const Occluders& occluders)
 {
   this->parts_.resize(occluders.triangles.size());
   std::iota(this->parts_.begin(), this->parts_.end(), 0u);
-  // Triangles point to lesser ones of their part, the least to itself.
+  // Union-find: each triangle points to a lesser one of its part, the least to itself.
   const auto leastOf = [this](std::uint32_t triangle)
   {
     while (this->parts_[triangle] != triangle)
@@ -334,7 +333,7 @@ void CasterEdges::joinParts(const Occluders& occluders)
   }
   for (std::uint32_t& part : this->parts_)
   {
-    part = this->parts_[part]; // the least of lesser ones is known
+    part = this->parts_[part]; // the lesser ones already point to their least
   }
 }
 

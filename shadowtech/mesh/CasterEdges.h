@@ -14,62 +14,60 @@
 namespace gnomon
 {
 
-/// The cosine of the angle up to which the normals of neighbours count as one side: a shadow ray
-/// that starts off one of them starts that share of its offset off the other.
+/// The cosine of the largest angle between the normals of neighbours that are not sharp. A shadow
+/// ray that starts off one triangle starts at least this share of its offset off the neighbour.
 constexpr double sharpCosine = 0.75;
 
-/// Where two triangles of a surface meet, or one ends.
+/// An edge where two triangles of a surface meet, or where one ends.
 struct CasterEdge
 {
   std::uint32_t from = 0, to = 0; ///< vertices in the snapshot
-  /// Triangles in the snapshot; the second is `none` where the surface ends here, or where more
-  /// than two meet, each of which then has an edge of its own.
+  /// Triangles in the snapshot. The second is `none` if the surface ends here. If more than two
+  /// triangles meet, each has its own edge, with `none` as second.
   std::array<std::uint32_t, 2> triangles{ { none, none } };
-  /// Whether both triangles run through it the same way, so that they are wound differently.
+  /// True if both triangles run through the edge in the same direction, so their windings differ.
   bool sameDirection = false;
-  /// Whether a shadow ray that starts off one of the triangles may begin behind the other: their
-  /// normals, or those of the triangles around one of its corners, are farther apart than
-  /// sharpCosine, or one is too thin to say.
+  /// True if a shadow ray that starts off one triangle may begin behind the other. The angle
+  /// between their normals, or among those around one of its corners, exceeds that of sharpCosine.
+  /// Edges of triangles too thin to have a normal are sharp, too.
   bool sharp = false;
 
   static constexpr std::uint32_t none = 0xffffffffu;
 
   bool meets(std::uint32_t vertex) const { return this->from == vertex || this->to == vertex; }
 
-  /// The triangle across it from one of its triangles.
+  /// Return the other triangle of the edge.
   std::uint32_t other(std::uint32_t triangle) const
   {
     return this->triangles[0] == triangle ? this->triangles[1] : this->triangles[0];
   }
 };
 
-/// Where the normals of all triangles around a vertex are.
+/// A cone that holds the normals of all triangles around a vertex.
 struct NormalCone
 {
-  glm::vec3 axis{ 0.0f };    ///< of unit length; either side of the surface is meant
-  float leastCosine = -1.0f; ///< of the angle between a normal, or its opposite, and the axis
+  glm::vec3 axis{ 0.0f };    ///< of unit length, with either sign
+  float leastCosine = -1.0f; ///< between a normal, or its opposite, and the axis
 };
 
-/// An edge at which a surface ends, of one triangle alone: another surface may go on there
+/// An edge with one triangle, at which a surface ends. Another surface may continue there
 /// (CasterSeams.h).
 struct Rim
 {
-  std::uint32_t edge;                ///< of the surface
-  std::array<NormalCone, 2> corners; ///< around the vertices that it leads from and to
+  std::uint32_t edge;                ///< number in the surface
+  std::array<NormalCone, 2> corners; ///< cones around its `from` and `to`
 };
 
 /// The edges of one surface.
 struct SurfaceEdges
 {
   std::vector<CasterEdge> edges;
-  /// For each of its triangles, from the first, the edges from each corner to the next.
+  /// For each triangle of the surface, the edges from each corner to the next.
   std::vector<std::array<std::uint32_t, 3>> ofTriangle;
-  std::vector<Rim>
-    rims; ///< those of its edges that have one triangle, and that no other triangle has
+  std::vector<Rim> rims; ///< edges with one triangle that no other triangle shares
 
   ///@{
-  /// By what its triangles were joined: as of weldedVertices(), and from where vertices and
-  /// triangles count.
+  /// The key of `edges`: weldedVertices(), and the surface's place in the snapshot.
   std::vector<std::uint32_t> welded;
   std::uint32_t firstVertex = 0, firstTriangle = 0;
   ///@}
@@ -77,39 +75,34 @@ struct SurfaceEdges
   std::size_t bytes() const;
 };
 
-/// Brings the edges of a surface up to date with where its vertices are, and with its place in the
-/// snapshot.
+/// Update a surface's edges to its vertex positions and its place in the snapshot.
 ///
-/// All that hangs on positions is found again: which edges are sharp, and the rims' corners. Which
-/// triangles meet in which edge hangs on nothing but which vertices are at the same place. So
-/// vertices are welded anew, and where that comes out as before, however they moved, all that is
-/// kept.
-/// @param edges of the same triangles at any other place; or empty, and then all is found
+/// Sharp edges and the cones of rims depend on positions, and are always computed again. Adjacency
+/// depends only on which vertices share a place. It is reused if welding gives the same result.
+/// @param edges of the same triangles at any earlier place; empty to compute everything
 void updateCasterEdges(const Occluders& occluders, const Surface& surface, SurfaceEdges& edges);
 
-/// The edges of the casting surfaces, kept from snapshot to snapshot.
+/// The edges of the casting surfaces, cached across snapshots.
 ///
-/// Vertices at exactly the same place count as one (WeldedVertices.h). Edges where a vertex lies on
-/// another triangle's edge (T-junctions) are ends. Those between different surfaces are, too,
-/// unless they are seams.
+/// Vertices at exactly the same place count as one (WeldedVertices.h). Edges with another
+/// triangle's vertex in their middle (T-junctions) are ends. Edges between different surfaces are
+/// ends, too, unless they are seams.
 class CasterEdges
 {
 public:
-  /// Finds the edges of surfaces that are new, brings those of others up to date, and finds the
-  /// seams and the parts.
+  /// Find the edges of new surfaces, update those of others, and find seams and parts.
   void update(const Occluders& occluders);
 
-  /// Edges of a casting surface.
+  /// Return the edges of a casting surface.
   /// @param surface index into the snapshot's surfaces, as of the last update
   const SurfaceEdges& of(std::size_t surface) const { return this->kept_.of(surface); }
 
   const CasterSeams& seams() const { return this->seams_; }
 
-  /// The part of the casters' surface that a casting triangle belongs to: all triangles that one
-  /// comes to across edges and seams, whichever way they are seen. Instances are apart from each
-  /// other.
-  /// @param triangle of the snapshot
-  /// @return the least of those triangles
+  /// Return the part of the casters' surface that a casting triangle belongs to: all triangles
+  /// connected to it by edges and seams. Windings do not matter. Instances are separate parts.
+  /// @param triangle number in the snapshot
+  /// @return the least triangle number of the part
   std::uint32_t partOf(std::uint32_t triangle) const { return this->parts_[triangle]; }
 
   std::size_t bytes() const;

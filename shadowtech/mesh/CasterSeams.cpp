@@ -17,16 +17,16 @@ namespace gnomon
 namespace
 {
 
-/// A rim by the places of its ends, the lesser one first.
+/// A rim with the places of its ends, the lesser place first.
 struct PlacedRim
 {
   std::array<Place, 2> ends;
   std::uint32_t surface;
-  std::uint32_t number; ///< of the surface's rims
-  bool swapped;         ///< the edge leads from the greater one
+  std::uint32_t number; ///< index into the surface's rims
+  bool swapped;         ///< true if the edge leads from the greater place
 };
 
-/// Twice a triangle's area along its normal.
+/// Return the triangle's normal, as long as twice its area.
 glm::dvec3 areaOf(const Occluders& occluders, std::uint32_t triangle)
 {
   const glm::uvec3 corners = occluders.triangles[triangle];
@@ -35,7 +35,7 @@ glm::dvec3 areaOf(const Occluders& occluders, std::uint32_t triangle)
     glm::dvec3(occluders.positionsCentred[corners.z]) - a);
 }
 
-/// What is around a vertex at one of the surfaces that meet there.
+/// The normals around a vertex at one of the surfaces that meet there.
 struct PlacedCone
 {
   Place place;
@@ -53,7 +53,7 @@ bool mayHaveSeams(const Surface& surface)
   return surface.casts && !surface.isInstanced() && !surface.oneSided && !surface.cutout;
 }
 
-/// Whether a triangle runs through an edge from its `from` to its `to`.
+/// Return true if the edge's first triangle runs from its `from` to its `to`.
 bool runsAlong(const Occluders& occluders, const CasterEdge& edge)
 {
   const Place from = placeOf(occluders.positionsCentred[edge.from]);
@@ -93,10 +93,10 @@ std::vector<PlacedRim> placedRims(
   return rims;
 }
 
-/// Rims of which there are two between the same places, and no third.
+/// Return the pairs of rims between the same places, where no third rim lies.
 std::vector<std::pair<PlacedRim, PlacedRim>> pairsOf(const std::vector<PlacedRim>& rims)
 {
-  // Of rims between the same places, at the first of them.
+  // Counts rims between the same places, stored at the first of them.
   struct Same
   {
     std::uint32_t count = 0;
@@ -123,7 +123,7 @@ std::vector<std::pair<PlacedRim, PlacedRim>> pairsOf(const std::vector<PlacedRim
   return pairs;
 }
 
-/// A cone around normals, either side of each, by its half angle in radians.
+/// A cone around normals of either sign, with its half angle in radians.
 class WideCone
 {
 public:
@@ -135,10 +135,10 @@ public:
 
   double halfAngle() const { return this->halfAngle_; }
 
-  /// The most that a normal of the other one is off this one's axis.
+  /// Return the largest angle between this cone's axis and a normal of the other cone.
   double reachOf(const WideCone& other) const { return this->angleTo(other) + other.halfAngle_; }
 
-  /// Becomes the narrowest one around both; NaN where the other one is.
+  /// Widen to the narrowest cone around both. The result is NaN if the other cone is.
   void add(const WideCone& other)
   {
     const double angle = this->angleTo(other);
@@ -155,7 +155,7 @@ public:
     const double by = halfAngle - this->halfAngle_;
     const glm::dvec3 towards =
       glm::dot(this->axis_, other.axis_) < 0.0 ? -other.axis_ : other.axis_;
-    // Not both are 0, as the angle is not: then one would be around the other.
+    // The sum is not zero: the angle is not, as neither cone holds the other.
     this->axis_ = glm::normalize(std::sin(angle - by) * this->axis_ + std::sin(by) * towards);
     this->halfAngle_ = halfAngle;
   }
@@ -170,12 +170,11 @@ private:
   double halfAngle_;
 };
 
-/// Whether triangles of cones may be too far apart for shadow rays that start off one of them: the
-/// normals do not fit into one cone.
+/// Return true if the normals of the cones fit into no cone of half the angle of sharpCosine.
+/// Shadow rays that start off one triangle may then begin behind another.
 ///
-/// It is found as a sphere around points is by Ritter (An efficient bounding sphere, 1990): from
-/// two that are far apart, and widened by the others. So two cones alone are too far apart only if
-/// some of their normals are.
+/// The method is Ritter's for bounding spheres (An efficient bounding sphere, 1990): start from two
+/// cones that are far apart, then widen by the others. For two cones alone the result is exact.
 bool tooFarApart(const std::vector<WideCone>& cones)
 {
   const auto farthestFrom = [&](const WideCone& one)
@@ -189,12 +188,11 @@ bool tooFarApart(const std::vector<WideCone>& cones)
   {
     all.add(cone);
   }
-  // Rounding a cosine to float changes its angle by up to 4e-4. Written so that NaN is too far
-  // apart.
+  // Rounding a cosine to float changes its angle by up to 4e-4. NaN must count as too far apart.
   return !(all.halfAngle() < 0.5 * std::acos(sharpCosine) - 1e-3);
 }
 
-/// The places at which triangles of surfaces that meet there are too far apart, in order.
+/// Return, sorted, the places where the normals of the surfaces that meet are too far apart.
 std::vector<Place> sharpPlaces(const std::vector<std::pair<PlacedRim, PlacedRim>>& pairs,
   const std::vector<const SurfaceEdges*>& edges)
 {
@@ -214,7 +212,7 @@ std::vector<Place> sharpPlaces(const std::vector<std::pair<PlacedRim, PlacedRim>
     add(other);
   }
   tbb::parallel_sort(cones.begin(), cones.end());
-  // Each surface has one cone at a place.
+  // Each surface has one cone per place.
   const auto isSame = [](const PlacedCone& a, const PlacedCone& b)
   { return a.place == b.place && a.surface == b.surface; };
   cones.erase(std::unique(cones.begin(), cones.end(), isSame), cones.end());

@@ -11,35 +11,35 @@ namespace gnomon
 
 struct SurfaceEdges;
 
-/// Where a surface goes on as another one.
+/// An edge where a surface continues as another surface.
 struct Seam
 {
-  std::uint32_t edge;         ///< of the surface
+  std::uint32_t edge;         ///< number in the surface
   std::uint32_t otherSurface; ///< index into the snapshot's surfaces
   std::uint32_t otherTriangle;
   ///@{
-  /// As of CasterEdge.
+  /// As in CasterEdge.
   bool sameDirection;
   bool sharp;
   ///@}
 };
 
-/// Seams of the casting surfaces: edges of two of them, both ends of which are at exactly the same
-/// places, and of no third.
+/// Seams of the casting surfaces. A seam is a pair of border edges of two surfaces between exactly
+/// the same two places, where no third border edge lies.
 ///
-/// Surfaces that are instances, one-sided or cut out have none: what is true of one side need not
-/// be of the other.
+/// Instances, one-sided surfaces and cut-outs have no seams: facts about one side need not hold for
+/// the other.
 class CasterSeams
 {
 public:
-  /// Finds the seams anew.
-  /// @param edges of the snapshot's surfaces; null for those that do not cast
+  /// Find the seams of a snapshot.
+  /// @param edges of the snapshot's surfaces; null for surfaces that do not cast
   void update(const Occluders& occluders, const std::vector<const SurfaceEdges*>& edges);
 
-  /// Of an edge of a surface; null where there is none.
+  /// Return the seam at an edge of a surface; null if there is none.
   const Seam* at(std::size_t surface, std::uint32_t edge) const;
 
-  /// All of a surface, by their edges.
+  /// Return all seams of a surface, sorted by edge.
   const std::vector<Seam>& of(std::size_t surface) const { return this->bySurface_[surface]; }
 
   std::size_t bytes() const;

@@ -14,10 +14,10 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double smallestDivisor = std::numeric_limits<double>::min();
 
-/// What is drawn of casters around the map: more than any margin.
+/// Width of the border around the map in which casters are rasterized: larger than any margin.
 constexpr double padTexels = 16.0;
 
-/// A corner of what is cut, and which of the triangle's sides goes on from it.
+/// A corner of a clipped polygon, and the triangle's side that leads on from it.
 struct CutCorner : MapPoint
 {
   std::uint8_t side = noSide;
@@ -30,7 +30,7 @@ MapPoint mix(const MapPoint& a, const MapPoint& b, double t)
     a.Q + t * (b.Q - a.Q), a.z + t * (b.z - a.z) };
 }
 
-/// Cuts a convex polygon by distance(corner) >= 0.
+/// Clip a convex polygon to distance(corner) >= 0.
 template <typename Distance>
 void cut(CutCorners& corners, std::size_t& count, const Distance& distance)
 {
@@ -55,9 +55,10 @@ void cut(CutCorners& corners, std::size_t& count, const Distance& distance)
   count = keptCount;
 }
 
-/// The part of a segment or a convex polygon that lies on the map or around it.
-/// @param nearW the least W that counts; what reaches it is at the light
-/// @return false where that part reaches the light
+/// Clip a segment or a convex polygon to the map and its border.
+/// @param size side of the map, in texels
+/// @param nearW the least W that counts; points at or below it are at the light
+/// @return false if the clipped part reaches the light
 bool cutToMap(CutCorners& corners, std::size_t& count, double size, double nearW)
 {
   const double low = -padTexels;
@@ -79,11 +80,11 @@ bool cutToMap(CutCorners& corners, std::size_t& count, double size, double nearW
     [&](const MapPoint& p) { return p.W > nearW; });
 }
 
-/// How far off its plane a tracer may see a triangle, in world units.
+/// How far off its plane a tracer may see a triangle.
 struct Noise
 {
-  double alongNormal = infinity; ///< infinite where it cannot be bounded
-  double cosineToLight = 0.0;    ///< of its normal, the least over the triangle
+  double alongNormal = infinity; ///< world units; infinite if no bound exists
+  double cosineToLight = 0.0;    ///< of the normal; the least over the triangle
 
   double alongRay() const
   {
@@ -103,7 +104,7 @@ Noise tracersNoise(const CasterScene& scene, const Surface& surface, std::uint32
     return result;
   }
   const glm::dvec3 normal = areaVector / doubleArea;
-  // Of a plane, N.(position - corner) is the same for all its points.
+  // N.(position - corner) is the same for all points of a plane.
   if (scene.space.positional)
   {
     double farthest = 0.0;
@@ -118,7 +119,7 @@ Noise tracersNoise(const CasterScene& scene, const Surface& surface, std::uint32
   {
     result.cosineToLight = glm::dot(normal, scene.towards);
   }
-  // Of slivers planeNoise() is no bound.
+  // planeNoise() does not bound slivers.
   const auto& [a, b, c] = corners;
   const glm::dvec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
   const double longest = std::max({ extent.x, extent.y, extent.z });
@@ -130,7 +131,7 @@ Noise tracersNoise(const CasterScene& scene, const Surface& surface, std::uint32
   return result;
 }
 
-/// The cosine below which a tracer may take a one-sided triangle to face either way.
+/// Return the cosine below which a tracer may take a one-sided triangle to face either way.
 double unclearCosine(const std::array<glm::dvec3, 3>& corners)
 {
   const glm::dvec3 ab = corners[1] - corners[0];
@@ -139,7 +140,8 @@ double unclearCosine(const std::array<glm::dvec3, 3>& corners)
   return std::max(1e-5, std::ldexp(longest, -19) / glm::length(glm::cross(ab, ac)));
 }
 
-/// The margin of what comes as near to the light as z.
+/// Return the margin of a caster, in texels.
+/// @param nearestZ its least distance from the light, along the view
 double marginOf(const CasterScene& scene, double nearestZ)
 {
   const double perUnit =
@@ -147,8 +149,7 @@ double marginOf(const CasterScene& scene, double nearestZ)
   return marginTexels + perUnit * scene.lateral;
 }
 
-/// Whether a triangle is so near to a positional light that its margin might be wider than what is
-/// drawn around the map.
+/// Return true if the margin of a triangle near a positional light might exceed the map's border.
 bool isAtLight(const CasterScene& scene, const std::array<glm::dvec3, 3>& corners)
 {
   if (!scene.space.positional)
@@ -164,7 +165,7 @@ bool isAtLight(const CasterScene& scene, const std::array<glm::dvec3, 3>& corner
     std::abs(glm::dot(areaVector, scene.towards - a)) <= distance * glm::length(areaVector);
 }
 
-/// The most texels that a step across the light can be long, on the map.
+/// Return the most texels that one unit across the light covers on the map.
 double largestTexelsPerAcross(const LightView& view, double size)
 {
   const glm::dmat3 acrossFromMap = glm::inverse(view.mapFromAcross);
@@ -220,7 +221,7 @@ CasterScene casterScene(
   // Rays end at a box's near face to within rounding, wherever the first caster is.
   const double begins = hasBox ? 0.0 : view.beginsAt;
   nearestZ = std::max(nearestZ, begins);
-  // Depths are scaled by W in the map's middle. Warped views have others, a few times that at most.
+  // W in the map's middle scales depths. Elsewhere in warped views, W is a few times that at most.
   const glm::dvec3 across = glm::inverse(view.mapFromAcross) * glm::dvec3(0.0, 0.0, 1.0);
   const double middleW = (view.mapFromAcross * (across / across.z)).z;
   const double low = positional ? -1.0 / (nearestZ * middleW) : nearestZ / middleW;
@@ -229,8 +230,7 @@ CasterScene casterScene(
   const double extent =
     std::max({ high - low, 1e-6 * std::max(std::abs(high), std::abs(low)), smallestDivisor });
 
-  // What rays and casters are rounded in proportion to: their coordinates, relative to a ray's
-  // origin.
+  // Rounding of rays and casters is proportional to their coordinates relative to a ray's origin.
   double largest = 0.0;
   for (const glm::dvec3& corner : occluders.allCentred.corners())
   {
@@ -244,7 +244,7 @@ CasterScene casterScene(
     ? 0.0
     : std::abs((viewFromCentred * glm::dvec4(occluders.allCentred.centre(), 1.0)).z) +
       occluders.allCentred.radius();
-  // Off the view's axis, which ends at 60 degrees, rays are longer and texels' sides, too.
+  // Up to 60 degrees off the view's axis, rays and the sides of texels are up to twice as long.
   const double lateral = std::ldexp(largest, -18) * (positional ? 2.0 : 1.0);
   return { occluders,
     { positional, viewFromCentred, texels, 1.0 / extent, -low / extent,
@@ -296,7 +296,8 @@ MapPolygon polygonOf(
   }
   polygon.role.present = true;
   const Noise noise = tracersNoise(scene, surface, instance, triangle, corners);
-  // Casters that face away from the light are not there; along it, a tracer may see it either way.
+  // One-sided casters that face away from the light do not exist. A tracer may see a triangle along
+  // the light either way.
   const bool unclear =
     surface.oneSided && !(std::abs(noise.cosineToLight) > unclearCosine(corners));
   if (surface.oneSided && !unclear && noise.cosineToLight < 0.0 && !atLight)
@@ -318,7 +319,7 @@ MapPolygon polygonOf(
   polygon.margin = atLight ? infinity : marginOf(scene, polygon.nearestZ);
   polygon.slack = noise.alongRay() * polygon.depthPerUnit;
   polygon.noise = noise.alongNormal;
-  // Twice the area, and how high that makes it over its longest side.
+  // A polygon is thin if twice its area over its longest side, its height, is small.
   double area = 0.0;
   double longest = 0.0;
   for (std::size_t i = 0; i < count; ++i)
@@ -343,7 +344,7 @@ MapPlane planeOf(const MapPolygon& polygon)
 {
   MapPlane plane;
   plane.origin = polygon.corners[0];
-  // From the largest of the triangles between three corners.
+  // The largest triangle between three corners gives the plane.
   double largest = 0.0;
   for (std::size_t i = 1; i + 1 < polygon.count; ++i)
   {
@@ -390,7 +391,7 @@ bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t i
   points[0] = { scene.space.at(centredVertex(scene.occluders, surface, instance, edge.from)) };
   points[1] = { scene.space.at(centredVertex(scene.occluders, surface, instance, edge.to)) };
   std::size_t count = 2;
-  // Cut as a polygon of two sides, which gives both of its ends twice.
+  // Clip the segment as a polygon of two sides, which returns both ends twice.
   if (!cutToMap(points, count, scene.space.size, scene.nearW) || count < 2)
   {
     return false;

@@ -15,29 +15,29 @@ namespace gnomon
 {
 
 /// @file
-/// Casters as a conservative map sees them: triangles and edges on the plane of its texels, with
-/// how far rounding may move them.
+/// Triangles and edges of casters on the plane of a conservative map's texels, with bounds on how
+/// far rounding may move them.
 
-/// How much larger than it is a texel counts, on each side, in texels: for what rounding moves
-/// shadow rays across the light, and for how far beside the receiver they start.
+/// Width by which a texel grows on each side, in texels. It covers rounding of shadow rays across
+/// the light, and how far beside their receiver rays start.
 constexpr double marginTexels = 1.0 / 128.0;
-/// The part of it that is there for where rays start.
+/// The share of marginTexels that covers where rays start.
 constexpr double offsetTexels = 1.0 / 256.0;
-/// With a larger margin a texel would not decide much: casters of which rounding asks for more make
-/// texels undecided.
+/// The largest margin, in texels. Larger texels would decide little, so casters whose rounding asks
+/// for more leave their texels undecided.
 constexpr double largestMargin = 1.0;
-/// Triangles that are no higher than this seem to be edges alone. Rays start less far beside their
-/// receivers, so that they do not start behind such a triangle's neighbour.
+/// Height, in texels, up to which a triangle counts as edges alone. Rays start less far beside
+/// their receivers, so none starts behind the neighbour of a triangle that is this thin.
 constexpr double thinTexels = 1.0 / 128.0;
 
-/// A point as the map sees it, in homogeneous coordinates: texels X/W and Y/W, depth Q/W; z along
-/// the view.
+/// A point in the map's homogeneous coordinates: texels X/W and Y/W, depth Q/W. z is the distance
+/// along the view.
 struct MapPoint
 {
   double X, Y, W, Q, z;
 };
 
-/// From centred coordinates to the map's.
+/// The mapping from centred coordinates to the map's coordinates.
 struct MapSpace
 {
   bool positional;
@@ -46,9 +46,9 @@ struct MapSpace
   double depthScale;
   double depthOffset;
   double size;
-  /// What W changes by, per unit of length, at most.
+  /// The most that W changes per unit of length.
   double gradientOfW;
-  /// The largest |z| of anything, of parallel rays; 0 of those from a position.
+  /// For parallel rays, the largest |z| of any geometry; 0 for rays from a position.
   double farthestZ;
 
   MapPoint at(const glm::dvec3& centred) const
@@ -56,17 +56,16 @@ struct MapSpace
     const glm::dvec3 view(this->viewFromCentred * glm::dvec4(centred, 1.0));
     const glm::dvec3 map =
       this->texelFromAcross * (this->positional ? view : glm::dvec3(view.x, view.y, 1.0));
-    // The scale of depth is affine in Q/W, and so W's share of it.
+    // Q/W is scaled affinely, so the offset adds its multiple of W to Q.
     const double depth = this->positional ? -1.0 : view.z;
     return { map.x, map.y, map.z, this->depthScale * depth + this->depthOffset * map.z, view.z };
   }
 
-  /// The same as a matrix, to (X, Y, Q, W).
-  /// @param constant what Q / W has everywhere, in place of `depthOffset`
+  /// Return the mapping as a matrix to (X, Y, Q, W).
+  /// @param constant replaces `depthOffset` as the constant part of Q / W
   glm::dmat4 mapFromCentred(double constant) const;
 
-  /// How much depth changes at most where a point moves by a unit of length in any direction: a / W
-  /// + b / W^2.
+  /// Bound the change of depth per unit of length in any direction, as (a, b) of a / W + b / W^2.
   glm::dvec2 depthPerUnit() const
   {
     return this->positional
@@ -80,56 +79,56 @@ struct MapSpace
   }
 };
 
-/// A corner of what is drawn.
+/// A corner of a clipped polygon or segment: texels and depth.
 struct MapCorner
 {
   double x, y, depth;
 };
 
-/// What is true of all casters of a view.
+/// Values that all casters of a view share.
 struct CasterScene
 {
   const Occluders& occluders;
   MapSpace space;
-  double begins;  ///< the z from which on casters count
-  double nearW;   ///< what is at the light
-  double lateral; ///< how far beside a ray a tracer may look, in world units
-  /// The most texels to a unit across the light, of positional ones at distance 1.
+  double begins;  ///< the least z at which casters count
+  double nearW;   ///< points at or below this W are at the light
+  double lateral; ///< how far beside a ray a tracer may find a hit, in world units
+  /// The most texels per unit across the light; for positional lights at distance 1.
   double texelsPerUnit;
-  /// Towards the light, of parallel rays; else the light's position, centred.
+  /// For parallel rays the direction towards the light; else the light's centred position.
   glm::dvec3 towards;
 
-  /// How far a shadow ray may start beside its receiver, across the light, at a distance from it
-  /// (of parallel rays: at any).
+  /// Return how far across the light a shadow ray may start beside its receiver, in world units.
+  /// @param distance from the light; without effect for parallel rays
   double largestOffset(double distance) const
   {
-    // Off the view's axis rays are longer, twice at most.
+    // Rays off the view's axis are up to twice as long.
     return offsetTexels / (this->texelsPerUnit * (this->space.positional ? 2.0 : 1.0)) *
       (this->space.positional ? distance : 1.0);
   }
 };
 
-/// How casters are to be looked at in a view of a light.
-/// @param hasBox whether the light begins at the near face of a box
+/// Return the values that the casters of a light's view share.
+/// @param hasBox true if the light begins at the near face of a box
+/// @param sizeTexels side of the map
 CasterScene casterScene(
   const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders);
 
-/// How a caster counts.
+/// How a caster counts in the texels that it touches.
 struct Role
 {
-  bool present = false; ///< may block
-  bool covers = false;  ///< does block, all over
-  bool poison = false;  ///< where it is, by its own margin, nothing is certain
+  bool present = false; ///< it may block
+  bool covers = false;  ///< it blocks every ray through its inside
+  bool poison = false;  ///< all texels within its own margin are undecided
 };
 
-/// Enough for a triangle cut by four planes, even where rounding makes corners alternate.
+/// Enough for a triangle clipped by four planes, even if rounding makes corners alternate.
 constexpr std::size_t mostCorners = 16;
 
-/// Of a polygon's side that is none of the triangle's.
+/// Marks a polygon's side that clipping made.
 constexpr std::uint8_t noSide = 3;
 
-/// One of the parts that the casters' surface falls into (CasterEdges::partOf()), those of
-/// instances told apart.
+/// A part of the casters' surface (CasterEdges::partOf()), separate for each instance.
 using CasterPart = std::uint64_t;
 constexpr CasterPart noPart = 0xffffffffffffffffu;
 
@@ -137,30 +136,29 @@ constexpr CasterPart noPart = 0xffffffffffffffffu;
 struct MapPolygon
 {
   Role role;
-  CasterPart part = noPart; ///< that it belongs to
-  int facing = 0; ///< 1 or -1 by the way that it is wound on the map; 0: all its edges are ends
+  CasterPart part = noPart; ///< the part that it belongs to
+  int facing = 0;           ///< 1 or -1 by its winding on the map; 0 if all its edges are ends
   std::size_t count = 0;
   std::array<MapCorner, mostCorners> corners;
-  /// Which side of the triangle runs from each corner to the next, by the corner of the triangle
-  /// that it starts at; `noSide` where the polygon was cut.
+  /// For each side of the polygon, the corner at which the same side of the triangle starts. It is
+  /// `noSide` where clipping made the side.
   std::array<std::uint8_t, mostCorners> sides;
-  /// That rounding asks for, in texels; infinite where the caster is at the light.
+  /// Width that rounding asks for, in texels; infinite if the caster is at the light.
   double margin = 0.0;
-  double nearestZ = 0.0; ///< of what is drawn of it, along the view
-  double depthPerUnit =
-    0.0; ///< how much depth changes at most where a point of it moves by a unit of length
-  double slack = 0.0; ///< depth that a tracer may see it off its plane
-  double noise = 0.0; ///< and how far it may see it off, along its normal, in world units
+  double nearestZ = 0.0;     ///< the least distance of its clipped part along the view
+  double depthPerUnit = 0.0; ///< the most that depth changes per unit of length
+  double slack = 0.0;        ///< how far off its plane a tracer may see it, as depth
+  double noise = 0.0;        ///< the same along its normal, in world units
 
-  /// Between which rows it lies, in texels.
+  /// Return its least and largest y, in texels.
   std::pair<double, double> rows() const;
 };
 
-/// A polygon's depth on the map, and its area there.
+/// A polygon's plane as depth over the map, and its area there.
 struct MapPlane
 {
-  double perX = 0.0, perY = 0.0; ///< that depth changes by, to a texel
-  double area = 0.0;             ///< in square texels; its sign says which way the corners run
+  double perX = 0.0, perY = 0.0; ///< change of depth per texel
+  double area = 0.0;             ///< in square texels; its sign tells the winding
   MapCorner origin;
 
   double depthAt(double x, double y) const
@@ -170,10 +168,10 @@ struct MapPlane
   }
 };
 
-/// The plane of a polygon; one at its first corner's depth where it has no area.
+/// Return a polygon's plane. Without area, it has the first corner's depth everywhere.
 MapPlane planeOf(const MapPolygon& polygon);
 
-/// One triangle, or what of it lies on the map.
+/// Return the part of a triangle that lies on the map or its border.
 /// @param instance of a surface with instances; else 0
 MapPolygon polygonOf(
   const CasterScene& scene, const Surface& surface, std::uint32_t instance, std::uint32_t triangle);
@@ -183,24 +181,24 @@ struct MapSegment
 {
   std::array<MapCorner, 2> ends;
   double slack = 0.0;
-  bool isEnd = false;       ///< the casters' surface ends here; else a sharp edge
-  CasterPart part = noPart; ///< that its triangles belong to
+  bool isEnd = false;       ///< true if the casters' surface ends here; false for a sharp edge
+  CasterPart part = noPart; ///< the part that its triangles belong to
 };
 
-/// What an edge is to its triangles, of which each faces one way on the map or the other (1, -1),
-/// lies along the light (0), or is not there at all (`absentFacing`).
+/// `absentFacing` marks a one-sided triangle that faces away, and so does not exist. Others face
+/// one way on the map or the other (1, -1), or lie along the light (0).
 constexpr std::int8_t absentFacing = 2;
 enum class EdgeKind
 {
-  Inner, ///< the casters' surface goes on
-  Sharp, ///< it goes on, but shadow rays from one side may start behind the other
+  Inner, ///< the casters' surface continues
+  Sharp, ///< it continues, but shadow rays from one side may start behind the other
   End,   ///< it ends or folds over
-  Unsure ///< it ends, and a tracer cannot tell how far the triangle is
+  Unsure ///< it ends, at a triangle whose depth a tracer cannot tell
 };
 EdgeKind kindOf(const CasterEdge& edge, std::int8_t firstFacing, std::int8_t secondFacing);
 
-/// One edge, or what of it lies on the map.
-/// @return false where nothing does
+/// Find the part of an edge that lies on the map or its border.
+/// @return false if none does
 bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t instance,
   const CasterEdge& edge, EdgeKind kind, MapSegment& segment);
 

@@ -12,20 +12,20 @@
 namespace gnomon
 {
 
-/// Something that is found for each casting surface, and kept from snapshot to snapshot.
-/// @tparam Found with bytes(), what it holds elsewhere
+/// A cache of one value per casting surface, reused across snapshots.
+/// @tparam Found the value; its bytes() returns the memory it owns elsewhere
 template <typename Found>
 class KeptOfCasters
 {
 public:
-  /// Finds it for surfaces that are new, and brings it up to date for those that moved or have
-  /// another place in the snapshot.
-  /// @param bringUpToDate called with a snapshot, a surface of it, and what was found for the same
-  /// triangles; a new Found, if nothing was
+  /// Compute the values of new surfaces, and update those of surfaces that moved or have another
+  /// place in the snapshot.
+  /// @param bringUpToDate called with a snapshot, one of its surfaces, and the value cached for the
+  /// same triangles, or an empty Found
   template <typename BringUpToDate>
   void update(const Occluders& occluders, const BringUpToDate& bringUpToDate)
   {
-    // Should that fail, what is kept is whole, and the rest will be found again.
+    // If an update throws, the cache stays consistent, and missing values are computed next time.
     std::unordered_map<std::uint64_t, Kept> earlier = std::exchange(this->kept_, {});
     this->bySurface_.assign(occluders.surfaces.size(), nullptr);
     for (const Surface& surface : occluders.surfaces)
@@ -60,7 +60,7 @@ public:
     }
   }
 
-  /// Of a casting surface.
+  /// Return the value of a casting surface.
   /// @param surface index into the snapshot's surfaces, as of the last update
   const Found& of(std::size_t surface) const { return *this->bySurface_[surface]; }
 
@@ -82,7 +82,7 @@ private:
     std::uint32_t firstTriangle = 0;
     Found found;
   };
-  std::unordered_map<std::uint64_t, Kept> kept_; ///< by the surface's topologyVersion
+  std::unordered_map<std::uint64_t, Kept> kept_; ///< by a surface's topologyVersion
   std::vector<const Found*> bySurface_;
 };
 

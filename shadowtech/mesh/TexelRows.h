@@ -8,33 +8,35 @@ namespace gnomon
 {
 
 /// @file
-/// Which texels of a map's rows lie inside straight sides.
+/// Finds which texels of a row lie inside straight sides.
 
-/// Columns or rows, from the first to the last.
+/// Columns or rows from first to last, both included; empty if first > last.
 struct Span
 {
   int first, last;
 };
 
-/// The rows or columns below `limit` that a range of texel coordinates meets; none if first > last.
+/// Return the rows or columns in [0, limit) that a range of texel coordinates meets; none if first
+/// > last.
 inline Span spanOf(double low, double high, int limit)
 {
   return { static_cast<int>(std::floor(std::clamp(low, 0.0, static_cast<double>(limit)))),
     static_cast<int>(std::floor(std::clamp(high, -1.0, limit - 1.0))) };
 }
 
-/// How x where nx x + rest = 0 follows from the rest; 0 where a side runs along the row.
+/// Return the factor that turns `rest` into the x where nx x + rest = 0; 0 if a side runs along the
+/// row.
 inline double boundPerRest(double nx)
 {
   return std::abs(nx) > 1e-12 ? -1.0 / nx : 0.0;
 }
 
-/// Texels of a row, those that a polygon's sides leave.
+/// The range of a row inside a polygon's sides.
 struct RowRange
 {
-  double low, high; ///< of texels' centres
+  double low, high; ///< x of texels' centres
 
-  /// Leaves nx x + rest >= 0.
+  /// Clip to nx x + rest >= 0.
   /// @param perRest boundPerRest(nx)
   void cut(double perRest, double rest)
   {
@@ -51,7 +53,7 @@ struct RowRange
       this->high = -std::numeric_limits<double>::infinity();
     }
   }
-  /// The texels whose point at `at` in [0, 1) lies in the range.
+  /// Return the texels whose point at offset `at`, in [0, 1), lies in the range.
   Span texels(double at, int width) const
   {
     return { static_cast<int>(

@@ -32,7 +32,7 @@ void updateFans(const Occluders& occluders, const Surface& surface, SurfaceFans&
       ++fans.begin[corners[k]];
     }
   }
-  // From how many there are to where each one's end, and from there down to where they begin.
+  // Turn counts into each fan's end. Filling in triangles then moves these down to the begins.
   std::uint32_t end = 0;
   for (std::uint32_t& begin : fans.begin)
   {

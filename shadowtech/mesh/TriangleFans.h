@@ -12,31 +12,31 @@
 namespace gnomon
 {
 
-/// Which neighbours of a triangle count as adjacent to it.
+/// Which neighbours of a triangle are adjacent to it.
 enum class Adjacency
 {
   Off,
-  Edges,   ///< those that share an edge with it
-  Vertices ///< those that share a vertex with it
+  Edges,   ///< triangles that share an edge with it
+  Vertices ///< triangles that share a vertex with it
 };
 
-/// The triangles around each vertex of a surface, those at exactly the same place counting as one.
+/// The triangles around each vertex of a surface. Vertices at exactly the same place count as one.
 struct SurfaceFans
 {
-  std::uint32_t firstTriangle = 0;  ///< of the surface
-  std::vector<glm::uvec3> corners;  ///< the vertices of each of its triangles, as they count here
-  std::vector<std::uint32_t> begin; ///< of each vertex' fan in `triangles`, and the end of the last
+  std::uint32_t firstTriangle = 0; ///< of the surface
+  std::vector<glm::uvec3> corners; ///< of each triangle, as welded vertices
+  /// Where each vertex's fan begins in `triangles`, and the end of the last.
+  std::vector<std::uint32_t> begin;
   std::vector<std::uint32_t> triangles; ///< counted from firstTriangle
 
   std::size_t bytes() const;
 };
 
-/// Brings the fans of a surface up to date: they stay where the same vertices as before are at the
-/// same place.
-/// @param fans of the same triangles at any other place; or empty, and then all is found
+/// Update the fans of a surface. They are reused if the same vertices share a place.
+/// @param fans of the same triangles at any earlier place; empty to compute everything
 void updateFans(const Occluders& occluders, const Surface& surface, SurfaceFans& fans);
 
-/// The fans of the casting surfaces, kept from snapshot to snapshot.
+/// The fans of the casting surfaces, cached across snapshots.
 class TriangleFans
 {
 public:
@@ -49,11 +49,11 @@ private:
   KeptOfCasters<SurfaceFans> kept_;
 };
 
-/// Visits a triangle and those that share an edge with it, or a vertex, each once: any number of
-/// triangles may meet in either.
-/// @param triangle of the snapshot, as are those visited
-/// @param visit returns whether that is enough
-/// @return whether it was
+/// Visit a triangle and those adjacent to it by an edge or a vertex, each once. Any number of
+/// triangles may share either.
+/// @param triangle number in the snapshot, as for those visited
+/// @param visit returns true to stop
+/// @return true if `visit` stopped
 template <typename Visit>
 bool visitAdjacent(
   const SurfaceFans& fans, std::uint32_t triangle, Adjacency adjacency, const Visit& visit)
@@ -74,7 +74,7 @@ bool visitAdjacent(
       const bool x = has(corners, own.x);
       const bool y = has(corners, own.y);
       const bool z = has(corners, own.z);
-      const bool isFirst = k == (x ? 0 : y ? 1 : 2); // else it has been visited in another fan
+      const bool isFirst = k == (x ? 0 : y ? 1 : 2); // else another fan has visited it
       const bool sharesEdge = (x && y) || (y && z) || (z && x);
       if (isFirst && other + fans.firstTriangle != triangle &&
         (sharesEdge || adjacency == Adjacency::Vertices) && visit(other + fans.firstTriangle))

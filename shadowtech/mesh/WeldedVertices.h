@@ -12,8 +12,8 @@
 namespace gnomon
 {
 
-/// A position as bits: in order even where it is not finite, and the same only for exactly the same
-/// place.
+/// The bits of a position. They are ordered even if the position is not finite, and equal only for
+/// exactly the same place.
 using Place = std::array<std::uint32_t, 3>;
 
 inline Place placeOf(const glm::vec3& position)
@@ -22,22 +22,21 @@ inline Place placeOf(const glm::vec3& position)
   return { { bits.x, bits.y, bits.z } };
 }
 
-/// Well spread over all of its bits, the upper ones most.
+/// Return a hash with well-spread bits, the upper ones most.
 inline std::uint64_t hashOf(const Place& place)
 {
-  // Two rounds of multiplication by odd numbers (Knuth, The Art of Computer Programming 3, 6.4):
-  // coordinates of regular meshes differ in few bits.
+  // Two rounds of multiplication by odd numbers (Knuth, The Art of Computer Programming 3, 6.4),
+  // because coordinates of regular meshes differ in few bits.
   std::uint64_t hash = (std::uint64_t(place[1]) << 32 | place[0]) * 0x9e3779b97f4a7c15u;
   hash = (hash ^ hash >> 32 ^ place[2]) * 0xd6e8feb86659fd93u;
   return hash ^ hash >> 32;
 }
 
-/// Of things that are numbered one by one, finds the first that is the same: a hash table of their
-/// numbers, with linear probing.
+/// A hash table with linear probing that finds the first of equal items, numbered one by one.
 class FirstOfSame
 {
 public:
-  /// @param most how many things there can be
+  /// @param most upper bound of the number of items
   explicit FirstOfSame(std::size_t most)
   {
     while (std::size_t(1) << this->bits_ < 2 * most)
@@ -47,10 +46,9 @@ public:
     this->slots_.assign(std::size_t(1) << this->bits_, empty);
   }
 
-  /// @param hash the same for things that are the same
-  /// @param isSame whether a thing of that number, of those asked for before, is the same as this
-  /// one
-  /// @return the number of the first one; this one, if there was none
+  /// Return the number of the first equal item, or `number` if there is none.
+  /// @param hash equal for equal items
+  /// @param isSame returns true if an item, given by a number passed earlier, equals this one
   template <typename IsSame>
   std::uint32_t of(std::uint32_t number, std::uint64_t hash, const IsSame& isSame)
   {
@@ -72,8 +70,8 @@ private:
   std::vector<std::uint32_t> slots_;
 };
 
-/// For each vertex of a surface, counted from its first, the first one at exactly the same place:
-/// surfaces that are drawn are split where their normals or texture coordinates break.
+/// Return for each vertex of a surface the first one at exactly the same place, both counted from
+/// the surface's first vertex. VTK splits vertices where normals or texture coordinates break.
 std::vector<std::uint32_t> weldedVertices(const Occluders& occluders, const Surface& surface);
 
 } // namespace gnomon

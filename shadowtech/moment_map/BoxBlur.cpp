@@ -25,7 +25,7 @@ void BoxBlur::allocate(const TexelFormat& format, int sizeTexels)
   {
     return;
   }
-  this->sizeTexels_ = 0; // in case that there is no memory
+  this->sizeTexels_ = 0; // stays 0 if memory runs out
   allocateMap(this->rows_, format, sizeTexels, 1);
   this->format_ = format;
   this->sizeTexels_ = sizeTexels;
@@ -55,7 +55,7 @@ void BoxBlur::apply(
     ShaderLibrary::setUniform(program, { "axis", axis });
     glDispatchCompute(
       ceilDivide(this->sizeTexels_, texelsPerGroup), ceilDivide(this->sizeTexels_, widthTexels), 1);
-    // The next pass fetches this one's texels, and stores where this one has fetched.
+    // The next pass reads this one's texels, and writes where this one read.
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   };
   for (int layer = 0; layer < layers; ++layer)

@@ -12,25 +12,27 @@ namespace gnomon
 
 class ShaderLibrary;
 
-/// Replaces the texels of a map by their means over a square box, rows first, then columns. The
-/// cost does not depend on the box's width (box_blur.comp.glsl).
+/// Replaces the texels of a map by their means over a square box, first along rows, then along
+/// columns. The cost does not depend on the box's width (box_blur.comp.glsl).
 ///
-/// The box of texel i begins at i - width / 2: around the texel for an odd width, around the
-/// texel's lower corner for an even one. Outside of a layer there is nothing but empty texels.
+/// The box of texel i begins at i - width / 2. So it is centred on the texel for an odd width, and
+/// on the texel's lower corner for an even one. Texels outside a layer are empty.
 class BoxBlur
 {
 public:
+  /// Allocate memory for a layer.
   /// @param format GL_RG32F or GL_RGBA32F
-  /// @throws TextureMemoryError
+  /// @param sizeTexels side of the map
+  /// @throws TextureMemoryError without enough memory
   void allocate(const TexelFormat& format, int sizeTexels);
-  /// Of what allocate() was given; every layer on its own.
+  /// Blur all layers of a map with the allocated format and size, each separately.
   void apply(
     GLuint map, int layers, int widthTexels, const glm::vec4& empty, ShaderLibrary& shaders);
   void release();
   std::size_t bytes() const;
 
 private:
-  GlTexture rows_; ///< a layer whose rows are done
+  GlTexture rows_; ///< a layer after the pass along rows
   TexelFormat format_{};
   int sizeTexels_ = 0;
 };

@@ -11,18 +11,18 @@ namespace gnomon
 namespace
 {
 
-/// Why `blur` sat is refused where moments exceed the integers of a summed-area table
-/// (MomentEstimator::largest is 0); empty for other blurs.
+/// Return why `blur` sat is refused; empty for other blurs. It is for moments beyond the integers
+/// of a summed-area table (MomentEstimator::largest is 0).
 std::string refusedSums(const ShadowLight& light)
 {
   return light.of<MomentMapSettings>().blur == MapBlur::Sat ? "'" + light.estimator +
-      "' has moments beyond the range of the 32-bit integers that a summed-area table holds; it "
-      "takes 'blur' box"
+      "' has moments beyond the range of the 32-bit integers that a summed-area table holds; use "
+      "'blur' box"
                                                             : "";
 }
 
-/// Of all layers with their levels, the depths they are drawn with, the samples of a layer, and
-/// the table of sums or what blurs a layer.
+/// Return the bytes per texel of all layers with their levels, their depth buffer, a layer's
+/// samples, and the summed-area table or the blur's layer.
 double bytesPerTexelOf(int moments, const ShadowLight& light)
 {
   const auto& settings = light.of<MomentMapSettings>();
@@ -34,7 +34,7 @@ double bytesPerTexelOf(int moments, const ShadowLight& light)
   return images * sizeof(float);
 }
 
-/// What an estimator over moments is, like all others.
+/// Return the common part of the estimators' info.
 TechniqueInfo infoOfMoments(const char* name, int moments)
 {
   TechniqueInfo info;

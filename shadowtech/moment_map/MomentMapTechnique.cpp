@@ -26,13 +26,13 @@ TexelFormat momentsFormat(int moments)
                       : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
 }
 
-/// The line that gives a macro of GLSL a real setting of the light.
+/// Return the line that defines a GLSL macro as a real setting of the light.
 std::string defineSetting(const std::string& name, const char* setting, const ShadowLight& light)
 {
   return "#define " + name + " float(" + findSetting(setting)->get(light) + ")\n";
 }
 
-/// How many levels a light's map has: down to a single texel, or only itself.
+/// Return the number of levels of a light's map: down to a single texel, or 1 without mip maps.
 int levelsOf(const ShadowLight& light)
 {
   int levels = 1;
@@ -79,7 +79,7 @@ MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 {
   if (light.of<MomentMapSettings>().blur == MapBlur::Sat)
   {
-    // Along each axis the rectangle reaches as far as a disc would.
+    // Along each axis the rectangle extends as far as a disc would.
     return kernelReach(light, { 0.5, 0.0, 0.5 * light.of<KernelSettings>().sizeTexels });
   }
   return { 0.5 * (light.of<KernelSettings>().sizeTexels + 1.0), 0.0 };
@@ -101,7 +101,7 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   {
     return;
   }
-  this->sizeTexels_ = 0; // in case that there is no memory
+  this->sizeTexels_ = 0; // stays 0 if memory runs out
   this->layers_ = 0;
   this->depth_.reset();
   this->sampled_.release();
@@ -135,7 +135,7 @@ void MomentMapTechnique::bake(const MapInput& input)
   const GlStateGuard guard;
   const std::vector<LightView>& views = input.views.views;
   this->summed_ = input.light.of<MomentMapSettings>().blur == MapBlur::Sat;
-  // A light without a view still needs a texture to bind.
+  // Even a light without a view needs a texture to bind.
   this->allocate(input.light, std::max(static_cast<int>(views.size()), 1));
   this->views_ = input.views;
   this->viewFits_ = input.viewFits;
@@ -191,7 +191,7 @@ void MomentMapTechnique::bake(const MapInput& input)
   }
   if (this->levels_ > 1)
   {
-    // Drivers may read what the blur has stored either way.
+    // Drivers may use either path to read the blur's output.
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D_ARRAY, this->map_.name());
@@ -200,7 +200,7 @@ void MomentMapTechnique::bake(const MapInput& input)
 }
 
 //------------------------------------------------------------------------------
-/// The longest side of a rectangle that is read of the baked map, in texels.
+/// Return the longest side of a rectangle that lookups read from the baked map, in texels.
 double MomentMapTechnique::widestKernel() const
 {
   const double texelsAcross = mostTexelsAcross(this->views_, this->sizeTexels_);

@@ -6,7 +6,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 void SampledLayer::allocate(const TexelFormat& format, int sizeTexels, int samplesPerTexel)
 {
-  this->release(); // in case that there is no memory
+  this->release(); // stays empty if memory runs out
   allocateSamples(this->moments_, format, sizeTexels, samplesPerTexel);
   allocateSamples(
     this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, samplesPerTexel);

@@ -8,18 +8,19 @@
 namespace gnomon
 {
 
-/// What a layer of a map is drawn into with several samples of each texel, before they are
-/// averaged.
+/// A layer of a map with several samples per texel, before they are averaged.
 class SampledLayer
 {
 public:
+  /// Allocate the layer.
   /// @param format of the map
-  /// @throws TextureMemoryError
+  /// @param sizeTexels side of the map
+  /// @throws TextureMemoryError without enough memory
   void allocate(const TexelFormat& format, int sizeTexels, int samplesPerTexel);
-  /// With a depth buffer of its own.
+  /// Return the framebuffer, which has its own depth buffer.
   GLuint framebuffer() const { return this->framebuffer_.name(); }
-  /// Writes the means of the samples to the colour attachment of another framebuffer; this one is
-  /// bound afterwards.
+  /// Write the means of the samples to the colour attachment of another framebuffer. This layer's
+  /// framebuffer is bound afterwards.
   void average(GLuint framebuffer) const;
   void release();
   std::size_t bytes() const;

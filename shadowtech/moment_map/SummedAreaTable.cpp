@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr int linesPerGroup =
-  16; // as in sum_area.comp.glsl: lines are few, and should be on all processors
+  16; // as in sum_area.comp.glsl; lines are few, and must use all processors
 
 TexelFormat sumsFormat(int channels)
 {
@@ -31,7 +31,7 @@ void SummedAreaTable::allocate(int channels, int sizeTexels, int layers)
   {
     return;
   }
-  this->release(); // in case that there is no memory
+  this->release(); // stays empty if memory runs out
   allocateMap(this->table_, sumsFormat(channels), sizeTexels, layers);
   this->channels_ = channels;
   this->sizeTexels_ = sizeTexels;
@@ -41,12 +41,11 @@ void SummedAreaTable::allocate(int channels, int sizeTexels, int layers)
 //------------------------------------------------------------------------------
 void SummedAreaTable::setUnits(const glm::vec4& largest, double widestTexels)
 {
-  // The shader cuts rectangles off at the layer's edge, and takes up to two texels more along an
-  // axis.
+  // The shader clips rectangles to the layer, and reads up to two texels more along an axis.
   const double side = std::min(widestTexels + 2.0, static_cast<double>(this->sizeTexels_));
   for (int i = 0; i < 4; ++i)
   {
-    // A power of two leaves a float its digits. A little of the integers' range is for rounding.
+    // Powers of two keep a float's digits. A little of the integers' range is left for rounding.
     const double most =
       0.999 * std::ldexp(1.0, 31) / (static_cast<double>(largest[i]) * side * side);
     this->unitsOfOne_[i] = static_cast<float>(std::exp2(std::floor(std::log2(most))));
@@ -73,7 +72,7 @@ void SummedAreaTable::sum(GLuint map, int mapLayer, int layer, ShaderLibrary& sh
     ShaderLibrary::setUniform(program, { "unitsOfOne", this->unitsOfOne_ });
     glDispatchCompute(
       static_cast<GLuint>((this->sizeTexels_ + linesPerGroup - 1) / linesPerGroup), 1, 1);
-    // Columns load what rows have stored, and look-ups fetch it.
+    // Columns read the rows' output, and lookups read that.
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
   glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_READ_WRITE, format.internalFormat);

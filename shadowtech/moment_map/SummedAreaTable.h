@@ -13,38 +13,40 @@ namespace gnomon
 
 class ShaderLibrary;
 
-/// The sums of all texels up to each of a map's texels, of which four give the sum over any
-/// rectangle (Crow 1984, "Summed-area tables for texture mapping"; of moments: Lauritzen 2007, GPU
-/// Gems 3, chapter 8).
+/// A summed-area table: sums of all texels up to each texel of a map, four of which give the sum
+/// over any rectangle. Sources: Crow 1984, "Summed-area tables for texture mapping"; Lauritzen
+/// 2007, GPU Gems 3, chapter 8, for moments.
 ///
-/// **Integers that wrap.** A sum over the whole map leaves floats few digits for a small rectangle,
-/// which is the difference of such sums. Here texels are fixed-point numbers of 32 bits, in units
-/// that let a sum over the widest rectangle just fit; sums over more than that wrap, and their
-/// differences are exact all the same.
+/// **Integers that wrap.** The sum over a small rectangle is a difference of sums over the whole
+/// map, which leaves floats few digits. So texels are 32-bit fixed-point numbers here. Their unit
+/// lets a sum over the widest rectangle just fit. Larger sums wrap, and their differences remain
+/// exact.
 ///
-/// **No digits are lost to the unit.** What rounding leaves of a texel is added to the next one in
-/// its row, so that the sum over any part of a row is off by less than one unit, whatever its
-/// length. Rows begin with different remainders, so that those of a rectangle's rows cancel.
+/// **The unit loses no digits.** A texel's rounding remainder is added to the next one in its row.
+/// So the sum over any part of a row is off by less than one unit, whatever its length. Rows begin
+/// with different remainders, which cancel over a rectangle.
 class SummedAreaTable
 {
 public:
+  /// Allocate the table.
   /// @param channels 2 or 4
-  /// @throws TextureMemoryError
+  /// @param sizeTexels side of the map
+  /// @throws TextureMemoryError without enough memory
   void allocate(int channels, int sizeTexels, int layers);
-  /// States what the sums are counted in, from now on.
-  /// @param largest a power of two that no texel's size exceeds
-  /// @param widestTexels the longest side of any rectangle
+  /// Set the units of all later sums.
+  /// @param largest power of two that no texel exceeds in size
+  /// @param widestTexels longest side of any rectangle
   void setUnits(const glm::vec4& largest, double widestTexels);
-  /// Fills a layer with the sums of a layer of floats. The texture unit 0 and the program are
-  /// changed.
+  /// Fill a layer with the sums of a float map's layer. This changes texture unit 0 and the
+  /// program.
   void sum(GLuint map, int mapLayer, int layer, ShaderLibrary& shaders);
   void release();
 
   GLuint texture() const { return this->table_.name(); }
   std::size_t bytes() const;
 
-  /// What summed_area.glsl reads.
-  /// @param empty what there is outside of a layer
+  /// Return the uniforms of summed_area.glsl.
+  /// @param empty the value outside a layer
   std::vector<Uniform> uniforms(const glm::vec4& empty) const;
 
 private:

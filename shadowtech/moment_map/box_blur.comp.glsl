@@ -1,18 +1,18 @@
-// Means over BLUR_TEXELS texels in a row or a column, at a cost that does not depend on their
-// number: the block sums of van Herk (1992) and Gil and Werman (1993), with + in place of their
-// maximum.
+// Computes means over BLUR_TEXELS texels along a row or a column, at a cost that does not depend on
+// their number. The method is the blocks of van Herk (1992) and Gil and Werman (1993), with sums in
+// place of maxima.
 //
-// The line is cut into blocks as long as the box. A box that begins inside a block is the end of
-// that block and the beginning of the next: the sum of one suffix and one prefix, each of which
-// takes one addition from its neighbour's. Nothing is ever subtracted, so that no rounding gathers
-// along the line, as it does in a sum that slides, or in a summed-area table.
+// The line is divided into blocks as long as the box. A box that begins inside a block covers the
+// end of that block and the beginning of the next. So its sum is one suffix plus one prefix, each
+// one addition from its neighbour. Nothing is subtracted. So rounding does not accumulate along the
+// line, as it does in sliding sums or summed-area tables.
 
 layout(local_size_x = 64) in;
 
 uniform sampler2DArray source;
 uniform int layer;
-uniform ivec2 axis; // along the line
-uniform vec4 empty; // the moments where there is no caster, as outside of the layer
+uniform ivec2 axis; // direction of the line
+uniform vec4 empty; // the moments without a caster, as outside the layer
 layout(binding = 0, FORMAT) writeonly uniform image2D target;
 
 vec4 momentsAt(ivec2 texel, ivec2 size)

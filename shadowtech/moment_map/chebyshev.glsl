@@ -1,9 +1,9 @@
 #ifndef GNOMON_CHEBYSHEV
 #define GNOMON_CHEBYSHEV
 
-// The largest share of values with this mean and variance (not 0) that can be as large as `value`:
-// the one-sided inequality of Chebyshev. It is reached by values of which that share is all the
-// same, and the rest is, too: a plane that another one shadows in part.
+// Return the largest share of values at least as large as `value`, for this mean and variance (not
+// 0): Chebyshev's one-sided inequality. Two different values reach it, as where one plane partly
+// shadows another.
 float chebyshevBound(float mean, float variance, float value)
 {
   float beyond = value - mean;

@@ -5,9 +5,9 @@
 #include "shadowtech/moment_map/moment_map.glsl"
 #include "shadowtech/moment_map/chebyshev.glsl"
 
-// The bound by one of the functions, with all of it over the function's value at the receiver, so
-// that small ones keep their digits. Where the mean is far beyond that value, the square may
-// overflow; the variance is of no meaning then.
+// Return the bound by one of the functions. All values are divided by the function's value at the
+// receiver, so small ones keep their digits. If the mean far exceeds that value, the square may
+// overflow; the variance has no effect then.
 float warpedBound_LIGHT(vec2 moments, float warped, float exponent)
 {
   float size = abs(warped);
@@ -17,11 +17,11 @@ float warpedBound_LIGHT(vec2 moments, float warped, float exponent)
   return chebyshevBound(mean, max(variance, least), sign(warped));
 }
 
-// How much nearer than the receiver the depth is whose value the second function has in the mean
-// over the receiver's own plane, at most (MomentEstimators.h).
+// Bounds how much nearer to the light a receiver must be compared. At that depth, the second
+// function has its mean over the receiver's own plane (MomentEstimators.h).
 float concaveBias_LIGHT(ViewPoint point)
 {
-  float exponent = 2.0 * exponentNegative; // of depths in [0, 1]
+  float exponent = 2.0 * exponentNegative; // for depths in [0, 1]
   vec2 halfSpan = 0.5 * (kernelTexels_LIGHT(point) + 1.0) * exponent * planeSlope_LIGHT(point);
   vec2 bias = min(halfSpan, halfSpan * halfSpan / 6.0) / exponent;
   return bias.x + bias.y;

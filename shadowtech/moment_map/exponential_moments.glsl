@@ -1,6 +1,6 @@
-// Mean and mean square of two functions of a depth d (Lauritzen and McCool 2008): exp(c d) and
-// -exp(-c d). A spread of depths is one of the functions, by their slopes, which are c times
-// themselves; up to a spread that is as large as the function, so that nothing overflows.
+// Returns the mean and the mean square of two functions of a depth d (Lauritzen and McCool 2008):
+// exp(c d) and -exp(-c d). A spread of depths spreads the functions by their slopes, which are c
+// times their values. It is limited to the function's size, so nothing overflows.
 
 #include "shadowtech/moment_map/exponential_warps.glsl"
 

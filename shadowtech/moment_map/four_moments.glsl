@@ -1,4 +1,4 @@
-// The mean first four powers of two depths, `spread` to either side of the one given.
+// Returns the mean first four powers of two depths, `spread` to either side of the given one.
 
 vec4 momentsOf(float depth, float spread)
 {

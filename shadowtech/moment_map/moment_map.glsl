@@ -1,28 +1,28 @@
-// Techniques with a map of moments: the mean moments around a point, and what their estimators do
-// with a bound on the share of the map's depths that lie behind the point (MomentMapTechnique.h).
+// The common part of techniques with a map of moments: the mean moments around a point, and how to
+// use a bound. It bounds the share of the map's depths behind the point (MomentMapTechnique.h).
 //
-// KERNEL_TEXELS_LIGHT is the kernel's width; MOMENTS_SUMMED_LIGHT: the map is a summed-area table,
-// else it was blurred. BLEEDING_LIGHT is the bound up to which a point is in full shadow.
+// KERNEL_TEXELS_LIGHT is the kernel's width. MOMENTS_SUMMED_LIGHT: the map is a summed-area table,
+// else it is blurred. BLEEDING_LIGHT is the bound up to which a point is in full shadow.
 
 #include "shadowtech/base/map_visibility.glsl"
 
-// Both define the mean moments around a point, vec4 momentsAt_LIGHT(ViewPoint), and over how wide a
-// kernel along the map's axes those are, vec2 kernelTexels_LIGHT(ViewPoint).
+// Both define vec4 momentsAt_LIGHT(ViewPoint), the mean moments around a point. They also define
+// vec2 kernelTexels_LIGHT(ViewPoint), the width of their kernel along the map's axes.
 #if MOMENTS_SUMMED_LIGHT
 #include "shadowtech/moment_map/moments_summed.glsl"
 #else
 #include "shadowtech/moment_map/moments_blurred.glsl"
 #endif
 
-// The receiver's depth, nearer by its rounding and by a bias in depths of [0, 1], from [0, 1] to
-// [-1, 1] as that of the moments. Receivers that do not cast may lie behind all depths of the map:
-// as far away as empty texels.
+// Return the receiver's depth in [-1, 1], as of moments, nearer by its rounding and a bias in
+// depths of [0, 1]. Receivers that do not cast may lie behind all depths of the map. They count as
+// far as empty texels.
 float centredDepth_LIGHT(ViewPoint point, float bias)
 {
   return 2.0 * clamp(viewDepth_LIGHT(point, point.position.z) - bias, 0.0, 1.0) - 1.0;
 }
 
-// By how much the depth of the receiver's plane changes from texel to texel along both axes.
+// Return the change of depth per texel on the receiver's plane, along both axes.
 vec2 planeSlope_LIGHT(ViewPoint point)
 {
   vec2 x = vec2(0.5, 0.0);
@@ -33,7 +33,8 @@ vec2 planeSlope_LIGHT(ViewPoint point)
   return 2.0 * viewDepths_LIGHT[point.view].x * max(point.position.z - nearest, 0.0);
 }
 
-// The bound as a visibility: what bleeds through is cut off, and the rest spread over [0, 1].
+// Return the bound as a visibility: a share up to the setting counts as shadow, and the rest is
+// rescaled to [0, 1].
 float withoutBleeding_LIGHT(float bound)
 {
   return clamp((bound - BLEEDING_LIGHT) / (1.0 - BLEEDING_LIGHT), 0.0, 1.0);

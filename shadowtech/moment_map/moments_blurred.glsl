@@ -1,13 +1,13 @@
-// Look-ups of moments in a map that was blurred with a box of KERNEL_TEXELS_LIGHT texels, and that
-// has MOMENT_LEVELS_LIGHT levels.
+// Lookups of moments in a map blurred by a box of KERNEL_TEXELS_LIGHT texels. The map has
+// MOMENT_LEVELS_LIGHT levels.
 
 uniform sampler2DArray momentMap_LIGHT; // linear; its border has the moments of depth 1
 
 #if MOMENT_LEVELS_LIGHT > 1
 
-// The level whose texels make a kernel as wide as what a pixel shows of the receiver: of a width f,
-// of which the blur's box has n, sqrt(f^2 - n^2) are left, as widths add up by their squares
-// (variance).
+// Return the level at which the kernel is as wide as the part of the receiver in a pixel. Squares
+// of widths add up (variances). So of a width f, the blur's box covers n, and sqrt(f^2 - n^2) is
+// left for the level.
 float level_LIGHT(ViewPoint point)
 {
   float blurred = float(KERNEL_TEXELS_LIGHT * KERNEL_TEXELS_LIGHT);
@@ -15,9 +15,9 @@ float level_LIGHT(ViewPoint point)
   return min(0.5 * log2(left), float(MOMENT_LEVELS_LIGHT - 1));
 }
 
-// The width of the kernel along both axes of the map. Beside the box, texels t times as wide as the
-// map's add (t^2 - 1) / 12 to its variance, and up to (t^2 - 1) / 4 as the bilinear filter lies
-// between two of them: as much as a box's width squared that grows by 4 (t^2 - 1).
+// Return the width of the kernel along both axes of the map. Texels t times as wide as the map's
+// add (t^2 - 1) / 12 to the box's variance. The bilinear filter between two of them adds up to (t^2
+// - 1) / 4. Together that equals a squared box width that grows by 4 (t^2 - 1).
 vec2 kernelTexels_LIGHT(ViewPoint point)
 {
   float level = level_LIGHT(point);
@@ -34,7 +34,7 @@ float level_LIGHT(ViewPoint point)
   return 0.0;
 }
 
-// The width of the kernel along both axes of the map.
+// Return the width of the kernel along both axes of the map.
 vec2 kernelTexels_LIGHT(ViewPoint point)
 {
   return vec2(KERNEL_TEXELS_LIGHT);
@@ -42,9 +42,9 @@ vec2 kernelTexels_LIGHT(ViewPoint point)
 
 #endif
 
-// The moments of what a square of the box's width covers around a point: the bilinear filter adds
-// the part of a texel that moves it from the middle of its texel (of a box of even width, from that
-// texel's lower corner) to the point.
+// Return the moments over a square of the box's width around a point. The bilinear filter moves the
+// square to the point. The square starts at the middle of the point's texel, or for boxes of even
+// width at that texel's lower corner.
 vec4 momentsAt_LIGHT(ViewPoint point)
 {
   vec2 place = point.texel + (KERNEL_TEXELS_LIGHT % 2 == 0 ? 0.5 : 0.0);

@@ -5,15 +5,14 @@
 #ifndef GNOMON_HAMBURGER
 #define GNOMON_HAMBURGER
 
-// What rounding of the moments is drowned in: this much of them is replaced by those of a wide
-// distribution over [-1, 1], so that the matrix below is positive definite (Peters and Klein 2015,
-// section 3.2).
+// This share of the moments is replaced by those of a wide distribution over [-1, 1]. It exceeds
+// rounding, so the matrix below is positive definite (Peters and Klein 2015, section 3.2).
 const float momentBias = 3.0e-6;
 const vec4 momentsOfBias = vec4(0.0, 0.375, 0.0, 0.375);
 
-// The largest share of depths with these moments that can lie as far as `depth`. Of all
-// distributions with four given moments the one that has the least before `depth` consists of that
-// depth and two others, the roots of a quadratic polynomial c.x + c.y z + c.z z^2, where
+// Return the largest share of depths at least as far as `depth`, for these moments. Among
+// distributions with four given moments, the one with the least before `depth` consists of that
+// depth and two others. These are the roots of c.x + c.y z + c.z z^2, where
 //     (1  b1 b2)
 //     (b1 b2 b3) c = (1, depth, depth^2)
 //     (b2 b3 b4)
@@ -21,7 +20,7 @@ const vec4 momentsOfBias = vec4(0.0, 0.375, 0.0, 0.375);
 float hamburgerBound(vec4 moments, float depth)
 {
   vec4 b = mix(moments, momentsOfBias, momentBias);
-  // The bias leaves no less than this on the diagonal, but for rounding.
+  // The bias leaves at least this on the diagonal, except for rounding.
   float least = 0.1 * momentBias;
   float l32d22 = b.z - b.x * b.y;
   float d22 = max(b.y - b.x * b.x, least);
@@ -35,8 +34,8 @@ float hamburgerBound(vec4 moments, float depth)
   c.y = c.y / d22 - l32 * c.z;
   c.x = 1.0 - c.y * b.x - c.z * b.y;
 
-  // Of the roots the larger one is found first, so that no digits cancel. Where c.z is 0, it is at
-  // infinity; almost there does the same.
+  // Find the larger root first, so that no digits cancel. Where c.z is 0, it is at infinity; a very
+  // large root gives the same result.
   float leading = abs(c.z) > 1.0e-6 ? c.z : 1.0e-6;
   float middle = -0.5 * c.y / leading;
   float product = c.x / leading;
@@ -46,7 +45,7 @@ float hamburgerBound(vec4 moments, float depth)
   float nearer = min(larger, smaller);
   float farther = max(larger, smaller);
 
-  // The weights of the depths that lie before the receiver's.
+  // Sum the weights of depths that lie before the receiver's.
   float hidden;
   if (depth <= nearer)
   {
@@ -68,8 +67,9 @@ float hamburgerBound(vec4 moments, float depth)
 
 #endif
 
-// The standard deviation of the depths of the receiver's own plane: of the kernel's texels, of its
-// place between them (the bilinear filter's two texels), and of the spread that each texel has.
+// Return the standard deviation of depths on the receiver's own plane. It covers the kernel's
+// texels, the point's place between them (the bilinear filter's two texels), and each texel's
+// spread.
 float planeDeviation_LIGHT(ViewPoint point)
 {
   vec2 texels = kernelTexels_LIGHT(point);

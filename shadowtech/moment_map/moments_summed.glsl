@@ -1,12 +1,12 @@
-// Look-ups of moments in a summed-area table: each point has a rectangle of its own.
+// Lookups of moments in a summed-area table, each over its own rectangle.
 
 #include "shadowtech/base/kernel_units.glsl"
 #include "shadowtech/moment_map/summed_area.glsl"
 
-uniform float widestKernel_LIGHT; // in texels: what the table's units are made for
+uniform float widestKernel_LIGHT; // in texels; the table's units are made for it
 
-// The width of the kernel around a point along both axes of the map: of the rectangle whose
-// variance along each of them is that of the kernel in its shape.
+// Return the width of the kernel around a point along both axes of the map. It belongs to the
+// rectangle with the kernel's variance along each axis.
 vec2 kernelTexels_LIGHT(ViewPoint point)
 {
   mat2 shape = kernelShape_LIGHT(point);
@@ -15,7 +15,7 @@ vec2 kernelTexels_LIGHT(ViewPoint point)
   return clamp(float(KERNEL_TEXELS_LIGHT) * spread, 1.0, widestKernel_LIGHT);
 }
 
-// The moments of what a rectangle of that width covers around a point.
+// Return the moments over a rectangle of that width around a point.
 vec4 momentsAt_LIGHT(ViewPoint point)
 {
   vec2 halfWidth = 0.5 * kernelTexels_LIGHT(point);

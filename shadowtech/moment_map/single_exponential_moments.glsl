@@ -1,5 +1,5 @@
-// The mean of exp(c d) over depths d (Annen et al. 2008). Of depths with a small spread it grows by
-// half the square of c times the spread; up to a spread of 1 / c, so that nothing overflows.
+// Returns the mean of exp(c d) over depths d (Annen et al. 2008). A small spread adds half the
+// square of c times the spread. The spread is limited to 1 / c, so nothing overflows.
 
 #include "shadowtech/moment_map/exponential_warps.glsl"
 

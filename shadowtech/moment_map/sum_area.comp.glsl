@@ -1,6 +1,6 @@
-// Summed-area tables (SummedAreaTable.h), in two passes: ROWS turns the texels of a layer into
-// integers and sums them along its rows, COLUMNS sums those sums along the columns. One invocation
-// has a line.
+// Builds summed-area tables (SummedAreaTable.h) in two passes. ROWS converts the texels of a layer
+// to integers and sums them along rows. COLUMNS sums these along columns. Each invocation has one
+// line.
 
 layout(local_size_x = 16) in;
 
@@ -21,14 +21,14 @@ void main()
     return;
   }
   uvec4 sum = uvec4(0u);
-  // What the texels so far have in excess of whole units. The rows' first ones are spread evenly
-  // over [0, 1).
+  // The excess of texels so far over whole units. The first ones of rows are spread evenly over [0,
+  // 1).
   vec4 rest = vec4(fract(0.6180339887 * float(line)));
   for (int i = 0; i < size.x; ++i)
   {
     vec4 value = unitsOfOne * texelFetch(source, ivec3(i, line, layer), 0);
     vec4 whole = floor(value);
-    rest += value - whole; // exact before it is added: whole numbers' rests are not lost beside them
+    rest += value - whole; // the difference is exact, so it keeps its digits beside whole numbers
     vec4 carried = floor(rest);
     rest -= carried;
     sum += uvec4(ivec4(whole) + ivec4(carried));

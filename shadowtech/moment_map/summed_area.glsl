@@ -1,28 +1,28 @@
-// Means over rectangles of a map by its summed-area tables (SummedAreaTable.h).
+// Computes means over rectangles of a map from its summed-area table (SummedAreaTable.h).
 
-uniform usampler2DArray momentTable_LIGHT; // sums of the texels up to each, in units, modulo 2^32
-uniform vec4 tableUnits_LIGHT;             // units of 1
-uniform vec4 emptyMoments_LIGHT;           // what there is outside of a layer
+uniform usampler2DArray momentTable_LIGHT; // sums of all texels up to each, in units, modulo 2^32
+uniform vec4 tableUnits_LIGHT;             // number of units in 1
+uniform vec4 emptyMoments_LIGHT;           // the value outside a layer
 
-// The sum over all texels that come before one along both axes.
+// Return the sum over all texels before one along both axes.
 uvec4 sumBefore_LIGHT(ivec2 texel, int layer)
 {
   uvec4 sum = texelFetch(momentTable_LIGHT, ivec3(max(texel - 1, 0), layer), 0);
   return all(greaterThan(texel, ivec2(0))) ? sum : uvec4(0u);
 }
 
-// The mean over a rectangle of any place, in texels, which counts texels by how far it covers them.
-// Along an axis it is the part up to its last whole texel, and a share of that, less a share of the
-// first: three intervals with one beginning. Their products with those of the other axis are
-// rectangles of whole texels, whose sums do not wrap.
+// Return the mean over a rectangle at any place, in texels, where partly covered texels count in
+// part. Along an axis it is the interval up to the last whole texel, plus a share of the last, less
+// a share of the first. These are three intervals with one beginning. Their products with those of
+// the other axis are rectangles of whole texels, whose sums do not wrap.
 vec4 meanOver_LIGHT(vec2 lower, vec2 upper, int layer)
 {
   ivec2 size = textureSize(momentTable_LIGHT, 0).xy;
   vec2 lowerInside = clamp(lower, vec2(0.0), vec2(size));
   vec2 upperInside = clamp(upper, vec2(0.0), vec2(size));
   ivec2 begin = ivec2(floor(lowerInside));
-  vec2 uncovered = lowerInside - vec2(begin); // of the first texel
-  vec2 covered = fract(upperInside);          // of the last one
+  vec2 uncovered = lowerInside - vec2(begin); // share of the first texel
+  vec2 covered = fract(upperInside);          // share of the last texel
 
   ivec2 ends[3];
   ends[0] = min(begin + 1, size);

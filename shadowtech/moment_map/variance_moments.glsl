@@ -1,4 +1,4 @@
-// Mean and mean square of a depth (Donnelly and Lauritzen 2006).
+// Returns the mean and the mean square of a depth (Donnelly and Lauritzen 2006).
 
 vec4 momentsOf(float depth, float spread)
 {

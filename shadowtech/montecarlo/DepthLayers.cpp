@@ -12,13 +12,13 @@ namespace gnomon
 namespace
 {
 
-/// How many surfaces are peeled that face the light, and as many that face away.
+/// Number of peeled surfaces that face the light, and of those that face away.
 constexpr int peeledSurfaces = 4;
 
-/// Before all depths: a texel's cleared layers.
+/// The cleared value of layers, behind all depths.
 constexpr GLfloat noSurface[4] = { 2.0f, 2.0f, 2.0f, 2.0f };
 
-/// Of the caster's shader that is to draw a view's layer.
+/// Return the shader that renders casters into a view's layer.
 CasterShader layerShader(const char* path, const LightView& view, double nearest)
 {
   return { ShaderLibrary::source(path), { "DEPTH_LINEAR" },
@@ -35,7 +35,8 @@ int pagesOf(const ShadowLight& light)
   return isPeeled(light) ? 2 : 1;
 }
 
-/// Of all views' slabs, and of what one view's are made from.
+/// Return the bytes per texel of all views' slabs, and of the layers that one view's slabs are made
+/// from.
 std::size_t bytesOfTexel(int views, int pages)
 {
   const int layers = pages > 1 ? 2 * peeledSurfaces : 1;
@@ -52,7 +53,7 @@ void DepthLayers::allocate(const ShadowLight& light, int views)
   {
     return;
   }
-  this->sizeTexels_ = 0; // in case that there is no memory
+  this->sizeTexels_ = 0; // stays 0 if memory runs out
   const int layers = isPeeled(light) ? 2 * peeledSurfaces : 1;
   allocateMap(this->slabs_, { GL_RGBA32F, GL_RGBA, 4 }, light.mapSizeTexels, views * pages);
   allocateMap(this->layers_, { GL_RG32F, GL_RG, 2 }, light.mapSizeTexels, layers);

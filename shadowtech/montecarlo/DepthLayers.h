@@ -9,24 +9,24 @@
 namespace gnomon
 {
 
-/// What of the casters a light's map holds as solid: slabs between depths of ray space
-/// (RaySpace.h), up to four in a texel.
+/// The solid parts of casters in a light's map: up to four slabs per texel, between depths of ray
+/// space (RaySpace.h).
 ///
-/// Which slabs these are, RayLayers says (MonteCarloSettings.h): between the nearest and the
-/// farthest surface, or between peeled surfaces. All of a texel counts as what its centre sees.
+/// RayLayers chooses the slabs (MonteCarloSettings.h): between the nearest and the farthest
+/// surface, or between peeled surfaces. The whole texel counts as what its centre sees.
 class DepthLayers
 {
 public:
-  /// Draws all views of a light.
-  /// @param nearest the z at which p is -1, of a positional light
+  /// Bake all views of a light.
+  /// @param nearest the z at which p is -1, for positional lights
   void draw(const MapInput& input, double nearest);
 
-  /// An array of RGBA textures: two slabs (begin, end, begin, end) to a page, the views' pages one
-  /// after the other.
+  /// Return an array of RGBA textures. A page holds two slabs (begin, end, begin, end); the pages
+  /// of all views follow each other.
   GLuint slabs() const { return this->slabs_.name(); }
   int pages() const { return this->pages_; }
   std::size_t bytes() const;
-  static double bytesPerTexel(const ShadowLight& light); ///< of the map's, for all of that
+  static double bytesPerTexel(const ShadowLight& light); ///< of the map, for slabs and layers
 
 private:
   void allocate(const ShadowLight& light, int views);
@@ -35,7 +35,7 @@ private:
   void makeSlabs(const MapInput& input, std::size_t view);
 
   GlTexture slabs_;
-  GlTexture layers_; ///< of one view, while it is drawn
+  GlTexture layers_; ///< of the view being baked
   GlTexture depth_;
   GlFramebuffer framebuffer_;
   ScreenPass screenPass_;

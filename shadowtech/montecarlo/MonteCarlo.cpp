@@ -19,19 +19,19 @@ namespace gnomon
 namespace
 {
 
-/// The light's shape, of one that has none a point.
+/// Return the light's area; a point for lights without one.
 LightArea areaOf(const ShadowLight& light)
 {
   return light.area.value_or(LightArea());
 }
 
-/// Rays along each side of the grid on the light: a point takes one.
+/// Return the number of rays along each side of the grid on the light; 1 for a point.
 int raysOf(const ShadowLight& light)
 {
   return light.area ? light.of<MonteCarloSettings>().rays : 1;
 }
 
-/// Of the filter, in pixels: hard shadows have no noise.
+/// Return the filter's radius in pixels; 0 for hard shadows, which have no noise.
 int filterOf(const ShadowLight& light)
 {
   return light.area ? light.of<MonteCarloSettings>().filter : 0;
@@ -41,25 +41,25 @@ std::string refusedByMonteCarlo(const ShadowLight& light)
 {
   if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
   {
-    return "'montecarlo' follows rays through a map that holds all casters, and the projection '" +
+    return "'montecarlo' traces rays through a map that holds all casters, and the projection '" +
       findSetting("projection")->get(light) +
-      "' is made for what a camera sees; it takes uniform and cube";
+      "' covers only what a camera sees; use uniform or cube";
   }
   const bool linear = light.of<MonteCarloSettings>().search == RaySearch::Linear;
   if (linear && light.of<MonteCarloSettings>().layers == RayLayers::Peeled)
   {
-    return "'mc_search' linear knows where a ray is by one solid in a texel, and 'mc_layers' "
-           "peeled has up to four; it takes near_far, near and eye";
+    return "'mc_search' linear needs at most one solid in a texel, and 'mc_layers' peeled has up "
+           "to four; use near_far, near or eye";
   }
   if (!linear && light.of<MonteCarloSettings>().layers == RayLayers::Eye)
   {
     return "'mc_layers' eye asks the camera about single points of a ray, and 'mc_search' "
-           "hierarchical has none; it takes linear";
+           "hierarchical has no such points; use linear";
   }
   return light.fit == ViewFit::Off
     ? ""
-    : "'montecarlo' follows rays through a map that holds all casters, and one with 'fit' " +
-      findSetting("fit")->get(light) + " holds what a camera sees; it takes off";
+    : "'montecarlo' traces rays through a map that holds all casters, and one with 'fit' " +
+      findSetting("fit")->get(light) + " covers only what a camera sees; use off";
 }
 
 } // namespace
@@ -159,7 +159,7 @@ void MonteCarlo::allocate(int width, int height, int channels)
   {
     return;
   }
-  this->width_ = 0; // in case that there is no memory
+  this->width_ = 0; // stays 0 if memory runs out
   const TexelFormat format =
     channels == 3 ? TexelFormat{ GL_RGBA32F, GL_RGBA, 4 } : TexelFormat{ GL_RG32F, GL_RG, 2 };
   allocateTexture(this->unfiltered_, format, width, height, 0, "visibility");
@@ -177,7 +177,7 @@ void MonteCarlo::upload(const std::shared_ptr<const LightTexture>& texture)
   {
     return;
   }
-  this->uploaded_.reset(); // in case that there is no memory
+  this->uploaded_.reset(); // stays empty if memory runs out
   allocateTexture(this->lightTexture_, { GL_RGB8UI, GL_RGB_INTEGER, 3, GL_UNSIGNED_BYTE },
     texture->width, texture->height, 0, "a light's texture");
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
@@ -243,12 +243,12 @@ void MonteCarlo::readClasses(const LayerInput& input) const
   input.classes->resize(texels.size());
   std::transform(texels.begin(), texels.end(), input.classes->begin(),
     [channel = this->channels_](const glm::vec4& texel)
-    { return static_cast<std::uint8_t>(texel[channel]); }); // behind the channels
+    { return static_cast<std::uint8_t>(texel[channel]); }); // the class follows the channels
 }
 
 //------------------------------------------------------------------------------
-/// Fills the light's layers and all that the filter needs. Where bounds decide pixels, they do so
-/// first, and rays are followed in the tiles that they leave.
+/// Fill the light's layers and the inputs of the filter. If bounds decide pixels, a first pass does
+/// that, and a second traces rays in the tiles with undecided pixels.
 void MonteCarlo::followRays(const LayerInput& input)
 {
   const ShadowLight& light = input.light;
@@ -265,7 +265,7 @@ void MonteCarlo::followRays(const LayerInput& input)
       defines.emplace_back(name);
     }
   };
-  // A receiver's rays may cross the faces of a cube.
+  // Bounds cover one view, and a receiver's rays may cross several faces of a cube.
   const bool decides = light.of<MonteCarloSettings>().classify != RayClasses::Off &&
     viewLayout(light) == ViewLayout::Single;
   defineWhere(textured, "TEXTURED");
@@ -308,7 +308,7 @@ void MonteCarlo::followRays(const LayerInput& input)
 }
 
 //------------------------------------------------------------------------------
-/// @param channel of visibility
+/// @param channel of visibility: 0, 1 or 2
 ChannelView MonteCarlo::viewOf(int channel) const
 {
   return ChannelView(this->unfiltered_.name(), GL_RED + static_cast<GLenum>(channel),
@@ -333,7 +333,7 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
   {
     const ChannelView view = this->viewOf(channel);
     this->undecided_.find(this->unfiltered_.name(), { this->width_, this->height_ }, input.shaders);
-    // A colour that the light has not is 0 everywhere, and has no noise.
+    // A channel that the light lacks is 0 everywhere, without noise.
     const float mean = textured ? light.texture->mean[channel] : 1.0f;
     const float lit = mean > 0.0f ? mean : 1.0f;
     this->filter_.apply(input, input.layer + channel,

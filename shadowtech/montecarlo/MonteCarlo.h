@@ -15,12 +15,13 @@
 namespace gnomon
 {
 
-/// `montecarlo`: soft shadows of area lights by a few random rays for each pixel, which are
-/// followed through the depth layers of the light's map, and a filter that takes off the noise
-/// (Curtis, *Real-Time Soft Shadows Using Monte Carlo Ray Tracing of Depth Maps*, 2009).
+/// `montecarlo`: soft shadows of area lights by a few random rays per pixel. A filter removes their
+/// noise. The source is Curtis, *Real-Time Soft Shadows Using Monte Carlo Ray Tracing of Depth
+/// Maps*, 2009.
 ///
-/// Instead of the casters' triangles, rays meet slabs between two depths in the texels of a map
-/// (DepthLayers.h), which a hierarchy of bounds leads them to (SlabBounds.h).
+/// Rays are traced through depth layers of the light's map. They do not meet triangles, but slabs
+/// between two depths in a texel (DepthLayers.h). A hierarchy of bounds skips empty texels
+/// (SlabBounds.h).
 class MonteCarlo : public GpuScreenTechnique
 {
 public:
@@ -46,10 +47,10 @@ private:
   SlabBounds bounds_;
 
   GlTexture lightTexture_;
-  std::shared_ptr<const LightTexture> uploaded_; ///< which that is
+  std::shared_ptr<const LightTexture> uploaded_; ///< the texture in `lightTexture_`
 
-  GlTexture unfiltered_; ///< visibility in one channel or three, and class
-  GlTexture slopes_;     ///< of visibility
+  GlTexture unfiltered_; ///< visibility in one channel or three, then the class
+  GlTexture slopes_;     ///< gradients of visibility
   UndecidedTiles undecided_;
   VisibilityFilter filter_;
   ScreenPass screenPass_;

@@ -5,46 +5,47 @@
 namespace gnomon
 {
 
-/// What rays through a light's map take for solid in a texel.
+/// What counts as solid in a texel of a light's map.
 enum class RayLayers
 {
-  Peeled,  ///< each of the first few casters by itself
-  NearFar, ///< all between the first and the last surface
-  Near,    ///< all behind the first surface
-  Eye      ///< all between the first and the last surface that the camera does not see to be empty
+  Peeled,  ///< each of the first few casters separately
+  NearFar, ///< everything between the first and the last surface
+  Near,    ///< everything behind the first surface
+  /// Everything between the first and the last surface, except what the camera sees to be empty.
+  Eye
 };
 
-/// How a ray is searched for what it meets.
+/// How to find what a ray meets.
 enum class RaySearch
 {
-  Hierarchical, ///< from cell to cell of a hierarchy: nothing is missed
+  Hierarchical, ///< from cell to cell of a hierarchy, which misses nothing
   Linear        ///< in steps of equal length, with bisection
 };
 
-/// What is decided from bounds over a region of the map, before it is searched.
+/// What bounds over a region of the map decide before a search.
 enum class RayClasses
 {
   Off,
   Pixels, ///< all rays of a pixel at once
-  Rays    ///< and then every ray by itself
+  Rays    ///< all rays of a pixel, then each ray
 };
 
-/// How bounds over the texels of such a map are laid out.
+/// How bounds over the map's texels are arranged.
 enum class SlabHierarchy
 {
-  Mips,   ///< a pyramid: squares on a grid
-  NBuffer ///< squares around every texel, for as many times the memory as there are levels
+  Mips,   ///< a pyramid of squares on a grid
+  NBuffer ///< squares around every texel, whose memory grows with the number of levels
 };
 
-/// How `montecarlo` follows rays through the map.
+/// The settings of `montecarlo`.
 struct MonteCarloSettings
 {
-  int rays = 3; ///< to the cells of a grid of so many along either side of the light
+  int rays = 3; ///< cells of the grid along either side of the light; each gets a ray
   RayLayers layers = RayLayers::Peeled;
   RaySearch search = RaySearch::Hierarchical;
   RayClasses classify = RayClasses::Rays;
   SlabHierarchy pyramid = SlabHierarchy::Mips;
-  int filter = 5; ///< in pixels; 0: none
+  int filter = 5; ///< radius in pixels; 0 for none
 };
 const SettingsTable& monteCarloSettings();
 

@@ -48,7 +48,7 @@ ShadowLight lightOfMap(const ShadowLight& light)
 glm::dmat4 rayFromCentred(const LightView& view, int sizeTexels, double nearest)
 {
   const glm::dmat3 texels = texelFromAcross(view, sizeTexels);
-  // By columns: what x, y, z and w of the view's space add to (u, v, p, w).
+  // Each column holds what x, y, z or w of view space adds to (u, v, p, w).
   glm::dmat4 rayFromView(0.0);
   const auto place = [&](int column)
   { return glm::dvec4(texels[column].x, texels[column].y, 0.0, texels[column].z); };

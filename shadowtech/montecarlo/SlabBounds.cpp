@@ -14,8 +14,8 @@ namespace
 
 constexpr int slabsPerGroup = 8; // as in slab_bounds.comp.glsl
 
-/// From a texel of an N-buffer's level to the first and to the last of those of the level below
-/// that it is made of.
+/// Return the offsets from a texel of an N-buffer's level to the first and the last texel below
+/// that it joins.
 glm::ivec2 stepsTo(int level)
 {
   const int half = level > 1 ? 1 << (level - 2) : 0;
@@ -31,7 +31,7 @@ void SlabBounds::allocate(int sizeTexels, int views, SlabHierarchy kind)
   {
     return;
   }
-  this->sizeTexels_ = 0; // in case that there is no memory
+  this->sizeTexels_ = 0; // stays 0 if memory runs out
   this->topLevel_ = 0;
   while (1 << this->topLevel_ < sizeTexels)
   {
@@ -115,7 +115,7 @@ double SlabBounds::bytesPerTexel(const ShadowLight& light)
 {
   const bool mips = light.of<MonteCarloSettings>().pyramid == SlabHierarchy::Mips;
   const double levels = mips ? 4.0 / 3.0 : 2.0 + std::log2(light.mapSizeTexels);
-  constexpr double rounded = 4.0; // texels for one
+  constexpr double rounded = 4.0; // texels for one, as the side may be rounded up to twice as many
   return rounded * levels * mostViews(light) * 4 * sizeof(float);
 }
 

@@ -10,29 +10,33 @@ namespace gnomon
 
 class ShaderLibrary;
 
-/// A hierarchy over the slabs of a light's map (DepthLayers.h): for squares of 2^level texels, the
-/// least depth at which a slab begins, the greatest at which one ends, and the greatest begin and
-/// least end of the thickest slab of every texel.
+/// A hierarchy over the slabs of a light's map (DepthLayers.h). For squares of 2^level texels it
+/// holds:
+/// - the least depth at which a slab begins, and the greatest at which one ends;
+/// - the greatest begin and the least end of the thickest slab of each texel.
 ///
-/// As a mip pyramid, whose squares lie on a grid; or as an N-buffer (Décoret 2005), in which they
-/// lie around every texel: level 1 is made of texels i and i + 1 of level 0, level j of those
-/// 2^(j-2) to either side of i in level j - 1. Then texel i of level j holds the texels from i - o
-/// to i + 2^j - 1 - o with o = 2^(j-1) - 1, as far as there are any (Curtis 2009, section 3.5).
+/// Squares lie on a grid, as a mip pyramid, or around every texel, as an N-buffer (Décoret 2005).
+/// Level 1 of an N-buffer joins texels i and i + 1 of level 0. Level j joins texels i - 2^(j-2) and
+/// i + 2^(j-2) of level j - 1. So texel i of level j holds the existing texels from i - o to i +
+/// 2^j - 1 - o, with o = 2^(j-1) - 1 (Curtis 2009, section 3.5).
 class SlabBounds
 {
 public:
-  /// @param slabs as DepthLayers::slabs() has them, so many pages of each view
-  /// @param sizeTexels the side of the map; the hierarchy's is the next power of two, beyond the
-  /// map with no slab
+  /// Build the hierarchy.
+  /// @param slabs DepthLayers::slabs()
+  /// @param pages of each view
+  /// @param sizeTexels side of the map; the hierarchy's is the next power of two, without slabs
+  /// beyond the map
   void build(
     GLuint slabs, int pages, int sizeTexels, int views, SlabHierarchy kind, ShaderLibrary& shaders);
 
-  /// An array of RGBA textures: with levels for each view, or each view's levels one after the
-  /// other.
+  /// Return an array of RGBA textures. Mips have levels for each view; N-buffers have the levels of
+  /// each view as consecutive layers.
   GLuint texture() const { return this->texture_.name(); }
   int topLevel() const { return this->topLevel_; }
   std::size_t bytes() const;
-  /// The most for a texel of a light's map: its side may be rounded up to twice as many texels.
+  /// Return an upper bound of the bytes per texel of a light's map, whose side may be rounded up to
+  /// the next power of two.
   static double bytesPerTexel(const ShadowLight& light);
 
 private:

@@ -29,7 +29,7 @@ void UndecidedTiles::find(GLuint visibilityAndClass, const glm::ivec2& size, Sha
 {
   if (this->size_ != size)
   {
-    this->size_ = glm::ivec2(0); // in case that there is no memory
+    this->size_ = glm::ivec2(0); // stays 0 if memory runs out
     this->tiles_ = { tilesOf(size.x), tilesOf(size.y) };
     allocateTexture(this->contents_, { GL_RGBA32F, GL_RGBA, 4 }, this->tiles_.x, this->tiles_.y, 0,
       "what there is in tiles");

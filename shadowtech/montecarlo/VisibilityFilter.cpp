@@ -17,7 +17,7 @@ void VisibilityFilter::apply(const LayerInput& input, int layer, const Noisy& no
   const int height = input.receivers.height();
   if (this->width_ != width || this->height_ != height)
   {
-    this->width_ = 0; // in case that there is no memory
+    this->width_ = 0; // stays 0 if memory runs out
     allocateTexture(this->rows_, { GL_RG32F, GL_RG, 2 }, width, height, 0, "filtered rows");
     allocateTexture(
       this->slopesOfRows_, { GL_RGBA32F, GL_RGBA, 4 }, width, height, 0, "slopes of filtered rows");
@@ -42,7 +42,7 @@ void VisibilityFilter::apply(const LayerInput& input, int layer, const Noisy& no
       0, 0);
     ShaderLibrary::setUniforms(program, undecided.uniforms(reach), 0, freeUnit);
   };
-  // Columns read rows above and below.
+  // The pass along columns reads rows above and below.
   const int reach = UndecidedTiles::tilesOf(radiusPixels);
   set(noisy.visibility, noisy.slopes, { 1, 0 }, { reach, 2 * reach });
   undecided.fill({ { this->rows_.name() }, { this->slopesOfRows_.name() } });

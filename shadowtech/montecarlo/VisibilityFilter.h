@@ -12,23 +12,24 @@ namespace gnomon
 
 class UndecidedTiles;
 
-/// Takes the noise off a visibility image: a Gaussian in two passes, over pixels of the same
-/// surface (visibility_filter.frag.glsl).
+/// Removes noise from a visibility image: a Gaussian in two passes, over pixels of one surface
+/// (visibility_filter.frag.glsl).
 class VisibilityFilter
 {
 public:
-  /// What is filtered.
+  /// The images to filter.
   struct Noisy
   {
     GLuint visibility; ///< and class (classes.glsl), two floats per pixel
-    GLuint slopes;     ///< its gradient in view coordinates, where rays tell it
-    int rays;          ///< the light's samples are a grid of rays x rays: how large the noise is
-    float lit;         ///< the visibility of what nothing hides the light from, > 0
+    GLuint slopes;     ///< gradients of visibility in view coordinates, where rays tell them
+    int rays;          ///< side of the grid of samples on the light, which tells the noise
+    float lit;         ///< the visibility of unhidden receivers, > 0
   };
 
-  /// Fills a layer of the light where it may change: it holds the visibility as it is.
+  /// Filter into a layer of the light, which must hold the unfiltered visibility. Only pixels that
+  /// the filter may change are written.
   /// @param undecided tiles of the picture
-  /// @param radiusPixels the Gaussian's deviation is half of it at most; > 0
+  /// @param radiusPixels twice the Gaussian's largest deviation; > 0
   void apply(const LayerInput& input, int layer, const Noisy& noisy, UndecidedTiles& undecided,
     int radiusPixels);
 

@@ -1,4 +1,4 @@
-// How a pixel's visibility came about: the classes of MonteCarlo::info(), in their order.
+// How a pixel's visibility was found: the classes of MonteCarlo::info(), in their order.
 
 #define NO_RECEIVER 0.0
 #define TURNED_AWAY 1.0

@@ -1,5 +1,4 @@
-// A caster's depth in ray space (RaySpace.h) at the texel's centre, and how far it spans within the
-// texel.
+// A caster's depth in ray space (RaySpace.h) at the texel's centre, and its span within the texel.
 
 in float depthLinear;
 
@@ -10,16 +9,16 @@ uniform float nearest; // the linear depth at which p is -1
 float layerDepth()
 {
 #ifdef PERSPECTIVE
-  // Beside a triangle that ends at the texel's centre, its plane may run to the light and past it.
+  // Where a triangle ends at the texel's centre, its plane may extend to the light and beyond.
   return -nearest / max(depthLinear, nearest);
 #else
   return depthLinear;
 #endif
 }
 
-// Behind each surface, what its plane spans over the texel counts as solid: so a sheet has no gaps
-// between the texels of a slope. No more than the whole depth, where a triangle stands along the
-// light.
+// Return the plane's change of depth over the texel. That much behind each surface counts as solid,
+// so a sheet on a slope has no gaps between texels. For triangles along the light it ends at the
+// whole depth.
 float layerSpan(float depth)
 {
   return min(abs(dFdx(depth)) + abs(dFdy(depth)), 1.0);

@@ -1,5 +1,5 @@
-// The nearest and the farthest surface of a texel: with GL_MIN as the blend equation, in one pass
-// over all casters and both of their sides.
+// Writes the nearest and the farthest surface of a texel. The blend equation GL_MIN finds both in
+// one pass over both sides of all casters.
 
 #include "shadowtech/base/cutout.glsl"
 #include "shadowtech/montecarlo/layer_depth.glsl"

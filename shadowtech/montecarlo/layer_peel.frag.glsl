@@ -1,12 +1,12 @@
-// The nearest surface of a texel behind the one that was peeled off before, of those that face the
-// light or of those that face away: a depth test finds it.
+// Writes the nearest surface behind the one peeled last, among those that face the light or those
+// that face away. The depth test finds it.
 
 #include "shadowtech/base/cutout.glsl"
 #include "shadowtech/montecarlo/layer_depth.glsl"
 
-uniform sampler2DArray layers; // x: depth; of what was peeled before
-uniform int before;            // its layer; negative: nothing was
-uniform int fronts;            // 1: those that face the light
+uniform sampler2DArray layers; // x: depth, for the surfaces peeled so far
+uniform int before;            // layer of the surface peeled last; negative if none is
+uniform int fronts;            // 1 for surfaces that face the light
 
 out vec2 depthAndSpan;
 

@@ -1,4 +1,4 @@
-// Points of an area light: one in each cell of a grid of RAYS x RAYS, at random. The twin of
+// Random points of an area light, one in each cell of a grid of RAYS x RAYS. The twin of
 // LightSamples with `light_sampling` jittered (lights/LightSamples.h), to within rounding. SHAPE is
 // LightArea's.
 
@@ -8,7 +8,8 @@
 #define DISK 1
 #define BALL 2
 
-uniform mat3 viewFromUnit; // the shape of half side or radius 1 to the light's, in view coordinates
+// From the shape of half side or radius 1 to the light's, in view coordinates.
+uniform mat3 viewFromUnit;
 uniform int lightSeed;
 
 // The concentric map from the square of half side 1 to the unit disk (Shirley and Chiu 1997).
@@ -17,13 +18,13 @@ vec2 diskPoint(vec2 square)
   bool wide = abs(square.x) > abs(square.y);
   float radius = wide ? square.x : square.y;
   float other = wide ? square.y : square.x;
-  // The middle of the square is that of the disk.
+  // The square's middle maps to the disk's.
   float angle = radius == 0.0 ? 0.0 : 0.7853981634 * (other / radius);
   vec2 point = radius * vec2(cos(angle), sin(angle));
   return wide ? point : point.yx;
 }
 
-// The hashes of four points of a pixel: where in their cells they lie, and, of a ball, how high
+// The hashes of four points of a pixel: their places in their cells, and for a ball their heights
 // (HashedPoints.h).
 struct FourPoints
 {
@@ -43,7 +44,7 @@ FourPoints fourPoints(ivec2 pixel, int number)
   return points;
 }
 
-// One of them, from the light's centre.
+// Return one of the points, relative to the light's centre.
 vec3 lightPoint(FourPoints points, int number)
 {
   uint across = points.across[number % 4];

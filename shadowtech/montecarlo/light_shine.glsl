@@ -1,12 +1,13 @@
-// What the points of the light shine with, and what visibility follows from it.
+// The colours of the light's points, and the visibility that follows from them.
 
 #include "shadowtech/base/shine.glsl"
 
 #ifdef TEXTURED
 
 uniform usampler2D lightTexture;
-uniform mat3 pictureFromView; // takes offsets from the light's centre to the texture, whose x and y go from -1 to 1
-uniform vec3 lit;             // the texture's mean
+// From offsets to the light's centre to the texture, whose x and y span [-1, 1].
+uniform mat3 pictureFromView;
+uniform vec3 lit; // the texture's mean
 
 // The twin of PlacedTexture::colourAt().
 Shine shineAt(vec3 offset)
@@ -17,15 +18,15 @@ Shine shineAt(vec3 offset)
   return vec3(texelFetch(lightTexture, texel, 0).rgb);
 }
 
-// A few points seldom have the texture's mean: their colours are scaled so that they do. Of what
-// nothing hides the light from, visibility is the mean then, without noise. Points that gave way to
-// brighter ones may come to more than all of the light.
+// Return visibility from colours. The colours of a few points seldom have the texture's mean, so
+// they are scaled to it. Unhidden receivers then get the mean, without noise. Opposite points may
+// be brighter than those they replace, so the result is limited to 1.
 // @param seen sum over the points that are seen
 // @param all sum over all of the pixel's points
 Shine visibilityOf(Shine seen, Shine all)
 {
   vec3 scaled = lit * (seen / max(all, 1.0));
-  vec3 plain = seen / float(255 * RAYS * RAYS); // of a channel that none of them has
+  vec3 plain = seen / float(255 * RAYS * RAYS); // for channels that are 0 in all points
   return min(mix(plain, scaled, greaterThan(all, vec3(0.0))), 1.0);
 }
 

@@ -1,6 +1,6 @@
-// What share of an area light each pixel's receiver sees: the mean over rays to points of the
-// light, which are followed through the light's map (Curtis 2009). Behind it the pixel's class
-// (MonteCarlo::info()). With DECIDES no ray is followed, and what takes one is SEARCHED.
+// Computes the share of an area light that each pixel's receiver sees: the mean over rays to points
+// of the light, traced through the light's map (Curtis 2009). The pixel's class follows it
+// (MonteCarlo::info()). With DECIDES no ray is traced, and pixels that need rays become SEARCHED.
 
 #include "shadowtech/base/light_reach.glsl"
 #include "shadowtech/montecarlo/classes.glsl"
@@ -11,8 +11,8 @@ uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's 
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
 uniform vec4 lightView;              // (position of the centre, 1), or (unit vector towards it, 0)
 uniform vec2 pixelSide;              // a pixel's side is x + y * distance
-uniform int viewCount;               // of the light's map; 0: there is no caster
-uniform mat4 rayFromView[VIEWS];     // the camera's view coordinates to ray space (RaySpace.h)
+uniform int viewCount;               // of the light's map; 0 if there is no caster
+uniform mat4 rayFromView[VIEWS];     // from the camera's view coordinates to ray space (RaySpace.h)
 uniform mat4 viewFromRay[VIEWS];
 
 #include "shadowtech/montecarlo/slab_search.glsl"
@@ -23,7 +23,8 @@ uniform mat4 viewFromRay[VIEWS];
 #define VisibilityAndClass vec2
 #endif
 layout(location = 0) out VisibilityAndClass visibilityAndClass;
-layout(location = 1) out vec3 visibilitySlope; // slopeOf() where some rays are blocked, but not all; else 0
+// slopeOf() if some rays are blocked, but not all; else 0.
+layout(location = 1) out vec3 visibilitySlope;
 // The same visibility for the light's layers.
 layout(location = 2) out float layer;
 #ifdef TEXTURED
@@ -37,11 +38,11 @@ struct Receiver
   vec3 position;
   vec3 normal;
   float offset; // how far above the surface rays begin to count, in world units
-  int view;     // the first that has it on its map; negative: none
-  float own;    // how far above its plane its texel holds its own surface, as Place::plane measures
+  int view;     // the first view whose map shows it; negative if none does
+  float own;    // rise of its own surface above its plane in its texel, as Place::plane measures
 };
 
-// The part of a ray that is on a view's map, in ray space.
+// The part of a ray on a view's map, in ray space.
 struct Segment
 {
   vec3 begin; // at the receiver
@@ -53,8 +54,7 @@ struct Segment
 struct Place
 {
   vec4 at;
-  // Points (u, v, p, 1) are in its plane, above it or below by their product with this, which is
-  // their distance in the world over w.
+  // The receiver's plane. Its product with (u, v, p, 1) is the signed distance in the world over w.
   vec4 plane;
 };
 Place placeOf(Receiver receiver, int view)
@@ -63,10 +63,13 @@ Place placeOf(Receiver receiver, int view)
   return Place(rayFromView[view] * vec4(receiver.position, 1.0), plane * viewFromRay[view]);
 }
 
-// Where surfaces bend, another triangle may be in the middle of the receiver's texel, whose depth
-// is that of the whole texel, and rise above the receiver's plane till there. What begins less than
-// a quarter of a texel above the plane counts as the same surface: one that bends up by 27 degrees
-// does, within half a texel. Else smooth meshes with triangles of a texel's size have dark pixels.
+// Find how far the receiver's own surface rises in its texel. Where surfaces bend, another triangle
+// may be in the texel's centre, whose depth is that of the whole texel. It may lie above the
+// receiver's plane there.
+//
+// Slabs that begin less than a quarter of a texel above the plane count as the same surface.
+// Surfaces that bend up by 27 degrees do so within half a texel. Without this, smooth meshes with
+// triangles of a texel's size have dark pixels.
 void findOwnSurface(inout Receiver receiver)
 {
   for (int view = 0; view < viewCount && receiver.view < 0; ++view)
@@ -93,28 +96,29 @@ void findOwnSurface(inout Receiver receiver)
   }
 }
 
-// Cuts the range in which position + t * way is on the positive side of a plane.
+// Clip the range in which position + t * way is on the positive side of a plane.
 void cut(inout vec2 range, float position, float way)
 {
   float t = -position / way;
   range.x = way > 0.0 ? max(range.x, t) : range.x;
   range.y = way < 0.0 ? min(range.y, t) : range.y;
-  range.y = way == 0.0 && position < 0.0 ? -1.0 : range.y; // along the plane, on its other side
+  range.y = way == 0.0 && position < 0.0 ? -1.0 : range.y; // along the plane, on its negative side
 }
 
+// Return the part of a ray on a view's map.
 // @param place the receiver's in the view
-// @param depths of the map, between which there may be slabs
-// @param cutAtBorders whether what is beside the map is cut off, too
+// @param depths of the map between which there may be slabs
+// @param cutAtBorders true to clip at the map's borders, too
 Segment onMap(int view, Receiver receiver, Place place, vec3 way, float length, vec2 depths,
   bool cutAtBorders)
 {
   vec4 at = place.at;
   vec4 plane = place.plane;
   vec4 by = rayFromView[view] * vec4(way, 0.0);
-  float rising = dot(receiver.normal, way); // > 0: the receiver faces where the ray goes
+  float rising = dot(receiver.normal, way); // > 0 if the receiver faces the ray's direction
   vec2 range = vec2(receiver.offset / rising, length);
-  // Rounding must not end a ray just before what lies at those depths: 2^-18, of parallel rays in
-  // their range of [0, 1].
+  // Rounding must not end a ray just before slabs at those depths. The tolerance is 2^-18, for
+  // parallel rays of their range [0, 1].
   vec2 beyond = 3.8146973e-6 * max(abs(depths), vec2(1.0 - lightView.w));
   depths += vec2(-beyond.x, beyond.y);
   cut(range, at.z - depths.x * at.w, by.z - depths.x * by.w);
@@ -136,10 +140,10 @@ Segment onMap(int view, Receiver receiver, Place place, vec3 way, float length, 
   segment.begin = begin.xyz / begin.w;
   segment.end = end.xyz / end.w;
 
-  // The receiver may itself be in the map, as one depth for all of a texel. Rays count from where
-  // they are as far before its plane, or before what bends up from it, as that is off within half a
-  // texel, and for rounding: also of the corners of triangles, which are drawn to within 1/256 of a
-  // texel.
+  // The map may hold the receiver itself, with one depth for the whole texel. Half a texel off,
+  // that depth differs from the receiver's plane, or from a surface that bends up from it. Rays
+  // count from where they are that far before the plane. Rounding is added, also of triangles'
+  // corners, which are rasterized to 1/256 of a texel.
   float rounding = 7.6293945e-6 * max(abs(segment.begin.z), abs(segment.end.z)); // 2^-17
   float limit = 0.51 * (abs(plane.x) + abs(plane.y)) + rounding * abs(plane.z) +
     (view == receiver.view ? receiver.own : 0.0);
@@ -156,18 +160,18 @@ Segment onMap(int view, Receiver receiver, Place place, vec3 way, float length, 
   return segment;
 }
 
-// A point of the light that is behind the receiver's plane gives way to the opposite one: the twin
-// of sideOfSample() in ShadowRay.h.
+// Return a point of the light in front of the receiver's plane: the given one or the opposite. The
+// twin of sideOfSample() in ShadowRay.h.
 vec3 inFront(Receiver receiver, vec3 toCentre, vec3 offset)
 {
   return facesLight(receiver.normal, toCentre + offset) ? offset : -offset;
 }
 
-// How far the ray to a point of the light goes, in lengths of its way.
+// Return where rays to the light end, in lengths of their way.
 float lengthOfRays(Receiver receiver)
 {
 #if defined(BOX)
-  // To the box's near face.
+  // The box's near face.
   return (lightFromView * vec4(receiver.position, 1.0)).z;
 #else
   return lightView.w > 0.0 ? 1.0 : 1e30;
@@ -180,9 +184,9 @@ vec2 depthsOf(int view)
 }
 
 #ifdef CLASSIFY_PIXELS
-#define REGIONS 4 // how often the region is narrowed, at most
+#define REGIONS 4 // how often the region is narrowed at most
 
-// A corner of a box around the light, from its centre.
+// Return a corner of a box around the light, relative to its centre.
 vec3 cornerOfLight(int i)
 {
   vec3 corner = 2.0 * vec3(i & 1, (i >> 1) & 1, i >> 2) - 1.0;
@@ -190,15 +194,15 @@ vec3 cornerOfLight(int i)
   return viewFromUnit * corner;
 }
 
-// Whether no slab of some texels rises above the receiver's plane by as much as rays do where they
-// begin to count (onMap()). A slab is highest where it begins, at the texel's corner.
+// True if no slab of some texels rises above the receiver's plane to where rays begin to count
+// (onMap()). A slab is highest where it begins, at the texel's corner.
 bool liesBelow(Receiver receiver, vec4 plane, ivec2 lower, ivec2 upper, float deepest)
 {
   if (plane.z >= 0.0)
   {
-    return false; // it does not face the map's eye
+    return false; // the plane does not face the map's eye
   }
-  // Half of what onMap() takes for rounding is room for the rounding of both.
+  // Half of onMap()'s rounding is left as room for the rounding of both.
   float highest = 0.01 * (abs(plane.x) + abs(plane.y)) - 3.8146973e-6 * deepest * plane.z +
     receiver.own;
   for (int y = lower.y; y <= upper.y; ++y)
@@ -215,26 +219,28 @@ bool liesBelow(Receiver receiver, vec4 plane, ivec2 lower, ivec2 upper, float de
   return true;
 }
 
-// What all rays of a pixel can meet: they lie between those to the corners of a box around the
-// light, and so does their part behind the depth where the first slab begins (Curtis 2009, section
-// 3.6, whose region this is for a square light). A region whose slabs begin deeper is smaller.
-// Where nothing is in front of a surface, each is a fraction of the one before, down to the
-// receiver's own texels, which are asked one by one.
+// Classify all rays of a pixel by the region of the map that they can meet.
+//
+// All rays lie between those to the corners of a box around the light. So do their parts behind the
+// depth where the first slab begins (Curtis 2009, section 3.6, which states this for square
+// lights). A region whose slabs begin deeper shrinks. Where nothing is in front of a surface, each
+// region is a fraction of the last one. In the end only the receiver's own texels are left, which
+// are tested one by one.
 // @param depths of the map; on return, of the region
 // @return LIT, UMBRA or SEARCHED
 float classOf(Receiver receiver, Place place, vec3 toCentre, inout vec2 depths)
 {
   const int corners = SHAPE == BALL ? 8 : 4;
   vec3 begin[corners];
-  vec3 way[corners]; // from there to the light's end
+  vec3 way[corners];               // from `begin` to the light's end
   vec2 begins = vec2(1e30, -1e30); // the least and the greatest depth at the receiver's end
-  bool blockable = true;           // whether all of them have a part on the map that counts
+  bool blockable = true;           // true if all of them have a counting part on the map
   for (int i = 0; i < corners; ++i)
   {
     vec3 corner = cornerOfLight(i);
     if (!facesLight(receiver.normal, toCentre + corner))
     {
-      return SEARCHED; // some of the light is behind the receiver's plane
+      return SEARCHED; // part of the light is behind the receiver's plane
     }
     Segment segment = onMap(
       0, receiver, place, toCentre + corner, lengthOfRays(receiver), vec2(depths.x, 2.0), false);
@@ -257,14 +263,14 @@ float classOf(Receiver receiver, Place place, vec3 toCentre, inout vec2 depths)
     float ends = -1e30; // the greatest depth at the light's end
     for (int i = 0; i < corners; ++i)
     {
-      // Towards the light depths fall, or do not change.
+      // Towards the light depths fall or stay.
       float part = way[i].z < 0.0 ? clamp((depths.x - begin[i].z) / way[i].z, 0.0, 1.0) : 1.0;
       vec3 end = begin[i] + part * way[i];
       lower = min(lower, min(begin[i].xy, end.xy));
       upper = max(upper, max(begin[i].xy, end.xy));
       ends = max(ends, end.z);
     }
-    // Rounding may take a place to the texel beside it.
+    // Rounding may move a point to a neighbouring texel.
     lower = floor(lower - 0.01);
     upper = floor(upper + 0.01);
     if (any(greaterThan(lower, vec2(last))) || any(lessThan(upper, vec2(0.0))))
@@ -280,7 +286,7 @@ float classOf(Receiver receiver, Place place, vec3 toCentre, inout vec2 depths)
       return LIT;
     }
 #ifndef EYE_LAYER
-    // A depth that is inside a slab of every texel.
+    // One depth lies inside a slab of every texel.
     if (blockable && inside && bounds.z <= min(begins.x, bounds.w) && ends <= bounds.z)
     {
       return UMBRA;
@@ -300,9 +306,9 @@ float classOf(Receiver receiver, Place place, vec3 toCentre, inout vec2 depths)
 #endif
 
 #ifdef CLASSIFY_RAYS
-// The same of a single ray.
-// @param where it is in a slab if it is UMBRA, as near to the receiver as is known: from 0 there to
-// 1
+// Classify a single ray in the same way.
+// @param where for UMBRA, the point in a slab that is nearest to the receiver as far as known: 0 at
+// the receiver, 1 at the light
 float classOf(int view, Segment segment, out float where)
 {
   where = 0.0;
@@ -317,11 +323,11 @@ float classOf(int view, Segment segment, out float where)
     return LIT;
   }
 #ifndef EYE_LAYER
-  float deepest = min(greatest, bounds.w); // that is inside a slab of every texel
+  float deepest = min(greatest, bounds.w); // inside a slab of every texel
   if (bounds.z <= deepest && least <= bounds.z)
   {
     float span = segment.end.z - segment.begin.z;
-    // A ray across the light has one depth all along.
+    // A ray across the light has one depth.
     where = span != 0.0 ? clamp((deepest - segment.begin.z) / span, 0.0, 1.0) : 0.0;
     return UMBRA;
   }
@@ -330,16 +336,17 @@ float classOf(int view, Segment segment, out float where)
 }
 #endif
 
-// Where a point of a view's map lies on a ray, in lengths of its way.
+// Return where a point of a view's map lies on a ray, in lengths of its way.
 float lengthTo(int view, Receiver receiver, vec3 way, vec3 point)
 {
   vec4 place = viewFromRay[view] * vec4(point, 1.0);
   return max(dot(place.xyz / place.w - receiver.position, way), 0.0) / dot(way, way);
 }
 
+// Trace a ray through all views; true if one of them blocks it.
 // @param first the receiver's place in the first view
-// @param depths of a single view, between which there may be slabs
-// @param searched becomes true where that took a search
+// @param depths between which there may be slabs, for a single view
+// @param searched set to true if the ray needed a search
 // @param at where it is blocked, in lengths of its way
 bool isBlocked(Receiver receiver, Place first, vec3 way, float length, vec2 depths,
   inout bool searched, out float at)
@@ -380,19 +387,19 @@ bool isBlocked(Receiver receiver, Place first, vec3 way, float length, vec2 dept
   return false;
 }
 
-// How visibility changes around a receiver in the penumbra of an edge, as its gradient in view
-// coordinates: while the receiver goes across the penumbra, the edge goes across the light.
-// @param across from the middle of what is hidden of the light to the middle of what is seen
+// Return the gradient of visibility around a receiver in the penumbra of an edge, in view
+// coordinates. While the receiver crosses the penumbra, the edge crosses the light.
+// @param across from the middle of the light's hidden part to that of its seen part
 // @param at where the edge is, in lengths of the way to the light
 vec3 slopeOf(vec3 toCentre, vec3 across, float at, float footprint)
 {
-  // As the light is seen from the receiver.
+  // Project across the receiver's view of the light.
   vec3 ray = normalize(toCentre);
   across -= dot(across, ray) * ray;
   float apart = length(across);
   if (apart == 0.0)
   {
-    return vec3(0.0); // the edge may lie any way
+    return vec3(0.0); // the edge's direction is unknown
   }
   vec3 direction = across / apart;
   vec3 extents = abs(direction * viewFromUnit);
@@ -403,9 +410,9 @@ vec3 slopeOf(vec3 toCentre, vec3 across, float at, float footprint)
 #else
   float side = 2.0 * length(extents);
 #endif
-  // Rays to a lamp meet in the receiver; those to a sun are counted in units of length.
+  // Rays to a lamp meet in the receiver. For a sun, `at` is a length.
   float width = side * (lightView.w > 0.0 ? at / max(1.0 - at, 1e-6) : at);
-  return direction / max(width, 1e-6 * footprint); // what touches the receiver has none
+  return direction / max(width, 1e-6 * footprint); // edges that touch the receiver have no penumbra
 }
 
 void answer(Shine visibility, float pixelClass)
@@ -442,7 +449,7 @@ void main()
   }
 
   findOwnSurface(receiver);
-  Place place = placeOf(receiver, 0); // of no consequence where there is no view
+  Place place = placeOf(receiver, 0); // unused if there is no view
   vec2 depths = viewCount > 0 ? depthsOf(0) : vec2(0.0);
 #ifdef CLASSIFY_PIXELS
   float pixelClass = classOf(receiver, place, toCentre, depths);
@@ -459,10 +466,10 @@ void main()
   Shine seen = Shine(0.0);
   Shine all = Shine(0.0);
   bool searched = false;
-  float blocked = 0.0;           // rays
+  float blocked = 0.0;           // number of rays
   float blockedAt = 0.0;         // sum, in lengths of their ways
   vec3 hiddenPoints = vec3(0.0); // sum
-  vec3 seenPoints = vec3(0.0);   // likewise
+  vec3 seenPoints = vec3(0.0);   // sum
   for (int first = 0; first < RAYS * RAYS; first += 4)
   {
     FourPoints points = fourPoints(pixel, first);

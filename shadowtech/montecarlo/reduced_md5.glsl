@@ -1,5 +1,5 @@
-// 128 well mixed bits of a place: the twin of reducedMd5() (lights/ReducedMd5.h), with Curtis'
-// constants (2009, appendix A).
+// Hashes a place to 128 well mixed bits: the twin of reducedMd5() (lights/ReducedMd5.h), with
+// Curtis' constants (2009, appendix A).
 
 #define MD5_STEP(MIXED, WORD, CONSTANT, TURN)                               \
   added = state.x + (MIXED) + (WORD) + CONSTANT;                            \

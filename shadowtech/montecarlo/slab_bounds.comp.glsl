@@ -1,5 +1,5 @@
-// A level of the hierarchy over the slabs (SlabBounds.h) from the one below; level 0 from the
-// slabs.
+// Builds a level of the hierarchy over the slabs (SlabBounds.h) from the level below, and level 0
+// from the slabs.
 
 #include "shadowtech/montecarlo/slabs.glsl"
 
@@ -7,12 +7,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2DArray below; // the slabs, or the hierarchy
 uniform int layer;            // of `below`
-uniform int level;            // of the mip map that is read
-uniform ivec2 steps;          // from a texel to the first and to the last of those that it is made of
+uniform int level;            // of the mip map to read
+uniform ivec2 steps;          // offsets from a texel to the first and the last texel that it joins
 layout(binding = 0, rgba32f) writeonly uniform image2D target;
 
-// x: the least depth at which a slab begins, y: the greatest at which one ends; z, w: the greatest
-// and the least of the thickest slab of every texel.
+// x: the least depth at which a slab begins; y: the greatest at which one ends; z, w: the greatest
+// begin and the least end of the thickest slab of each texel.
 vec4 joined(vec4 a, vec4 b)
 {
   return vec4(min(a.x, b.x), max(a.y, b.y), max(a.z, b.z), min(a.w, b.w));
@@ -48,7 +48,7 @@ void main()
   vec4 bounds = boundsOfTexel(texel);
 #else
 #ifdef NBUFFER
-  // Clamped to the border, the four overlap, which no extremum minds.
+  // At the border the four clamped texels overlap, which leaves extrema correct.
   ivec2 last = textureSize(below, 0).xy - 1;
   ivec2 first = clamp(texel + steps.x, ivec2(0), last);
   ivec2 second = clamp(texel + steps.y, ivec2(0), last);

@@ -1,14 +1,16 @@
-// Whether a ray meets a slab of the light's map: a search from cell to cell of the hierarchy
+// Tests whether a ray meets a slab of the light's map. It goes from cell to cell of the hierarchy
 // (SlabBounds.h), after Curtis 2009, section 3.5, algorithm 2. A cell of a level is a square of
-// 2^level texels; of an N-buffer it may lie anywhere. With LINEAR_SEARCH it is a search in steps of
-// equal length, with bisection (section 3.3), of maps with one slab in a texel.
+// 2^level texels; in an N-buffer it may lie anywhere.
+//
+// LINEAR_SEARCH instead takes steps of equal length, with bisection (section 3.3). It needs maps
+// with one slab per texel.
 
-uniform sampler2DArray slabs; // the views' pages, one after the other
+uniform sampler2DArray slabs; // pages of all views, one after another
 uniform sampler2DArray slabBounds;
 uniform int mapSide;  // in texels
-uniform int topLevel; // a single cell over the whole map
+uniform int topLevel; // its single cell covers the whole map
 
-// The cell that a ray enters at a texel: as far ahead as it goes, or the one of the grid.
+// Return the cell that a ray enters at a texel: the one that extends farthest ahead, or the grid's.
 ivec2 cellFrom(ivec2 texel, int level, bvec2 ahead)
 {
 #ifdef NBUFFER
@@ -19,7 +21,7 @@ ivec2 cellFrom(ivec2 texel, int level, bvec2 ahead)
 #endif
 }
 
-// What a cell holds: see slab_bounds.comp.glsl.
+// Return the bounds of a cell (slab_bounds.comp.glsl).
 vec4 boundsOfCell(int view, ivec2 cell, int level)
 {
 #ifdef NBUFFER
@@ -32,7 +34,7 @@ vec4 boundsOfCell(int view, ivec2 cell, int level)
 #endif
 }
 
-// What all texels from one to another hold, and a few more around them.
+// Return bounds of all texels from one to another, and possibly of a few around them.
 vec4 boundsOfRegion(int view, ivec2 lower, ivec2 upper)
 {
   ivec2 size = upper - lower + 1;
@@ -56,7 +58,7 @@ vec4 boundsOfRegion(int view, ivec2 lower, ivec2 upper)
 #define STEPS 32
 #define BISECTIONS 6
 
-// Where a point is in its texel; one that is empty is BEFORE and BEHIND at once.
+// The state of a point in its texel. In an empty texel it is BEFORE and BEHIND at once.
 #define INSIDE 0
 #define BEFORE 1
 #define BEHIND 2
@@ -65,8 +67,8 @@ vec4 boundsOfRegion(int view, ivec2 lower, ivec2 upper)
 #ifdef EYE_LAYER
 uniform mat4 clipFromView;
 
-// Whether the camera sees that a point is in empty space: it is before the surface that is seen
-// there (Curtis 2009, section 3.4).
+// True if the camera sees that a point is in empty space, before the surface in its pixel (Curtis
+// 2009, section 3.4).
 bool seenEmpty(int view, vec3 point)
 {
   vec4 place = viewFromRay[view] * vec4(point, 1.0);
@@ -74,7 +76,7 @@ bool seenEmpty(int view, vec3 point)
   vec4 clip = clipFromView * vec4(position, 1.0);
   if (clip.w <= 0.0 || any(greaterThanEqual(abs(clip.xy), vec2(clip.w))))
   {
-    return false; // beside the picture
+    return false; // outside the picture
   }
   ivec2 pixel = ivec2((0.5 * clip.xy / clip.w + 0.5) * vec2(textureSize(receiverPoints, 0)));
   vec4 fragment = texelFetch(receiverFragments, pixel, 0);
@@ -104,15 +106,15 @@ int stateAt(int view, vec3 point)
   return before && behind ? EMPTY : before ? BEFORE : behind ? BEHIND : INSIDE;
 }
 
-// Whether a line towards the light may have met a slab between two points.
+// True if a line towards the light may have met a slab between two points.
 bool mayMeet(int first, int second)
 {
   return (second == BEFORE && first != BEFORE) || (first == BEHIND && second != BEHIND);
 }
 
+// True if a line meets a slab.
 // @param begin at the receiver
-// @return whether a line meets a slab
-// @param where it does, from 0 at its beginning to 1
+// @param where it does, from 0 at `begin` to 1 at `end`
 bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
 {
   where = 0.0;
@@ -124,7 +126,7 @@ bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
     int next = stateAt(view, mix(begin, end, last));
     if (mayMeet(state, next))
     {
-      // Of the two halves the one nearer to the receiver, if it may be in either.
+      // If either half may hold the hit, bisection takes the one nearer to the receiver.
       for (int j = 0; j < BISECTIONS; ++j)
       {
         float middle = 0.5 * (t + last);
@@ -148,7 +150,7 @@ bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
 
 #else
 
-// Whether a slab of a texel has any of these depths.
+// True if a slab of a texel overlaps this range of depths.
 bool meetsSlab(int view, ivec2 texel, float least, float greatest)
 {
   bool meets = false;
@@ -161,23 +163,23 @@ bool meetsSlab(int view, ivec2 texel, float least, float greatest)
   return meets;
 }
 
-int cellsVisited = 0; // by all searches of the invocation, for who asks: tests do
+int cellsVisited = 0; // by all searches of the invocation; tests read it
 
-// Whether the line from `begin` to `end`, in ray space and on the map, meets a slab.
-// @param where it enters the texel of that slab, from 0 at its beginning to 1
+// True if the line from `begin` to `end`, in ray space and on the map, meets a slab.
+// @param where it enters the texel of that slab, from 0 at `begin` to 1 at `end`
 bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
 {
   vec3 way = end - begin;
   bvec2 ahead = greaterThanEqual(way.xy, vec2(0.0));
-  // Lines that stay in a column or a row leave it never.
+  // Lines along a column or a row never leave it.
   vec2 inverse = vec2(way.x != 0.0 ? 1.0 / way.x : 1e30, way.y != 0.0 ? 1.0 / way.y : 1e30);
   ivec2 texel = clamp(ivec2(floor(begin.xy)), ivec2(0), ivec2(mapSide - 1));
   float longest = max(abs(way.x), abs(way.y));
   int level = clamp(int(ceil(log2(longest + 1.0))), 0, topLevel);
   float t = 0.0;
   where = 0.0;
-  // Each step descends or leaves a cell, and each cell that is left was descended to: no line takes
-  // nearly so many.
+  // Each step descends or leaves a cell, and each cell left was descended to. So no line takes
+  // nearly this many steps.
   for (int i = 0; i < 64 + 8 * mapSide; ++i)
   {
     ++cellsVisited;
@@ -209,8 +211,8 @@ bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
     {
       return false;
     }
-    // The next texel's number is not computed from a place, which may be rounded to either side of
-    // the border.
+    // The next texel's number does not come from a position, as rounding may move that across the
+    // border.
     t = exit;
     ivec2 place = clamp(ivec2(floor(begin.xy + t * way.xy)), cell, cell + side - 1);
     bool leavesAlongX = leaving.x <= leaving.y;

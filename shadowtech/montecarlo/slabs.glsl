@@ -1,4 +1,5 @@
-// What is solid in a texel of a light's map: slabs between two depths of ray space (RaySpace.h),
-// two to a page.
+// The solid parts in a texel of a light's map: slabs between two depths of ray space (RaySpace.h),
+// two per page.
 
-#define NO_SLAB vec2(2.0, -2.0) // from behind all depths to before them: nothing meets it
+// Begins behind all depths and ends before them, so nothing meets it.
+#define NO_SLAB vec2(2.0, -2.0)

@@ -1,5 +1,5 @@
-// One slab of each texel: from the nearest to the farthest surface, or (ENDLESS) from the nearest
-// one on.
+// Writes one slab per texel: from the nearest to the farthest surface, or (ENDLESS) from the
+// nearest one on.
 
 #include "shadowtech/montecarlo/slabs.glsl"
 

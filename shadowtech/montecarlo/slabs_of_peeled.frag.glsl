@@ -1,15 +1,16 @@
-// The slabs of each texel, from its peeled surfaces in their order: what lies between a surface
-// that faces the light and the next one that faces away is solid, and all other surfaces are
-// sheets, as thick as they span.
+// Writes the slabs of each texel from its peeled surfaces in order. A surface that faces the light
+// and the next one, if it faces away, enclose a solid. All other surfaces are sheets, as thick as
+// their span.
 
 #include "shadowtech/montecarlo/slabs.glsl"
 
-uniform sampler2DArray layers; // x: depth, y: span; PEELED that face the light, then as many that face away
+// X: depth, y: span. The first PEELED layers face the light; as many after them face away.
+uniform sampler2DArray layers;
 
 layout(location = 0) out vec4 firstPage;
 layout(location = 1) out vec4 secondPage;
 
-// Two surfaces that lie in each other are as far apart as rounding has it.
+// Rounding separates coincident surfaces by this much.
 #define ROUNDING 3.8146973e-6 // 2^-18
 
 vec2 surfaceAt(int number, int firstLayer)
@@ -18,13 +19,14 @@ vec2 surfaceAt(int number, int firstLayer)
                          : vec2(2.0, 0.0);
 }
 
-// Where a solid ends that begins at a surface which faces the light. On a slope, a body that is
-// thinner than the surface spans would have gaps between its texels: there it goes on to where the
-// surface is in the next one.
+// Return where a solid ends that begins at a surface facing the light. On slopes, bodies thinner
+// than the surface's span would have gaps between texels. Such a body ends where its front surface
+// is in the next texel.
 float endOfSolid(vec2 front, float back)
 {
   float end = max(front.x, back);
-  float reach = min(front.x + 1.01 * front.y, 1.0); // with room for rounding; 1 is before what is empty
+  // Has room for rounding, and stays before the depth of empty texels.
+  float reach = min(front.x + 1.01 * front.y, 1.0);
   if (reach <= end)
   {
     return end;
@@ -37,7 +39,8 @@ float endOfSolid(vec2 front, float back)
     for (int number = 0; number < PEELED; ++number)
     {
       vec2 next = texelFetch(layers, ivec3(texel, number), 0).rg;
-      bool sameSurface = next.x <= reach && next.x - 1.01 * next.y <= front.x; // either spans to the other
+      // True if either surface spans to the other.
+      bool sameSurface = next.x <= reach && next.x - 1.01 * next.y <= front.x;
       end = sameSurface ? max(end, next.x) : end;
     }
   }
@@ -50,7 +53,7 @@ void main()
   int count = 0;
   int fronts = 0;
   int backs = 0;
-  bool open = false; // a surface that faces the light waits for one that faces away
+  bool open = false; // true if a surface facing the light waits for one that faces away
   vec2 front = vec2(0.0);
   for (int i = 0; i < 2 * PEELED && count < 4; ++i)
   {
@@ -60,7 +63,7 @@ void main()
     {
       break;
     }
-    // What stands on a ground ends before the ground begins.
+    // A body that stands on a ground ends before the ground begins.
     if (nextBack.x <= nextFront.x + (open ? ROUNDING : 0.0))
     {
       ++backs;

@@ -1,10 +1,11 @@
-// What there is in a tile (UndecidedTiles.h).
+// Summarizes each tile (UndecidedTiles.h).
 
 #include "shadowtech/montecarlo/classes.glsl"
 
 uniform sampler2D visibilityAndClass;
 
-// x: the greatest class; y, z: the least and the greatest visibility of what faces the light
+// x: the greatest class; y, z: the least and the greatest visibility of receivers that face the
+// light
 out vec3 tile;
 
 void main()

@@ -1,10 +1,9 @@
-// Places the tiles that have undecided pixels, or are as near to one as `reachTiles`; with MIXED
-// only those near which visibility is not the same everywhere (UndecidedTiles.h). An instance is a
-// tile.
+// Places tiles with undecided pixels, and tiles within `reachTiles` of one. MIXED skips tiles near
+// which visibility is the same everywhere (UndecidedTiles.h). Each instance is a tile.
 
 #include "shadowtech/montecarlo/classes.glsl"
 
-uniform sampler2D tiles;   // of undecided_tiles.frag.glsl
+uniform sampler2D tiles;   // output of undecided_tiles.frag.glsl
 uniform ivec2 pictureSize; // in pixels
 uniform ivec2 reachTiles;
 
@@ -29,6 +28,6 @@ void main()
 #endif
   ivec2 pixel = TILE_PIXELS * (tile + ivec2(gl_VertexID & 1, gl_VertexID >> 1));
   vec2 corner = vec2(min(pixel, pictureSize)) / vec2(pictureSize);
-  // Others lie in one place, where there is no pixel.
+  // All other tiles collapse to a point outside the picture.
   gl_Position = vec4(drawn ? 2.0 * corner - 1.0 : vec2(2.0), 0.0, 1.0);
 }

@@ -1,44 +1,48 @@
-// A Gaussian over the pixels around one along a row or a column, of those that show the same
-// surface (Curtis 2009, section 3, whose weights know depth alone), and whose visibility is the
-// same as far as the rays tell: the edge between those that were blocked and those that were not,
-// and how far off it is, say which way visibility changes and over what length (Mehta, Wang and
-// Ramamoorthi 2012 take such lengths for the filter's width). So penumbrae keep their width, and
-// noise is taken off along them as far as the filter goes. Where rays tell nothing, as all or none
-// are blocked, visibility may differ by no more than their noise makes it. The first of the two
-// passes goes along rows.
+// Applies a Gaussian along a row or a column, over pixels of the same surface whose visibility is
+// the same as far as the rays tell. The first of the two passes goes along rows. Curtis 2009,
+// section 3, weighs depth alone.
 //
-// What is turned away from the light is left as it is and gives nothing to others. A pixel with
-// none in its square that rays have decided keeps its visibility bit for bit.
+// Blocked and free rays tell the edge between them and its distance. These give the direction in
+// which visibility changes, and over what length (Mehta, Wang and Ramamoorthi 2012 use such lengths
+// as the filter's width). So penumbrae keep their width, and the filter removes noise along them.
+// Where all or no rays are blocked, visibility may differ by no more than noise.
+//
+// Receivers turned away from the light stay as they are and do not contribute. A pixel keeps its
+// visibility bit for bit if rays decided no pixel in its square.
 
 #include "shadowtech/montecarlo/classes.glsl"
 
 uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
 uniform sampler2D unfiltered;        // x: visibility, y: class
-uniform sampler2D source;            // x: visibility, y: the greatest class in the row: the first pass' result
-uniform sampler2D slopes;            // xyz: visibility's gradient, 0 where rays tell none; then the mean in the row
-uniform ivec2 axis;                  // of the pass
-uniform float lit;                   // the visibility of what nothing hides the light from
-uniform vec2 pixelSide;              // a pixel's side is x + y * distance
+// x: visibility, y: the greatest class in the row, as results of the first pass.
+uniform sampler2D source;
+// xyz: visibility's gradient, 0 where rays tell none. The second pass reads its mean in the row.
+uniform sampler2D slopes;
+uniform ivec2 axis;     // direction of the pass
+uniform float lit;      // the visibility of unhidden receivers
+uniform vec2 pixelSide; // a pixel's side is x + y * distance
 
 layout(location = 0) out vec2 filtered;
 layout(location = 1) out vec3 slopeOfRow;
 
 #define SIGMA_PIXELS max(0.5 * float(FILTER_PIXELS), 0.5) // the Gaussian's deviation
-// The same as a share of a penumbra's width. The squared deviation of a ramp is width^2 / 12, and
-// so the filter widens it by sqrt(1 + 12 * 0.09^2): by less than 5 %.
+// The same as a share of a penumbra's width. The squared deviation of a ramp is width^2 / 12. So
+// the filter widens it by sqrt(1 + 12 * 0.09^2), which is less than 5 %.
 #define SIGMA_WIDTHS 0.09
 
-// How far two visibilities are apart, squared, in deviations of what counts as noise: sqrt(6) times
-// what RAYS x RAYS jittered rays err by. Squared, that is v (1 - v) / RAYS^3 where a line across
-// the light leaves a share v of it: 1 / 6 RAYS^3 on the mean over v, and nothing where it leaves
-// all of the light or nothing. So in the middle of a penumbra three times the mean noise counts.
+// Return the squared distance of two visibilities in deviations of noise, which are sqrt(6) times
+// the error of RAYS x RAYS jittered rays.
+//
+// If a line across the light leaves a share v of it, that error squared is v (1 - v) / RAYS^3. Its
+// mean over v is 1 / (6 RAYS^3); at v = 0 and v = 1 it is 0. So three times the mean noise counts
+// in the middle of a penumbra.
 float squaredDeviations(float a, float b)
 {
   float v = 0.5 * (a + b) / lit;
   float apart = (a - b) / lit;
   float noise = 6.0 * v * (1.0 - v) / float(RAYS * RAYS * RAYS);
-  return apart * apart / max(noise, 1e-6); // where both have all or nothing, they are not apart
+  return apart * apart / max(noise, 1e-6); // 0 where both see all or nothing
 }
 
 void main()
@@ -73,13 +77,13 @@ void main()
     vec2 visibility = texelFetch(source, other, 0).xy;
     if (visibility.y < LIT)
     {
-      continue; // a row's greatest class is its pixel's own where that is turned away
+      continue; // a row's greatest class is the pixel's own if that is turned away
     }
     vec4 otherPoint = texelFetch(receiverPoints, other, 0);
     vec3 otherNormal = vec3(texelFetch(receiverFragments, other, 0).zw, otherPoint.w);
     vec3 way = otherPoint.xyz - point.xyz;
-    // How many pixels the other point lies off the plane of this one: 0 all over a plane, however
-    // it is seen.
+    // Distance of the other point from this one's plane, in pixels. It is 0 all over a plane,
+    // however that is seen.
     float off = abs(dot(normal, way)) / footprint;
     float alike = max(dot(normal, otherNormal), 0.0);
     float alike4 = alike * alike * alike * alike;
@@ -96,7 +100,7 @@ void main()
     slopeSum += tells * otherSlope;
     slopeWeights += tells;
   }
-  slopeOfRow = slopeSum / max(slopeWeights, 1e-30); // 0 where none in the row tells one
+  slopeOfRow = slopeSum / max(slopeWeights, 1e-30); // 0 if no pixel in the row tells one
   bool keeps = axis.y == 1 && greatestClass < BY_RAYS;
   filtered = vec2(keeps ? original.x : sum / weights, greatestClass);
 }

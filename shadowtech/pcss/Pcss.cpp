@@ -13,8 +13,8 @@ namespace
 std::string refusedByPcss(const ShadowLight& light)
 {
   return light.of<EarlyOutSettings>().earlyOut == EarlyOut::Ring
-    ? "'pcss' has no ring of points to believe, since its points are all over the light; its "
-      "'early_out' is exact or none"
+    ? "'pcss' has no ring of points, as its points cover the whole light; its 'early_out' is "
+      "exact or none"
     : "";
 }
 

@@ -1,27 +1,27 @@
-// An area light as a receiver sees it from the middle of a cube's faces. What hides the light's
-// point L from the receiver at P, both from the light's centre, lies on the way between them, and
-// so on the centre's ray through
-//     P + L s,   s = |PX| / |XL| for the caster at X:
-// from P at the receiver to L at the light. The face is that of this ray, whatever face the
-// receiver is on.
+// An area light as a receiver sees it from the middle of a cube's faces. L is a point of the light
+// and P the receiver, both relative to the light's centre. A caster X that hides L from P lies on
+// the way between them. So it lies on the centre's ray through
+//     P + L s,   s = |PX| / |XL|,
+// from P at the receiver to L at the light. The face is this ray's, whichever face the receiver is
+// on.
 
 struct SeenLight_LIGHT
 {
   mat2x3 axes; // of the shape, in the space of the receiver's face
   vec3 normal; // of its plane, of any length
-  vec3 facing; // how the axes and the centre face the receiver's plane
-  float most;  // the largest separation that the map has texels for
+  vec3 facing; // how far the axes and the centre are in front of the receiver's plane
+  float most;  // the largest separation for which the map has enough texels
 };
 
-// How many texels there have to be between the ray of a separation and the light's rim.
+// The fewest texels between the ray of a separation and the light's rim.
 const float texelsToRim_LIGHT = 8.0;
 
-// A ball's outline: the disk across the way from its centre to the receiver, which is the same from
-// whatever face that is looked at. Its axes are those of the plane across the face, turned the
+// Return the axes of a ball's outline: the disk across the way from its centre to the receiver. The
+// disk is the same from every face. Its axes are those of the plane across the face, turned the
 // shortest way.
 mat2x3 ballAcross_LIGHT(float radius, vec3 position)
 {
-  vec3 away = normalize(position); // not along -z: it is on the face
+  vec3 away = normalize(position); // not along -z, as the receiver is on the face
   mat2 turned = mat2(1.0) - outerProduct(away.xy, away.xy) / (1.0 + away.z);
   return radius * mat2x3(vec3(turned[0], -away.x), vec3(turned[1], -away.y));
 }
@@ -41,13 +41,13 @@ SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
     vec3(point.normal * axes, -dot(point.normal, point.position)), most);
 }
 
-// A vector of the receiver's face in the space of another one.
+// Convert a vector from the receiver's face to another one.
 vec3 onFace_LIGHT(ViewPoint point, int face, vec3 v)
 {
   return face == point.face ? v : cubeFaceFromLight(face, lightFromCubeFace(point.face, v));
 }
 
-// The receiver in the space of another face, which need not see it.
+// Convert the receiver to another face, which need not see it.
 ViewPoint onFace_LIGHT(ViewPoint point, int face)
 {
   point.position = onFace_LIGHT(point, face, point.position);
@@ -57,22 +57,22 @@ ViewPoint onFace_LIGHT(ViewPoint point, int face)
   return point;
 }
 
-// How far along a face's axis what is at a depth of its map is from the light.
+// Return the distance from the light along a face's axis that a depth of its map means.
 float distanceOf_LIGHT(ViewPoint onFace, float depth)
 {
   vec2 depths = viewDepths_LIGHT[onFace.view];
   return (depth - depths.y) / depths.x;
 }
 
-// Faces of larger depths round them less.
+// Return the slack of another face. Faces of larger depths round these less.
 float slackOn_LIGHT(ViewPoint onFace, ViewPoint point, float slack)
 {
   return slack * max(viewDepths_LIGHT[onFace.view].x / viewDepths_LIGHT[point.view].x, 1.0);
 }
 
-// The separation of what hides the point where a point of the light is looked for; -1 where nothing
-// does.
-// @param beside that point, times the separation that it is looked for at
+// Return the separation of the caster at the place where a point of the light is looked up; -1 if
+// none hides that.
+// @param beside the point times the separation of the lookup
 float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, float slack)
 {
   vec3 ray = point.position + light.axes * beside;
@@ -83,7 +83,8 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
     return -1.0;
   }
   ray = onFace_LIGHT(point, face, ray);
-  if (ray.z == 0.0) // its longest coordinate: it ends at the light's centre, which nothing hides
+  // The longest coordinate: the ray ends at the light's centre, which nothing hides.
+  if (ray.z == 0.0)
   {
     return -1.0;
   }
@@ -99,18 +100,18 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
   return max(ray.z / max(distanceOf_LIGHT(onFace, depth), nearest) - 1.0, 0.0);
 }
 
-// What of a face may be looked up at a separation.
+// The part of a face that may be looked up at a separation.
 struct FaceWindow_LIGHT
 {
   bool any;
   vec2 lower; // slopes
   vec2 upper;
-  TexelWindow_LIGHT texels; // where the face has a view
-  vec2 own; // the least and the largest distance that a ray has at the receiver
+  TexelWindow_LIGHT texels; // only valid if the face has a view
+  vec2 own; // the least and the largest distance of a ray at the receiver, along the face's axis
 };
 
-// The largest m from -1 to 1 for which x >= m z says the same of the corners, and so of all that
-// lies between them.
+// Return the largest m in [-1, 1] for which x >= m z holds for all corners, and so for all between
+// them.
 float leastSlope_LIGHT(vec4 x, vec4 z)
 {
   vec2 range = vec2(-1.0, 1.0);
@@ -127,7 +128,7 @@ float leastSlope_LIGHT(vec4 x, vec4 z)
 FaceWindow_LIGHT windowOn_LIGHT(
   ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, float separation)
 {
-  // The corners of a parallelogram around the shape.
+  // Corners of a parallelogram around the shape.
   vec3 first = onFace_LIGHT(point, onFace.face, separation * light.axes[0]);
   vec3 second = onFace_LIGHT(point, onFace.face, separation * light.axes[1]);
   const vec4 firsts = vec4(1.0, 1.0, -1.0, -1.0);
@@ -148,37 +149,39 @@ FaceWindow_LIGHT windowOn_LIGHT(
   {
     vec2 a = texelOf_LIGHT(onFace.view, window.lower);
     vec2 b = texelOf_LIGHT(onFace.view, window.upper);
-    // Rounding may take a ray to the texel beside it.
+    // Rounding may move a ray to a neighbouring texel.
     window.texels = windowOf_LIGHT(min(a, b) - 0.01, max(a, b) + 0.01);
   }
   return window;
 }
 
-// About the largest separation of casters which are no nearer along a face's axis than a depth of
-// its map. That depth alone bounds it, tightly where the light stands across the axis. Elsewhere
-// the height over the light's plane says more, but that is taken in the middle of where they are
-// seen, and so is no bound: the least height would be one, and is next to 0 so often that searches
-// grow too wide to find what is near the receiver.
+// Estimate the largest separation of casters at least as far along a face's axis as a depth of its
+// map.
+//
+// That depth alone gives a bound, which is tight if the light lies across the axis. Elsewhere
+// heights over the light's plane tell more. The caster's height is taken in the middle of where it
+// is seen, so the result is no bound. The least height would bound it. But that is often nearly 0,
+// so searches would grow too wide to find casters near the receiver.
 // @param slope the middle of where they are seen
 float separationEstimate_LIGHT(
   ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, vec2 slope, float depth)
 {
   float nearest = distanceOf_LIGHT(onFace, depth);
-  // On the way to a point of the light that is as far along the axis as any.
+  // The way to the light's farthest point along the axis.
   vec3 first = onFace_LIGHT(point, onFace.face, light.axes[0]);
   vec3 second = onFace_LIGHT(point, onFace.face, light.axes[1]);
   float before = nearest - extentAlong_LIGHT(vec2(first.z, second.z));
   float behind = max(onFace.position.z - nearest, 0.0);
   float bound = behind < light.most * before ? behind / before : light.most;
-  // The heights of both over the light's plane.
+  // Heights of the receiver and the caster over the light's plane.
   vec3 normal = onFace_LIGHT(point, onFace.face, light.normal);
   float height = dot(normal, onFace.position);
   float heightCaster = nearest * dot(normal, vec3(slope, 1.0));
-  float share = max(height / heightCaster, 0.0); // 0: they are on either side of it
+  float share = max(height / heightCaster, 0.0); // 0 if the light's plane is between them
   return heightCaster == 0.0 ? bound : clamp(share - 1.0, 0.0, bound);
 }
 
-// The same of all casters in the blocks of the map's pyramid that hold a window.
+// As above, for all casters in the pyramid's blocks that cover a window.
 float separationEstimate_LIGHT(
   ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, FaceWindow_LIGHT window)
 {
@@ -204,8 +207,8 @@ float separationEstimate_LIGHT(
   return largest;
 }
 
-// About the largest separation that a caster has within the light's reach at that separation. What
-// the first steps find lies farther around than what the last one needs.
+// Estimate the largest separation of a caster within the light's reach at that separation. Each
+// step searches a smaller area.
 float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 {
   float separation = light.most;
@@ -228,7 +231,7 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
   return separation;
 }
 
-// How many texels the receiver's plane is followed at a separation.
+// Return how many texels away the receiver's plane is evaluated at a separation.
 float texelsAcross_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
   FaceWindow_LIGHT window = windowOn_LIGHT(point, point, light, separation);
@@ -236,8 +239,7 @@ float texelsAcross_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separatio
   return 0.5 * max(texels.x, texels.y);
 }
 
-// What all say that may be looked up at a separation: 1 lit, 0 hidden, -1 where the map's bounds do
-// not tell.
+// Decide all lookups at a separation by the map's bounds: 1 lit, 0 hidden, -1 undecided.
 float decidedWithin_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation, float slack)
 {
   bool lit = true;
@@ -263,7 +265,7 @@ float decidedWithin_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separati
   return lit ? 1.0 : 0.0;
 }
 
-// The least separation of casters where the map's bounds call all of that hidden.
+// Return the least separation of casters, if the map's bounds decide that all lookups are hidden.
 float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
   float least = light.most;
@@ -284,15 +286,15 @@ float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separa
   return least;
 }
 
-// How a point of the light's shape is looked for in the search, and how much of the area around it
-// that stands for. Points lie denser in the middle, where low casters are found: as many to every
-// angle, and so to casters of all distances from the light to the receiver.
-// @param place on return, of the largest separation
+// Spread a point of the light's shape for the search, and return its weight: the share of the area
+// around it. Points are denser in the middle, where low casters are found. All angles get equally
+// many, and so do casters at all distances between light and receiver.
+// @param place on return, relative to the largest separation
 float spreadForSearch_LIGHT(inout vec2 place, SeenLight_LIGHT light, ViewPoint point, float largest)
 {
   float widest = largest * max(length(light.axes[0]), length(light.axes[1])) / length(point.position);
   float angle = atan(widest);
-  float share = extentOf_LIGHT(place); // of a point that is out by its square root
+  float share = extentOf_LIGHT(place); // points were spread by the square root of their extent
   float extent = share * share;
   float tangent = tan(extent * angle);
   float spread = widest > 1e-3 ? tangent / widest : extent;

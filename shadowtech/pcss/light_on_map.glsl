@@ -1,15 +1,15 @@
-// An area light as a receiver sees it on the one map that holds all it looks up: the light's shape,
-// laid on the map by its Jacobian. light_around.glsl has the same of cubes.
+// An area light as a receiver sees it on a single map: the light's shape, mapped by the Jacobian.
+// light_around.glsl is the version for cubes.
 
 struct SeenLight_LIGHT
 {
-  mat2 texels; // how the shape lies on the map at a separation of 1
-  vec2 reach;  // how far it goes there
-  vec3 facing; // how its axes and its centre face the receiver's plane
+  mat2 texels; // from the shape to texels at a separation of 1
+  vec2 reach;  // its extent in texels there
+  vec3 facing; // how far its axes and its centre are in front of the receiver's plane
 };
 
-// The light is seen on the plane across the view, through its centre. Of a directional light it is
-// at distance 1.
+// Project the light to the plane across the view through its centre. A directional light is at
+// distance 1.
 SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
 {
   mat2 across = mat2(lightFromUnit_LIGHT);
@@ -24,13 +24,13 @@ SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
   return SeenLight_LIGHT(texels, reach, vec3(point.normal.xy * across, centre));
 }
 
-// The separation of what is at a depth of the map.
+// Return the separation of a caster at a depth of the map.
 float separationOf_LIGHT(ViewPoint point, float depth)
 {
   vec2 depths = viewDepths_LIGHT[point.view];
   float distanceLight = (depth - depths.y) / depths.x;
 #if VIEWS_PERSPECTIVE_LIGHT
-  // What touches the light is as good as what nearly does.
+  // Casters that touch the light count as slightly farther.
   float nearest = 1e-5 * point.position.z;
   return max(1.0 / max(distanceLight, nearest) - 1.0 / point.position.z, 0.0);
 #else
@@ -38,9 +38,9 @@ float separationOf_LIGHT(ViewPoint point, float depth)
 #endif
 }
 
-// The separation of what hides the point where a point of the light is looked for; -1 where nothing
-// does.
-// @param beside that point, times the separation that it is looked for at
+// Return the separation of the caster at the place where a point of the light is looked up; -1 if
+// none hides that.
+// @param beside the point times the separation of the lookup
 float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, float slack)
 {
   vec2 place = point.texel + light.texels * beside;
@@ -53,8 +53,8 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
   return separationOf_LIGHT(point, linearDepth_LIGHT(point.view, texel, depth));
 }
 
-// The largest separation that a caster has within the light's reach at that separation. What the
-// first steps find lies farther around than what the last one needs.
+// Return the largest separation of a caster within the light's reach at that separation. Each step
+// searches a smaller area.
 float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 {
   vec2 reach = vec2(viewSize_LIGHT);
@@ -65,7 +65,7 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
     float found = separationOf_LIGHT(point, nearest);
     if (found >= separation)
     {
-      break; // a step finds no less than what the next one would
+      break; // further steps find no less
     }
     separation = found;
     reach = light.reach * separation;
@@ -73,30 +73,29 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
   return separation;
 }
 
-// How many texels the receiver's plane is followed at a separation.
+// Return how many texels away the receiver's plane is evaluated at a separation.
 float texelsAcross_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
   vec2 farthest = min(light.reach * separation, vec2(viewSize_LIGHT));
   return max(farthest.x, farthest.y);
 }
 
-// What all say that may be looked up at a separation: 1 lit, 0 hidden, -1 where the map's bounds do
-// not tell.
+// Decide all lookups at a separation by the map's bounds: 1 lit, 0 hidden, -1 undecided.
 float decidedWithin_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation, float slack)
 {
   return decided_LIGHT(point, light.reach * separation, slack);
 }
 
-// The least separation of casters where the map's bounds call all of that hidden.
+// Return the least separation of casters, if the map's bounds decide that all lookups are hidden.
 float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
   TexelWindow_LIGHT window = windowAround_LIGHT(point, light.reach * separation + 0.01);
   return separationOf_LIGHT(point, boundsOf_LIGHT(point, window).y);
 }
 
-// How a point of the light's shape is looked for in the search, and how much of the area around it
-// that stands for: points lie denser in the middle, where low casters are found.
-// @param place on return, of the largest separation
+// Spread a point of the light's shape for the search, and return its weight: the share of the area
+// around it. Points are denser in the middle, where low casters are found.
+// @param place on return, relative to the largest separation
 float spreadForSearch_LIGHT(inout vec2 place, SeenLight_LIGHT light, ViewPoint point, float largest)
 {
   place *= extentOf_LIGHT(place);

@@ -1,8 +1,8 @@
 // The shape of an area light, of radius or half side 1.
 
-uniform mat3 lightFromUnit_LIGHT; // its axes in light space
+uniform mat3 lightFromUnit_LIGHT; // the shape's axes in light space
 
-// How far a point of the shape is out, from 0 in its middle to 1 at its rim.
+// Return how far out a point of the shape is, from 0 in the middle to 1 at the rim.
 float extentOf_LIGHT(vec2 place)
 {
 #if PCSS_RECTANGLE_LIGHT
@@ -12,8 +12,8 @@ float extentOf_LIGHT(vec2 place)
 #endif
 }
 
-// How far the whole shape reaches along a direction.
-// @param axes how far its two axes do
+// Return the extent of the whole shape along a direction.
+// @param axes extents of its two axes along it
 float extentAlong_LIGHT(vec2 axes)
 {
 #if PCSS_RECTANGLE_LIGHT

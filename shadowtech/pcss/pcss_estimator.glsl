@@ -1,4 +1,4 @@
-// Percentage closer soft shadows (Fernando 2005): a search for blockers, a penumbra's width, a
+// Percentage closer soft shadows (Fernando 2005): a blocker search, the penumbra's width, and a
 // filter of that width, all in separations (Pcss.h). The kernel of both steps is the light's shape,
 // of radius or half side 1.
 
@@ -11,20 +11,20 @@
 #include "shadowtech/pcss/light_on_map.glsl"
 #endif
 
-uniform sampler2D lightPoints_LIGHT; // the search's, then the filter's
+uniform sampler2D lightPoints_LIGHT; // the search's points, then the filter's
 
-// How far beside its own ray a surface may be found that is taken to hide a point of the light all
-// the same, as a share of that ray's way: surfaces slope.
+// Surfaces slope. So a surface beside a point's own ray still hides the point if its separation is
+// at least this share of the lookup's.
 const float leastShareOfSeparation_LIGHT = 0.75;
 
-// Behind those of all maps, those of Pcss::info(), in their order.
+// Follow the classes of all maps, in the order of Pcss::info().
 #define PCSS_LIT_BY_BOUNDS 4
 #define PCSS_HIDDEN_BY_BOUNDS 5
 #define PCSS_NO_BLOCKER 6
 
 #if PCSS_ASKS_BOUNDS_LIGHT
-// What search and filter answer: 1 lit, 0 hidden, -1 where the map's bounds do not tell. Neither
-// looks farther than the largest separation.
+// Decide search and filter by the map's bounds: 1 lit, 0 hidden, -1 undecided. Neither looks beyond
+// the largest separation.
 float decidedByBounds_LIGHT(ViewPoint point, SeenLight_LIGHT light, float largest, float slack)
 {
   float decided = decidedWithin_LIGHT(point, light, largest, slack);
@@ -37,8 +37,7 @@ float decidedByBounds_LIGHT(ViewPoint point, SeenLight_LIGHT light, float larges
 }
 #endif
 
-// How a cell of the map takes the points: a turn of the disk (its x axis), or a shift of the
-// square.
+// Return a cell's pattern of points: the x axis of a rotated disk, or a shift of the square.
 vec2 patternOf_LIGHT(ViewPoint point)
 {
   ivec2 cell = ivec2(4.0 * point.texel);
@@ -50,8 +49,8 @@ vec2 patternOf_LIGHT(ViewPoint point)
 #endif
 }
 
-// A point of the light's shape, by its number and the cell's pattern.
-// @param facing how the light's centre and its shape's axes face the receiver's plane
+// Return a point of the light's shape by its number and the cell's pattern.
+// @param facing how far the shape's axes and centre are in front of the receiver's plane
 vec2 lightPoint_LIGHT(int number, vec2 pattern, vec3 facing)
 {
   vec2 place = texelFetch(lightPoints_LIGHT, ivec2(number, 0), 0).rg;
@@ -63,18 +62,18 @@ vec2 lightPoint_LIGHT(int number, vec2 pattern, vec3 facing)
   return dot(facing, vec3(place, 1.0)) < 0.0 ? -place : place;
 }
 
-// What is found no nearer than this share of where it is looked for is there.
+// A caster is where it was looked up if its separation is at least this share of the lookup's.
 const float ownShareOfSeparation_LIGHT = 0.9;
 
-// How often that is done at most. It is rarely more than once; most where casters reach far towards
-// the light.
+// Limit of repeated lookups. Most points need at most one; casters that reach far towards the light
+// need most.
 #define PCSS_LOOKS_AGAIN_LIGHT 4
 
-// What hides points of the light, as a search finds it.
+// Blockers that a search finds.
 struct Blockers_LIGHT
 {
-  float area; // on the map; 0: there are none
-  float sum;  // of separations over it
+  float area; // on the map; 0 if there are none
+  float sum;  // of separations over that area
   float least;
 };
 
@@ -85,7 +84,7 @@ void add_LIGHT(inout Blockers_LIGHT blockers, float separation, float area)
   blockers.least = min(blockers.least, separation);
 }
 
-// Searches as far as the largest separation for what hides any point of the light.
+// Search up to the largest separation for casters that hide any point of the light.
 Blockers_LIGHT blockersOf_LIGHT(
   ViewPoint point, SeenLight_LIGHT light, vec2 pattern, float largest, float slack)
 {
@@ -109,10 +108,12 @@ Blockers_LIGHT blockersOf_LIGHT(
   return blockers;
 }
 
-// The separation of what hides the receiver from a point of the light that is looked for at another
-// one; -1: nothing. What is found at another separation hides another point, and so is looked for
-// again at its own: the wall of a corner, a surface further down, or one nearer to the light.
-// @param largest that any caster has
+// Return the separation of the caster that hides a point of the light from the receiver; -1 if none
+// does. A caster found at another separation hides another point, so the point is looked up again
+// at that separation. Examples are the wall of a corner, or a surface farther down or nearer to the
+// light.
+// @param separation of the first lookup
+// @param largest separation of any caster
 float hiderOf_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 place, float separation,
   float largest, float slack)
 {
@@ -143,7 +144,8 @@ float hiderOf_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 place, float se
   return -1.0;
 }
 
-// Searches by the filter's points, each for what hides it: more, and none in vain.
+// Search with the filter's points for the casters that hide each. There are more of them, and none
+// is tested in vain.
 Blockers_LIGHT blockersOfFilter_LIGHT(
   ViewPoint point, SeenLight_LIGHT light, vec2 pattern, float largest, float slack)
 {
@@ -164,8 +166,8 @@ float estimate_LIGHT(ViewPoint point, float slack)
 {
   SeenLight_LIGHT light = seenLight_LIGHT(point);
   float largest = largestSeparation_LIGHT(point, light);
-  // What rounding does to the receiver's plane grows with how far that is followed: half a texel so
-  // far.
+  // Rounding of the receiver's plane grows with the distance at which it is evaluated. The slack
+  // allows for half a texel.
   slack *= max(2.0 * texelsAcross_LIGHT(point, light, largest), 1.0);
 #if PCSS_ASKS_BOUNDS_LIGHT
   float decided = decidedByBounds_LIGHT(point, light, largest, slack);
@@ -179,7 +181,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
   Blockers_LIGHT blockers = blockersOf_LIGHT(point, light, pattern, largest, slack);
   if (blockers.area == 0.0)
   {
-    // At a penumbra's rim few points may have missed what there is.
+    // Few points may have missed the blockers at a penumbra's rim.
     blockers = blockersOfFilter_LIGHT(point, light, pattern, largest, slack);
   }
   if (blockers.area == 0.0)
@@ -187,8 +189,8 @@ float estimate_LIGHT(ViewPoint point, float slack)
     pixelClass_LIGHT = PCSS_NO_BLOCKER;
     return 1.0;
   }
-  // What is near the receiver hides the light along other ways than what is far above it; and what
-  // is round by its rim, which is farther from the light than its middle.
+  // Casters near the receiver hide the light along other ways than casters far above it. The same
+  // holds for rims of round casters, which are farther from the light than their middle.
   float least = blockers.least;
   float mean = clamp(blockers.sum / blockers.area, least, largest);
   bool several = least < leastShareOfSeparation_LIGHT * mean;
@@ -197,7 +199,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
   {
     vec2 place = lightPoint_LIGHT(PCSS_SEARCH_POINTS_LIGHT + i, pattern, light.facing);
     bool hides = hiderOf_LIGHT(point, light, place, least, largest, slack) >= 0.0;
-    // A loop, which software OpenGL leaves where it skips no branch.
+    // Software OpenGL runs both sides of a branch, but leaves a loop.
     for (int other = 0; other < 1 && several && !hides; ++other)
     {
       hides = hiderOf_LIGHT(point, light, place, mean, largest, slack) >= 0.0;

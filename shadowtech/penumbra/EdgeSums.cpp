@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-// Rays side by side, as many as the processor takes. Whichever it takes, what is certain is the
-// same.
+// Compiles loops over rays for several widths of vectors. All widths give the same certain results.
 #ifdef __x86_64__
 #define GNOMON_SIDE_BY_SIDE [[gnu::target_clones("avx512f", "avx2", "default")]]
 #else
@@ -31,7 +30,7 @@ void slopesOf(const glm::mat3& turn, const LightSamples::Coordinates& directions
   }
 }
 
-/// Adds edges to the rays.
+/// Add edges to the sums of all rays.
 GNOMON_SIDE_BY_SIDE
 void addEdges(const SeenEdge* edges, std::size_t edgeCount, const float* x, const float* y,
   std::size_t count, std::int32_t* sums, std::int32_t* uncertain)

@@ -11,57 +11,57 @@
 namespace gnomon
 {
 
-/// An edge as seen from where some rays start: a line of the plane z = 1, whose points are the
-/// rays' slopes (x, y).
+/// An edge as seen from where some rays start. It is a line on the plane z = 1, whose points are
+/// the rays' slopes (x, y).
 struct SeenEdge
 {
-  glm::vec3 across;   ///< dot(across, (x, y, 1)) > 0 to the left of it, where x is less
-  float uncertain;    ///< up to so much of that, rounding may say on which side a ray passes
-  float lower, upper; ///< from this y on, up to that one
-  float uncertainLower, uncertainUpper; ///< the same of where rounding counts
-  /// How many triangles more are met to its left than to its right.
+  glm::vec3 across; ///< dot(across, (x, y, 1)) > 0 on its left, where x is less
+  /// Rays with at most this |dot(across, (x, y, 1))| pass on a side that rounding decides.
+  float uncertain;
+  float lower, upper;                   ///< its range of y; rays in [lower, upper) cross it
+  float uncertainLower, uncertainUpper; ///< the range of y in which `uncertain` applies
+  /// How many more triangles rays on its left meet than rays on its right.
   std::int32_t weight;
   ///@{
-  /// How many more are met below this y than above, along the line of largest x.
+  /// How many more triangles rays below this y meet than rays above it, along the line of largest
+  /// x.
   std::int32_t weightBelow;
   float below;
   ///@}
 };
 
-/// How many triangles each of a pixel's rays to an area light meets, up to a number that is the
-/// same for all of them.
+/// Counts the triangles on each of a pixel's rays to an area light, up to a constant that all of
+/// them share.
 class EdgeSums
 {
 public:
-  /// Takes the rays.
-  /// @param shaftFromCentred turns their directions; z > 0 then
+  /// Set the rays.
+  /// @param shaftFromCentred rotates their directions, after which z > 0
   void setRays(const glm::mat3& shaftFromCentred, const LightSamples::Coordinates& directions,
     std::size_t count);
 
-  /// Sums the edges.
+  /// Add the weights of edges to the sums.
   void add(const std::vector<SeenEdge>& edges);
 
-  /// Of those rays of which no rounding says on which side of an edge they pass, those that meet
-  /// the fewest triangles.
+  /// The rays with the least sum, among rays that pass all edges on a certain side.
   struct Fewest
   {
-    std::uint32_t first; ///< one of them
-    std::uint32_t count; ///< 0 where there is none
+    std::uint32_t first; ///< number of the first of them
+    std::uint32_t count; ///< 0 if there are none
   };
   Fewest fewest() const;
 
-  /// Appends the numbers of all other rays: where rounding may say on which side of an edge they
-  /// pass.
+  /// Append the numbers of all rays that pass an edge on a side that rounding decides.
   void appendUncertain(std::vector<std::uint32_t>& rays) const;
 
 private:
   static constexpr std::size_t together = 16;
 
   std::size_t count_ = 0;
-  /// Slopes; up to a multiple of `together` those of no ray, which are uncertain.
+  /// Slopes, padded to a multiple of `together`. Padding counts as uncertain.
   std::vector<float> x_, y_;
   std::vector<std::int32_t> sums_;
-  std::vector<std::int32_t> uncertain_; ///< 1 or 0
+  std::vector<std::int32_t> uncertain_; ///< 1 if uncertain, else 0
 };
 
 } // namespace gnomon

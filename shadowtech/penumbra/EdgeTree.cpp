@@ -15,16 +15,16 @@ namespace gnomon
 namespace
 {
 
-/// Triangles that are more than so many times as long as high are needles: what a tracer makes of
-/// them is rounding.
+/// The ratio of length to height beyond which triangles are needles. Rounding decides what a tracer
+/// finds of a needle.
 constexpr double mostSlender = 16384.0;
 
-/// What the sign of v . N may be off by for a triangle's normal N and a vector from one of its
-/// corners, or a direction: ShadowRay.h's bound is 11u YZ for each x, with Y and Z the extent of
-/// its box. This is twice as much.
+/// Bounds rounding of v . N, for a triangle's normal N, and v a direction or a vector from one of
+/// its corners. It is twice ShadowRay.h's bound, which is 11u YZ per unit of x, with Y and Z sides
+/// of its box.
 constexpr double noiseOfExtent = 22.0 / 16777216.0;
 
-/// Down to so many levels of the tree either half is fitted by itself.
+/// Levels of the tree whose halves are fitted in parallel.
 constexpr int levelsInParallel = 8;
 
 EdgeTriangle edgeTriangle(const std::array<glm::vec3, 3>& corners, bool oneSided)
@@ -35,7 +35,7 @@ EdgeTriangle edgeTriangle(const std::array<glm::vec3, 3>& corners, bool oneSided
   const glm::dvec3 normal = glm::cross(b - a, c - a);
   const double longest = std::max({ glm::length(b - a), glm::length(c - b), glm::length(a - c) });
   const glm::dvec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
-  // Triangles without area are not in the snapshot.
+  // The snapshot holds no triangles without area.
   EdgeTriangle triangle;
   triangle.normal = normal / longest;
   triangle.corner = corners[0];
@@ -48,7 +48,7 @@ EdgeTriangle edgeTriangle(const std::array<glm::vec3, 3>& corners, bool oneSided
   return triangle;
 }
 
-/// Both, where the second one may say nothing.
+/// Return a cone around both; it is undefined if one of them is.
 EdgeTree::Cone joined(const EdgeTree::Cone& one, const EdgeTree::Cone& other)
 {
   EdgeTree::Cone cone;
@@ -61,7 +61,8 @@ EdgeTree::Cone joined(const EdgeTree::Cone& one, const EdgeTree::Cone& other)
     return cone;
   }
   cone.axis = sum / length;
-  // Both axes are as far from their middle. Larger by more than what cosines of small angles lose.
+  // Both axes are equally far from the middle. The angle added exceeds the error of cosines of
+  // small angles.
   const EdgeTree::Cone& wider = one.cosine < other.cosine ? one : other;
   const float angle = std::acos(std::clamp(glm::dot(cone.axis, one.axis), -1.0f, 1.0f)) +
     std::atan2(wider.sine, wider.cosine) + 0.001f;
@@ -80,7 +81,7 @@ void EdgeTree::update(const Occluders& occluders)
   {
     return;
   }
-  this->topologyVersion_ = 0; // should anything fail
+  this->topologyVersion_ = 0; // stays 0 if an error interrupts the update
   this->found_.update(occluders, updateCasterEdges);
   this->triangles_.clear();
   this->corners_.clear();
@@ -168,7 +169,7 @@ void EdgeTree::addSurface(
       {
         bounds.add(glm::dvec3(corner));
       }
-      // A needle may seem to reach as far again as it does.
+      // A tracer may see a needle up to its own length beyond its box.
       isNeedle[i] = triangle.longest < mostSlender * triangle.height ? 0 : 1;
       const double more = isNeedle[i] != 0 ? triangle.longest : triangle.noise / triangle.height;
       bounds.lower -= more;
@@ -189,8 +190,8 @@ void EdgeTree::addSurface(
   {
     return;
   }
-  // The edges of a triangle lie side by side: those that it is the first of. Needles have none:
-  // where they meet others, these end.
+  // Each edge is stored with the first of its triangles, and edges of one triangle are consecutive.
+  // Needles own no edges: the surface ends where they meet others.
   const auto trianglesOf = [&](const CasterEdge& edge)
   {
     std::array<std::uint32_t, 2> triangles{ { TreeEdge::none, TreeEdge::none } };
@@ -238,13 +239,14 @@ void EdgeTree::addSurface(
 }
 
 //------------------------------------------------------------------------------
-/// @param triangles numbers; the second may be none
+/// Return the edge in the direction of its first triangle.
+/// @param triangles numbers in the tree; the second may be `none`
 TreeEdge EdgeTree::treeEdge(const std::array<std::uint32_t, 2>& triangles, const glm::vec3& from,
   const glm::vec3& to, bool sameDirection) const
 {
   TreeEdge edge{ from, to, triangles, sameDirection, glm::length(to - from),
     this->triangles_[triangles[0]].longest };
-  // The first triangle says which way it runs.
+  // Orient the edge along its first triangle.
   const std::array<glm::vec3, 3>& corners = this->corners_[triangles[0]];
   const bool runs = (corners[0] == from && corners[1] == to) ||
     (corners[1] == from && corners[2] == to) || (corners[2] == from && corners[0] == to);
@@ -260,8 +262,8 @@ TreeEdge EdgeTree::treeEdge(const std::array<std::uint32_t, 2>& triangles, const
 }
 
 //------------------------------------------------------------------------------
-/// Finds where all triangles and those across their edges face; where that says nothing, an edge
-/// may have a weight from anywhere.
+/// Return for each triangle a cone around its own normal and those across its edges. An undefined
+/// cone marks triangles with an edge that may have a weight from anywhere.
 std::vector<EdgeTree::Cone> EdgeTree::conesOfTriangles() const
 {
   std::vector<Cone> cones(this->triangles_.size());
@@ -296,7 +298,7 @@ std::vector<EdgeTree::Cone> EdgeTree::conesOfTriangles() const
   tbb::parallel_for(std::size_t(0), cones.size(),
     [&](std::size_t i)
     {
-      // Less by more than what rounding adds.
+      // Subtract more than rounding adds.
       const double cosine = cones[i].cosine -= 2e-6f;
       cones[i].sine = static_cast<float>(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)));
     });
@@ -304,8 +306,8 @@ std::vector<EdgeTree::Cone> EdgeTree::conesOfTriangles() const
 }
 
 //------------------------------------------------------------------------------
-/// Finds the boxes and cones of all nodes below a link from what lies in the leaves.
-/// @param parallel down to so many levels further, either half by itself
+/// Fit the boxes and cones of all nodes below a link to the records in their leaves.
+/// @param parallel levels whose halves are still fitted in parallel
 void EdgeTree::fitNodes(std::uint32_t link, const std::vector<Cone>& ofTriangles, int parallel)
 {
   if (BvhLink::isLeaf(link))
@@ -329,7 +331,7 @@ void EdgeTree::fitNodes(std::uint32_t link, const std::vector<Cone>& ofTriangles
 }
 
 //------------------------------------------------------------------------------
-/// Finds the box and the cone of a node from what it leads to.
+/// Fit the box and the cone of a node to its children or records.
 void EdgeTree::fitNode(std::uint32_t number, const std::vector<Cone>& ofTriangles)
 {
   BvhNode& node = this->nodes_[number];
@@ -354,7 +356,7 @@ void EdgeTree::fitNode(std::uint32_t number, const std::vector<Cone>& ofTriangle
     }
     this->cones_[number] = k == 0 ? cone : joined(this->cones_[number], cone);
   }
-  // Floats that are rounded to the outside.
+  // The node's floats must round outwards.
   const glm::dvec3 more =
     std::ldexp(1.0, -22) * glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
   node.lower = bounds.lower - more;
@@ -372,7 +374,7 @@ void EdgeTree::find(const Bounds& bounds, std::vector<std::uint32_t>& places) co
 }
 
 //------------------------------------------------------------------------------
-/// @param link where to go on
+/// @param link subtree to search
 void EdgeTree::find(
   const Bounds& bounds, std::uint32_t link, std::vector<std::uint32_t>& places) const
 {

@@ -17,31 +17,32 @@
 namespace gnomon
 {
 
-/// The plane of a casting triangle, and what rounding makes of it.
+/// The plane of a casting triangle, with bounds on rounding.
 struct EdgeTriangle
 {
   glm::dvec3 normal; ///< as long as the triangle's least height
   glm::vec3 corner;  ///< centred
-  float height;      ///< the least of its three, in world units
-  float longest;     ///< of its sides
-  /// What rounding makes of a product with the normal: up to dot(unsure, abs(v)) of dot(v, normal).
+  float height;      ///< the least of its three heights, in world units
+  float longest;     ///< length of its longest side, in world units
+  /// Bounds rounding of dot(v, normal) by dot(unsure, abs(v)).
   glm::vec3 unsure;
-  /// How far off its plane, times its height, a point in its box may seem to lie.
+  /// How far off its plane, times its height, a tracer may see a point in its box.
   float noise;
-  bool oneSided; ///< blocks rays through its back alone, which then faces away from the light
+  /// True if it blocks only rays through its back, which then faces away from the light.
+  bool oneSided;
 
-  /// What rounding makes of a direction's product with twice the triangle's area vector: so much of
-  /// the direction's length times the squared reach of its corners
+  /// Bounds rounding of a direction's product with twice the triangle's area vector. The factor
+  /// applies to the direction's length times the squared reach of the corners
   /// (docs/theory/exact_penumbrae.md).
   static constexpr double noiseAlong = 128.0 / 16777216.0;
 
-  /// Whether rays that start on one side of its plane go away from it for certain, so that none
-  /// meets it, whatever rounding makes of these two signs: as those from the surface that they
+  /// Return true if rays certainly leave its plane, so that none meets it. Both signs must exceed
+  /// rounding: the side where rays start, and their direction. An example is the surface that rays
   /// start on.
-  /// @param behind the least and the most of their starts'
-  /// @param reach of the corners from the starts, at most, axis by axis
+  /// @param behind the least and the most behind() of their starts
+  /// @param reach bound, for each axis, of the distance from the starts to the corners
   /// @param along the least and the most of dot(direction, normal)
-  /// @param longestDirection not less than their length
+  /// @param longestDirection bound of the directions' length
   bool isLeft(const glm::dvec2& behind, const glm::dvec3& reach, const glm::dvec2& along,
     double longestDirection) const
   {
@@ -52,42 +53,42 @@ struct EdgeTriangle
       (behind.x > unsureBehind && along.y < -unsureAlong);
   }
 
-  /// How far a point lies behind its plane, times its height. Behind is where its corners run
-  /// clockwise.
+  /// Return how far a point lies behind its plane, times its height. Behind is the side that sees
+  /// its corners in clockwise order.
   double behind(const glm::dvec3& point) const
   {
     return glm::dot(glm::dvec3(this->corner) - point, this->normal);
   }
 };
 
-/// An edge of casters. Where more than two triangles meet, each has one of its own.
+/// An edge of casters. If more than two triangles meet, each has its own edge.
 struct TreeEdge
 {
   glm::vec3 from, to; ///< centred
-  /// Of the tree; the first runs along the edge. The second is `none` where the surface ends.
+  /// Numbers in the tree. The first triangle runs along the edge; the second is `none` if the
+  /// surface ends.
   std::array<std::uint32_t, 2> triangles;
-  bool sameDirection; ///< whether the second runs along it, too
+  bool sameDirection; ///< true if the second runs along it, too
   float length;
-  float reach; ///< how far from the edge its triangles' corners may be
+  float reach; ///< bound of how far its triangles' corners are from the edge
 
   static constexpr std::uint32_t none = 0xffffffffu;
 };
 
-/// The edges and triangles of all casters in a bounding volume hierarchy, from which whoever stands
-/// somewhere may ask for the edges at which casters seem to end.
+/// A bounding volume hierarchy of the edges and triangles of all casters. It finds the edges at
+/// which casters seem to end from a point.
 class EdgeTree
 {
 public:
-  /// Brings it up to date with the snapshot.
-  /// @throws std::runtime_error if Embree fails
+  /// Update it to the snapshot.
   void update(const Occluders& occluders);
 
-  /// What leaves hold.
+  /// The content of a leaf.
   struct Record
   {
-    std::uint32_t number;               ///< of a triangle, or of a box of which no edges are known
-    std::uint32_t firstEdge, edgeCount; ///< that count for this triangle, and for no other
-    bool opaque;                        ///< whether it is such a box
+    std::uint32_t number;               ///< of a triangle, or of a box with unknown edges
+    std::uint32_t firstEdge, edgeCount; ///< edges owned by this triangle
+    bool opaque;                        ///< true for such a box
   };
   Record record(std::uint32_t place) const
   {
@@ -95,21 +96,22 @@ public:
     return { of.x, of.y, of.z, of.w != 0 };
   }
 
-  /// Where all triangles of a part of the tree, and those across their edges, face.
+  /// A cone around the normals of all triangles in a node, and of those across their edges.
   struct Cone
   {
     glm::vec3 axis{ 0.0f };
-    float cosine = -1.0f; ///< of its half angle; not above 0 where it says nothing
+    float cosine = -1.0f; ///< of its half angle; the cone is undefined if not above 0
     float sine = 0.0f;
     float mostPerHeight = 0.0f; ///< 1 over the least height of these triangles
-    float reach = 0.0f;         ///< the most of their edges'
+    float reach = 0.0f;         ///< the largest reach of their edges
   };
 
-  /// Finds the places of records whose boxes meet another box.
-  /// @param places gets them
+  /// Find the places of records whose boxes meet another box.
+  /// @param places receives them
   void find(const Bounds& bounds, std::vector<std::uint32_t>& places) const;
 
-  /// Whether rays from a start may begin on what a record stands for, as far as rounding says.
+  /// Return true if rays from a start may begin on a record's triangle or box, allowing for
+  /// rounding.
   bool isOn(const glm::vec3& start, const Record& record) const
   {
     const Bounds& box = this->bounds(record);
@@ -122,11 +124,11 @@ public:
   }
 
   bool empty() const { return this->records_.empty(); }
-  /// How many records there are.
+  /// Return the number of records.
   std::size_t size() const { return this->records_.size(); }
   std::uint32_t root() const { return this->root_; }
-  /// Its box is that of what it holds, and of where shadow rays may start too close to that to say
-  /// on which side.
+  /// Return a node. Its box also holds all starts that are too close to its content for a certain
+  /// side.
   const BvhNode& node(std::uint32_t number) const { return this->nodes_[number]; }
   const Cone& cone(std::uint32_t node) const { return this->cones_[node]; }
   const TreeEdge& edge(std::uint32_t number) const { return this->edges_[number]; }
@@ -135,7 +137,7 @@ public:
   {
     return this->corners_[triangle];
   }
-  /// How far from a point a triangle's corners are, axis by axis.
+  /// Return the largest distance from a point to a triangle's corners, for each axis.
   glm::dvec3 reach(std::uint32_t triangle, const glm::dvec3& point) const
   {
     glm::dvec3 reach(0.0);
@@ -145,7 +147,7 @@ public:
     }
     return reach;
   }
-  /// Of a record.
+  /// Return the box of a record.
   const Bounds& bounds(const Record& record) const
   {
     return (record.opaque ? this->opaqueBounds_ : this->bounds_)[record.number];
@@ -166,12 +168,12 @@ private:
   KeptOfCasters<SurfaceEdges> found_;
   std::vector<EdgeTriangle> triangles_;
   std::vector<std::array<glm::vec3, 3>> corners_;
-  std::vector<Bounds> bounds_; ///< of the triangles, with their noise
+  std::vector<Bounds> bounds_; ///< of the triangles, grown by their noise
   std::vector<Bounds> opaqueBounds_;
   std::vector<TreeEdge> edges_;
   std::vector<BvhNode> nodes_;
   std::vector<BvhRecord> records_;
-  std::vector<Cone> cones_; ///< of the nodes
+  std::vector<Cone> cones_; ///< one for each node
   std::uint32_t root_ = 0;
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;

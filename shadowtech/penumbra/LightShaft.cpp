@@ -10,18 +10,19 @@ namespace gnomon
 namespace
 {
 
-/// By how much what a start sees is larger than the light, as slopes, and shafts are larger than
-/// that. What is close to an edge by rounding may be wider: it is asked for by itself.
+/// Slope by which a start's view is wider than the light, and a shaft wider than its views. Wider
+/// strips where rounding matters around an edge are tested separately.
 constexpr double moreSlope = 1.0 / 8192.0;
 
-/// How exactly is known where on its way a ray meets a triangle that is not seen from its side:
-/// this share of it (docs/theory/exact_penumbrae.md).
+/// Bounds the relative error of where on its way a ray hits a triangle that is not seen edge-on
+/// (docs/theory/exact_penumbrae.md).
 constexpr double moreOfWay = 1.0 / 24.0;
 
-/// The steepest rays of a shaft.
+/// The steepest slope of a shaft's rays.
 constexpr double mostSlope = 2.0;
 
-/// Two unit vectors across a third, along the light's own axes if possible.
+/// Return the rotation to axes with the given z. Its x is along one of the light's own axes, if
+/// possible.
 glm::dmat3 axesAlong(const glm::dvec3& z, const glm::dmat3& area)
 {
   glm::dvec3 x(0.0);
@@ -96,9 +97,8 @@ std::optional<LightShaft> LightShaft::make(const ShaftLight& light, const RaySta
 }
 
 //------------------------------------------------------------------------------
-/// Lays the sides around whatever a start sees within slopes(), since edges are counted up to
-/// these.
-/// @return whether there is a shaft
+/// Set the sides around all that a start sees within slopes(), as edges are counted up to there.
+/// @return false if there is no shaft
 bool LightShaft::laySides(const Bounds& startsShaft)
 {
   const glm::dvec3& lower = startsShaft.lower;
@@ -136,10 +136,10 @@ bool LightShaft::laySides(const Bounds& startsShaft)
 }
 
 //------------------------------------------------------------------------------
-/// Finds where rays end: in the plane of a flat light, or of a box's near face, else in the box
+/// Set where rays end. That is the plane of a flat light, or of a box's near face; else the box
 /// around the light.
 /// @param area of the light, in the shaft's coordinates
-/// @return whether there is a shaft
+/// @return false if there is no shaft
 bool LightShaft::layEnds(const ShaftLight& light, const glm::dmat3& area, const Bounds& startsShaft)
 {
   if (this->directional_ && !light.rays.hasBox)
@@ -149,7 +149,7 @@ bool LightShaft::layEnds(const ShaftLight& light, const glm::dmat3& area, const 
   const glm::dvec3 centre = light.rays.position;
   const glm::dvec3 centreShaft = this->toShaft(centre);
   const double distance = glm::length(centreShaft);
-  // Rounding of coordinates counts as well.
+  // Add rounding of coordinates.
   const double rounding =
     std::ldexp(glm::length(centre) + glm::length(this->origin_) + distance, -18);
   glm::dvec3 normal = this->directional_ ? glm::dvec3(0.0, 0.0, 1.0) : glm::cross(area[0], area[1]);
@@ -247,7 +247,7 @@ glm::dvec2 LightShaft::extentAlong(const glm::dvec3& centred, const Slopes& slop
 bool LightShaft::passes(
   const glm::dvec3& from, const glm::dvec3& to, double length, double uncertain) const
 {
-  // Seen from a start s instead of the origin, from x to changes by s x (to - from).
+  // From a start s instead of the origin, from x to changes by s x (to - from).
   const glm::dvec3 across = glm::cross(from, to);
   const glm::dvec2 middle = 0.5 * (this->allSlopes_.least + this->allSlopes_.most);
   const glm::dvec2 half = this->allSlopes_.most - middle;

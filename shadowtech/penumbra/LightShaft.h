@@ -14,7 +14,7 @@
 namespace gnomon
 {
 
-/// An area light as shafts see it: centred, what its samples are within.
+/// An area light in centred coordinates, with bounds of its samples.
 struct ShaftLight
 {
   ShadowRayLight rays;
@@ -27,39 +27,39 @@ struct ShaftLight
   }
 };
 
-/// The shaft of some shadow rays' starts: a space that holds all of their rays to an area light.
-/// Its own coordinates are turned and moved only: z grows towards the light's centre, x and y
-/// across.
+/// A space that holds all shadow rays from some starts to an area light. Its coordinates are
+/// centred coordinates, rotated and moved. z grows towards the light's centre; x and y are across.
 class LightShaft
 {
 public:
-  /// Rays whose direction is (x, y, 1) with these.
+  /// A range of rays with direction (x, y, 1).
   struct Slopes
   {
     glm::dvec2 least, most;
   };
 
+  /// Return the shaft of some starts.
   /// @param starts centred; at least one
-  /// @return nothing where the light is too close, or too large, or seen from its side
+  /// @return nothing if the light is too close, too large, or seen edge-on
   static std::optional<LightShaft> make(const ShaftLight& light, const RayStarts& starts);
 
   glm::dvec3 toShaft(const glm::dvec3& centred) const
   {
     return this->shaftFromCentred_ * (centred - this->origin_);
   }
-  /// Turns directions.
+  /// The rotation from centred directions to the shaft's.
   const glm::dmat3& rotation() const { return this->shaftFromCentred_; }
 
   const Bounds& starts() const { return this->starts_; }
-  /// Slopes of the rays from one of the starts, with some more around them.
+  /// Return the slopes of the rays from one of the starts, with a small border.
   /// @param start in the shaft's coordinates
   Slopes slopes(const glm::dvec3& start) const;
 
-  /// Whether a box may meet it. Larger than it is by as much as rays may be from what they meet by
-  /// rounding.
+  /// Return true if a box may meet the shaft. The test allows for rounding between rays and what
+  /// they hit.
   bool mayMeet(const Bounds& centred) const;
-  /// The same of a triangle, and of an edge, in its coordinates.
-  /// @param more by how much the shaft's slopes are larger than that
+  /// As above, for a triangle or an edge in the shaft's coordinates.
+  /// @param more slope by which the shaft is widened
   template <std::size_t count>
   bool mayMeet(const std::array<glm::dvec3, count>& corners, double more = 0.0) const
   {
@@ -79,10 +79,11 @@ public:
     return true;
   }
 
-  /// Whether the line of an edge passes all rays by.
-  /// @param uncertain how little of cross(from, to) times a ray's (x, y, 1) says nothing
+  /// Return true if all rays pass an edge's line on one side.
+  /// @param uncertain rays with at most this |dot(cross(from, to), (x, y, 1))| pass on no certain
+  /// side
   bool passes(const glm::dvec3& from, const glm::dvec3& to, double length, double uncertain) const;
-  /// The least and the most of the product of a vector and any ray's (x, y, 1).
+  /// Return the least and the most of a vector's product with any ray's (x, y, 1).
   /// @param centred the vector
   ///@{
   glm::dvec2 extentAlong(const glm::dvec3& centred) const
@@ -91,19 +92,19 @@ public:
   }
   glm::dvec2 extentAlong(const glm::dvec3& centred, const Slopes& slopes) const;
   ///@}
-  /// Not less than the length of (x, y, 1) for any ray's slopes.
+  /// Return a bound of the length of (x, y, 1) over all rays.
   double longestSlope() const { return this->longestSlope_; }
 
-  /// Where rays end: none of them beyond `last`, none before `first`, as endDepth() has it.
-  /// Infinite where they go on for ever.
+  /// The depths, as endDepth(), before which no ray ends, and beyond which none does. Infinite if
+  /// rays have no end.
   double firstEnd() const { return this->firstEnd_; }
   double lastEnd() const { return this->lastEnd_; }
   double endDepth(const glm::dvec3& point) const { return glm::dot(this->end_, point); }
-  /// Whether a box may reach as far as the rays' ends.
+  /// Return true if a box may reach the depth where rays end.
   bool mayReachEnds(const Bounds& centred) const;
 
 private:
-  /// dot(outwards, point) <= distance inside.
+  /// A half space, inside if dot(outwards, point) <= distance.
   struct Plane
   {
     glm::dvec3 outwards;
@@ -119,8 +120,8 @@ private:
   Bounds starts_;             ///< centred
   double startsRadius_ = 0.0; ///< around the origin
   bool directional_ = false;
-  double lightDistance_ = 1.0;  ///< of its centre, which is at x = y = 0, from the origin
-  glm::dvec3 lightHalf_{ 0.0 }; ///< half the box around it, or around its directions
+  double lightDistance_ = 1.0;  ///< from the origin to its centre, which is at x = y = 0
+  glm::dvec3 lightHalf_{ 0.0 }; ///< half the extent of its box, or of the box around its directions
   Slopes allSlopes_;            ///< of all rays
   double longestSlope_ = 1.0;
   double firstStart_ = 0.0; ///< the least z of the starts, in the shaft's coordinates
@@ -128,8 +129,8 @@ private:
   glm::dvec3 end_{ 0.0 };
   double firstEnd_ = std::numeric_limits<double>::infinity();
   double lastEnd_ = std::numeric_limits<double>::infinity();
-  /// Centred: the sides and the last end, with planes beyond which nothing is up to as many as are
-  /// compared at once.
+  /// The sides and the last end in centred coordinates. Planes at infinity pad them to the width of
+  /// a vector.
   struct Planes
   {
     std::array<double, 8> x{}, y{}, z{}, distance{};

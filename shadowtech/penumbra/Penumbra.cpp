@@ -24,8 +24,8 @@ TechniqueInfo Penumbra::info()
 void Penumbra::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  // Bounds count samples without their colours, and the tree holds edges of triangles alone. A few
-  // rays take less time than looking for edges.
+  // Counting ignores colours of samples, and the tree only holds edges of triangles. Few rays take
+  // less time than finding edges.
   constexpr int fewSamples = 8;
   if (!input.light.area || input.light.texture || input.occluders.castsSolids() ||
     input.light.lightSamples <= fewSamples)

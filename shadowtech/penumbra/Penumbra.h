@@ -6,10 +6,9 @@
 namespace gnomon
 {
 
-/// `penumbra`: the shadows of an area light as `raytraced` shows them, bit for bit, by a few of its
-/// rays. Where no edge of a caster is between a receiver and the light, one ray decides; in
-/// penumbras the edges say which of the light's samples are seen alike. Lights without area have
-/// one ray for each pixel.
+/// `penumbra`: shadows of an area light, bit for bit those of `raytraced`, by few of its rays. If
+/// no caster's edge lies between a receiver and the light, one ray decides. In penumbrae, edges
+/// tell which samples of the light share a visibility. Lights without area get one ray per pixel.
 class Penumbra : public CpuScreenTechnique
 {
 public:

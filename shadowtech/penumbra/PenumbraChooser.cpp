@@ -15,17 +15,17 @@ namespace gnomon
 namespace
 {
 
-/// Pixels that are looked at together: squares of so many a side.
+/// Side of the squares of pixels that share a shaft.
 constexpr std::size_t sideOfBlock = 8;
 
-/// Pixels that have something else than edges between them and the light are halved if they are at
-/// least so many.
+/// The fewest pixels that are halved where something other than edges lies between them and the
+/// light.
 constexpr std::size_t fewestToHalve = 8;
 
 ///@{
-/// More edges than so many times the samples are not counted, since tracing is faster: of pixels
-/// together, of one. Where so many pixels have too many of them, and none has few, their neighbours
-/// are not asked.
+/// Tracing is faster than counting more edges than these: edges of a square per sample, and at
+/// most; edges of a pixel per sample. If the first pixels of a square all exceed their limit, the
+/// rest is traced without trying.
 constexpr std::size_t edgesPerSample = 4;
 constexpr std::size_t mostEdges = 8192;
 constexpr std::size_t seenPerSample = 2;
@@ -33,13 +33,13 @@ constexpr std::int64_t triesOfBlock = 4;
 ///@}
 
 ///@{
-/// Where pixels of a square see what is far apart, their starts lie in parts of so many along the
-/// longest side of their box, with at least so many empty ones between them.
+/// Splits squares whose pixels see surfaces far apart. The longest side of the starts' box is
+/// divided into parts; a split needs this many empty ones in a row.
 constexpr std::size_t partsOfStarts = 8;
 constexpr std::size_t emptyOfStarts = 3;
 ///@}
 
-/// An edge as it is seen from a start.
+/// Projects edges to what is seen from a start.
 class Seeing
 {
 public:
@@ -58,7 +58,7 @@ public:
   const LightShaft::Slopes& slopes() const { return this->slopes_; }
   const glm::dvec3& startShaft() const { return this->startShaft_; }
 
-  /// @return nothing where it is not seen, or where the same is on both sides of it
+  /// @return nothing if the edge is not seen, or rays meet equally many triangles on both sides
   std::optional<SeenEdge> operator()(const ShaftEdges& edges, std::uint32_t number) const
   {
     const ShaftEdges::Edge& edge = edges.edge(number);
@@ -81,16 +81,17 @@ public:
 private:
   static double square(double x) { return x * x; }
 
-  /// What its triangles make of an edge.
+  /// Facts about an edge that follow from its triangles.
   struct Look
   {
     double farthest; ///< the distance of their farthest corner
     float weight;    ///< SeenEdge::weight
-    double width; ///< of what is close to it by rounding; 1 where no triangle is seen from its side
-    double
-      height; ///< the least above their planes, over their longest side; 0 where one is seen from its side
-    /// Whether rays leave one triangle and may meet the other: rounding at the edge then says alone
-    /// whether they do.
+    /// Width of the strip in which rounding matters; 1 if no triangle is seen edge-on.
+    double width;
+    /// The least height above their planes over their longest side; 0 if one is seen edge-on.
+    double height;
+    /// True if rays leave one triangle and may meet the other. Then rounding at the edge alone
+    /// decides whether they do.
     bool oneIsLeft = false;
   };
 
@@ -114,7 +115,7 @@ private:
       if (fromSide && this->isLeft(edge.triangles[i], behind))
       {
         anyLeft = true;
-        continue; // rounding makes nothing of it
+        continue; // rounding cannot make rays hit it
       }
       anyMet = true;
       look.height = fromSide ? 0.0 : std::min(look.height, std::abs(behind) / triangle.longest);
@@ -127,7 +128,7 @@ private:
     look.oneIsLeft = anyLeft && anyMet;
   }
 
-  /// Whether no ray meets a triangle, whatever rounding makes of it.
+  /// Return true if certainly no ray meets a triangle, rounding included.
   bool isLeft(std::uint32_t number, double behind) const
   {
     const EdgeTriangle& triangle = this->tree_.triangle(number);
@@ -135,9 +136,9 @@ private:
       this->shaft_.extentAlong(triangle.normal, this->slopes_), this->longestSlope_);
   }
 
-  /// Where an edge begins that is cut off where the rays start and where they end.
-  /// @param least z of what is left
-  /// @param end depth of what is left
+  /// Return where an edge begins after clipping to where the rays start and end.
+  /// @param least z that is left
+  /// @param end depth that is left
   glm::dvec3 cut(const glm::dvec3& from, const glm::dvec3& to, double least, double end) const
   {
     glm::dvec3 cut = from;
@@ -154,8 +155,8 @@ private:
     return cut;
   }
 
-  /// Whether an edge, as it is seen, passes all rays by.
-  /// @param around how far around its ends as seen it matters
+  /// Return true if an edge, as seen, passes all rays by.
+  /// @param around how far around its seen ends it matters
   bool passes(const glm::dvec2& from, const glm::dvec2& to, const glm::dvec3& across,
     double uncertain, double around) const
   {
@@ -187,7 +188,7 @@ private:
     glm::dvec3 across = glm::cross(from, to);
     const double uncertain = EdgeRounding::ofSide * EdgeRounding::unit * look.width *
       this->longestSlope_ * edge.length * look.farthest;
-    // Beyond its ends, as far as the lines of two sides with a small angle stay close.
+    // The lines of two sides at a small angle stay close beyond the edge's ends.
     const double half = uncertain / glm::length(glm::dvec2(across));
     const double beyond =
       EdgeRounding::beyond(half, this->longestSlope_, look.farthest, look.height);
@@ -221,7 +222,7 @@ private:
     seen.uncertainUpper = everywhere ? 3e38f : static_cast<float>(upper.y + beyond);
     seen.weightBelow = 0;
     seen.below = 0.0f;
-    // What goes on beyond the largest x is counted along that line.
+    // The part beyond the largest x is counted along that line.
     const double border = this->slopes_.most.x;
     const bool lowerIn = lower.x <= border;
     const bool upperIn = upper.x <= border;
@@ -247,7 +248,7 @@ private:
   double longestSlope_;
 };
 
-/// One tile's choice.
+/// Chooses the rays of one tile.
 class Choice
 {
 public:
@@ -266,7 +267,8 @@ public:
     }
   }
 
-  /// @return how many of these pixels have all their rays traced
+  /// Choose the rays of some pixels.
+  /// @return how many of them have all their rays traced
   std::int64_t choose(std::uint16_t* pixels, std::size_t count)
   {
     if (const std::size_t nearer = this->splitAtGap(pixels, count))
@@ -293,7 +295,7 @@ public:
     {
       return static_cast<std::int64_t>(count);
     }
-    // Halves across the longest side of what holds them.
+    // Halve across the longest side of the starts' box.
     const int axis = longestAxis(this->starts_.bounds());
     std::uint16_t* const middle = pixels + count / 2;
     std::nth_element(pixels, middle, pixels + count,
@@ -324,9 +326,9 @@ private:
     return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   }
 
-  /// Sorts pixels into those before and those behind a gap, as where one surface ends before
-  /// another: a shaft of both would hold all that is between them.
-  /// @return how many of them come first; 0 where there is no gap
+  /// Partition pixels at a gap, as between two surfaces far apart, whose common shaft would hold
+  /// all that lies between.
+  /// @return the number of pixels before the gap; 0 if there is no gap
   std::size_t splitAtGap(std::uint16_t* pixels, std::size_t count) const
   {
     const Bounds bounds = this->boundsOf(pixels, count);
@@ -348,7 +350,7 @@ private:
     {
       taken[partOf(pixels[i])] = true;
     }
-    // The first part and the last one are taken.
+    // The first part and the last one are never empty.
     std::size_t empty = 0;
     for (std::size_t part = 1; part < partsOfStarts; ++part)
     {
@@ -363,7 +365,7 @@ private:
     return 0;
   }
 
-  /// Finds what rays may start on, as far as rounding says.
+  /// Find the records that rays may start on, allowing for rounding.
   void findUnderStarts()
   {
     this->tree_.find(this->starts_.bounds(), this->under_);
@@ -388,8 +390,8 @@ private:
       [&](std::uint32_t place) { return this->tree_.isOn(start, this->tree_.record(place)); });
   }
 
-  /// Whether its rays end where the shaft's do: those that start closer to the near face of a
-  /// light's box than their offset is long go beyond it.
+  /// Return true if a pixel's rays end where the shaft's do. Rays that start nearer to the near
+  /// face of a light's box than their offset end beyond it.
   bool endsAsShaft(std::size_t pixel, const LightShaft& shaft) const
   {
     const glm::dvec3 direction(
@@ -450,7 +452,7 @@ private:
     return traced;
   }
 
-  /// A pixel whose rays pass no edge.
+  /// Choose one ray for a pixel whose rays pass no edge.
   void decideByOneRay(std::uint16_t pixel)
   {
     const auto all = static_cast<std::uint32_t>(this->samples_);
@@ -458,7 +460,7 @@ private:
     this->tile_.classes[pixel] = static_cast<std::uint8_t>(TracedClass::Lit);
   }
 
-  /// A pixel whose rays pass edges.
+  /// Choose the rays of a pixel whose rays pass edges.
   void count(std::uint16_t pixel, const LightShaft& shaft)
   {
     const LightSamples::Coordinates directions{ this->directions_[0].data(),
@@ -468,7 +470,7 @@ private:
     this->sums_.add(this->seen_);
     std::vector<std::uint32_t>& samples = this->rays_.samples;
     const std::size_t before = samples.size();
-    // One of those that meet the fewest triangles comes first, and stands for all of them.
+    // The first ray stands for all that meet the fewest triangles.
     const EdgeSums::Fewest fewest = this->sums_.fewest();
     if (fewest.count > 0)
     {
@@ -490,9 +492,9 @@ private:
   const SampleChooser::DirectionsOf& directionsOf_;
   SampleRays& rays_;
   std::size_t samples_;
-  std::array<std::vector<float>, 3> directions_; ///< of a pixel's rays: x, y, z
+  std::array<std::vector<float>, 3> directions_; ///< x, y, z of a pixel's rays
   RayStarts starts_;
-  std::vector<std::uint32_t> under_; ///< places of records that some of these may be on
+  std::vector<std::uint32_t> under_; ///< places of records that some rays may start on
   ShaftEdges edges_;
   std::vector<std::uint32_t> numbers_;
   std::vector<SeenEdge> seen_;

@@ -13,18 +13,18 @@
 namespace gnomon
 {
 
-/// The class of a pixel whose visibility edges tell, beyond TracedClass: an index into
-/// classesOfPenumbra(). Those that one ray decides are Lit until it is known to be blocked.
+/// The class of pixels whose edges are counted, beyond TracedClass: an index into
+/// classesOfPenumbra(). Pixels that one ray decides are Lit until that ray is blocked.
 constexpr std::uint8_t penumbraClass = static_cast<std::uint8_t>(TracedClass::NoReceiver) + 1;
 std::vector<PixelClass> classesOfPenumbra();
 
-/// Chooses the rays to an area light that decide all of them, by the edges at which casters seem to
-/// end from where the rays start (docs/theory/exact_penumbrae.md).
+/// Chooses the rays that decide the visibility of an area light. It uses the edges at which casters
+/// seem to end from where rays start (docs/theory/exact_penumbrae.md).
 class PenumbraChooser : public SampleChooser
 {
 public:
   /// @param tree of the casters
-  /// @param light with an area
+  /// @param light must have an area
   PenumbraChooser(const EdgeTree& tree, const ShadowLight& light, const glm::dvec3& centreWorld)
     : tree_(tree)
     , light_(light, centreWorld)
@@ -35,7 +35,7 @@ public:
   void choose(TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays,
     bool again) const override;
 
-  /// Pixels all of whose rays were traced, so far.
+  /// Return the number of pixels so far whose rays were all traced.
   std::int64_t tracedPixels() const { return this->tracedPixels_; }
 
 private:

@@ -12,13 +12,13 @@
 namespace gnomon
 {
 
-/// Where the rays of some pixels start, centred.
+/// Centred starts of the rays of some pixels.
 class RayStarts
 {
 public:
   void clear();
   void add(const glm::vec3& start);
-  /// To be called once all are added.
+  /// Must be called after the last start is added.
   void finish();
 
   std::size_t size() const { return this->starts_.size(); }
@@ -27,15 +27,14 @@ public:
   auto end() const { return this->starts_.end(); }
   const Bounds& bounds() const { return this->bounds_; }
 
-  /// The least and the most of how far they lie behind a triangle's plane, as
-  /// EdgeTriangle::behind() has it.
+  /// Return the least and the most of EdgeTriangle::behind() over the starts.
   glm::dvec2 behind(const EdgeTriangle& triangle) const;
 
 private:
   static constexpr std::size_t together = 8;
 
   std::vector<glm::vec3> starts_;
-  /// x, y, z; the last one again up to a multiple of `together`.
+  /// x, y, z of the starts. The last one is repeated up to a multiple of `together`.
   std::array<std::vector<float>, 3> axes_;
   Bounds bounds_;
 };

@@ -10,14 +10,13 @@ namespace gnomon
 namespace
 {
 
-/// So few triangles may all lie in one leaf of a tracer's, which asks them without looking at any
-/// box.
+/// Up to this many triangles may share one leaf of a tracer, which then tests no box.
 constexpr std::size_t mostOfLeaf = 32;
 
-/// Triangles whose sight is kept while looking for edges: more than a square nearly always has.
+/// Size of the cache of sights. Nearly all squares have fewer triangles.
 constexpr std::size_t sightsKept = 512;
 
-/// What matters farther around an edge than so much matters everywhere.
+/// Beyond this slope around an edge, rounding at the edge matters for all rays.
 constexpr double mostSlopes = 0.25;
 
 } // namespace
@@ -88,7 +87,7 @@ ShaftEdges::Found ShaftEdges::visit(std::uint32_t link)
 }
 
 //------------------------------------------------------------------------------
-/// Whether all starts are on the same side of all triangles of a part of the tree.
+/// Return true if all starts lie on one side of all triangles in a node, and the same for each.
 bool ShaftEdges::isAlike(const Bounds& bounds, const EdgeTree::Cone& cone) const
 {
   if (!(cone.cosine > 0.0f))
@@ -125,7 +124,7 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
   {
     return Found::All;
   }
-  const Sight sight = this->look(record.number); // a copy: what is kept may give way
+  const Sight sight = this->look(record.number); // a copy, as the cache may replace it
   const std::array<glm::vec3, 3>& corners = this->tree_->corners(record.number);
   const std::array<glm::dvec3, 3> placed{ { this->shaft_->toShaft(corners[0]),
     this->shaft_->toShaft(corners[1]), this->shaft_->toShaft(corners[2]) } };
@@ -147,10 +146,10 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
   }
   if (sight.left)
   {
-    return Found::All; // what is close to its sides matters to its neighbours alone
+    return Found::All; // rounding at its sides matters for its neighbours only
   }
-  // A ray that meets its box may seem to meet it close to the lines of its sides, far from where
-  // these are.
+  // A ray that meets the triangle's box may hit close to the lines of its sides, far from the sides
+  // themselves.
   for (std::size_t side = 0; side < 3; ++side)
   {
     if (!meets ||
@@ -159,7 +158,7 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
       this->takeStrip(record.number, side, placed, sight);
     }
   }
-  // Few of the strips are seen by any one of the starts.
+  // Each start sees only few of the strips.
   return this->edges_.size() - this->strips_.size() <= this->most_ ? Found::All : Found::TooMany;
 }
 
@@ -189,7 +188,7 @@ ShaftEdges::Sight ShaftEdges::sightOf(const EdgeTriangle& triangle, std::uint32_
 }
 
 //------------------------------------------------------------------------------
-/// EdgeTriangle::isLeft() of all starts.
+/// Return EdgeTriangle::isLeft() for all starts.
 bool ShaftEdges::isLeft(std::uint32_t number) const
 {
   const EdgeTriangle& triangle = this->tree_->triangle(number);
@@ -203,9 +202,9 @@ bool ShaftEdges::isLeft(std::uint32_t number) const
 }
 
 //------------------------------------------------------------------------------
-/// @param reach how far from its ends its triangles' corners may be
-/// @param width Sight::width, the most of its triangles
-/// @param height Sight::height, the least of them
+/// @param reach bound of how far from its ends its triangles' corners are
+/// @param width the largest Sight::width of its triangles
+/// @param height the least Sight::height of its triangles
 ShaftEdges::Closeness ShaftEdges::closeness(const glm::dvec3& from, const glm::dvec3& to,
   double length, double reach, double width, double height) const
 {
@@ -214,7 +213,7 @@ ShaftEdges::Closeness ShaftEdges::closeness(const glm::dvec3& from, const glm::d
   const double longest = this->shaft_->longestSlope();
   const double uncertain =
     EdgeRounding::ofSide * EdgeRounding::unit * width * longest * length * farthest;
-  // The length of the edge times the least distance of its line.
+  // The edge's length times the least distance of its line.
   const double least = glm::length(glm::cross(from, to)) - this->radius_ * length;
   if (width > 1.0 || !(least > 0.0) || !(height > 0.0))
   {
@@ -225,7 +224,7 @@ ShaftEdges::Closeness ShaftEdges::closeness(const glm::dvec3& from, const glm::d
 }
 
 //------------------------------------------------------------------------------
-/// Takes a side of a triangle for what is close to its line.
+/// Add a triangle's side as a strip: only rounding close to its line matters.
 void ShaftEdges::takeStrip(std::uint32_t triangle, std::size_t side,
   const std::array<glm::dvec3, 3>& placed, const Sight& sight)
 {
@@ -337,7 +336,7 @@ void ShaftEdges::select(const glm::dvec3& start, const LightShaft::Slopes& slope
   {
     const double ax = fromX[i] - startX, ay = fromY[i] - startY, az = fromZ[i] - startZ;
     const double bx = toX[i] - startX, by = toY[i] - startY, bz = toZ[i] - startZ;
-    // The farther inside of the two of each side.
+    // For each side of the shaft, the end that lies farther inside.
     const double moreA = more[i] * az, moreB = more[i] * bz;
     const double right = std::min(ax - mostX * az - moreA, bx - mostX * bz - moreB);
     const double left = std::min(leastX * az - ax - moreA, leastX * bz - bx - moreB);
@@ -346,7 +345,7 @@ void ShaftEdges::select(const glm::dvec3& start, const LightShaft::Slopes& slope
     const double before = std::min(-az, -bz);
     const double outside =
       std::max(std::max(std::max(right, left), std::max(above, below)), before) - anywhere[i];
-    // And the line between them.
+    // Test the line between the ends.
     const double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
     const double beside = std::abs(x * middleX + y * middleY + z) - std::abs(x) * halfX -
       std::abs(y) * halfY - uncertain[i];

@@ -15,24 +15,25 @@
 namespace gnomon
 {
 
-/// What rounding is to an edge (docs/theory/exact_penumbrae.md).
+/// Bounds of rounding at edges (docs/theory/exact_penumbrae.md).
 namespace EdgeRounding
 {
 /// The unit roundoff of float, 2^-24.
 constexpr double unit = 1.0 / 16777216.0;
-/// How exactly is known on which side of an edge a ray passes, in roundings of the length of the
-/// edge times the distance of its triangles' farthest corner.
+/// Bounds the side on which a ray passes an edge, in roundings of the edge's length times the
+/// distance of its triangles' farthest corner.
 constexpr double ofSide = 40.0;
-/// From where a triangle's height times the height above its plane is less than so many roundings
-/// of the squared distance of its farthest corner, it is seen from its side, and all of it is close
-/// to its edges.
+/// Edge-on limit, in roundings of the squared distance of a triangle's farthest corner. If the
+/// triangle's height times the start's height above its plane is less, it is seen edge-on. All of
+/// it is then close to its edges.
 constexpr double ofHeight = 1024.0;
-/// Where that is so, what is close to its edges is so many times as wide.
+/// Factor by which strips at edges of triangles seen edge-on are wider.
 constexpr double wider = 64.0;
-/// How far beyond an edge's ends the lines of two sides of a triangle stay close, as slopes.
-/// @param half how close
-/// @param longestSlope of rays (x, y, 1), their length
-/// @param farthest the distance of the triangle's farthest corner
+/// Return how far beyond an edge's ends the lines of two sides of a triangle stay close, as a
+/// slope.
+/// @param half distance that counts as close
+/// @param longestSlope bound of the length of (x, y, 1) over all rays
+/// @param farthest distance of the triangle's farthest corner
 /// @param height above its plane, times its least height, over its longest side
 inline double beyond(double half, double longestSlope, double farthest, double height)
 {
@@ -40,50 +41,52 @@ inline double beyond(double half, double longestSlope, double farthest, double h
 }
 } // namespace EdgeRounding
 
-/// What a triangle adds to the rays to the left of an edge that it runs along.
-/// @param behind whether the rays start behind it
+/// Return how many triangles this one adds to rays on the left of an edge that it runs along.
+/// @param behind true if the rays start behind it
 inline float weightOf(const EdgeTriangle& triangle, bool behind)
 {
   return behind ? 1.0f : triangle.oneSided ? 0.0f : -1.0f;
 }
 
-/// How often a triangle runs along an edge, less how often against it.
-/// @param triangle the first or the second of the edge
+/// Return 1 if a triangle runs along an edge, -1 if against it.
+/// @param triangle 0 or 1, for the first or the second of the edge
 inline float directionOf(const TreeEdge& edge, std::size_t triangle)
 {
   return triangle == 0 || edge.sameDirection ? 1.0f : -1.0f;
 }
 
-/// The edges at which casters may seem to end from some starts of rays, as far as they are in these
-/// rays' shaft. In its coordinates.
+/// The edges in a shaft, in its coordinates, at which casters may seem to end from some starts of
+/// rays.
 class ShaftEdges
 {
 public:
   struct Edge
   {
     const TreeEdge* edge;
-    /// Its triangles, but for those that no ray meets: these are `none`.
+    /// Its triangles; `none` for those that no ray meets.
     std::array<std::uint32_t, 2> triangles;
-    /// How many triangles more are met to its left than to its right, where that is the same from
-    /// all starts; else NaN.
+    /// How many more triangles rays on its left meet than rays on its right; NaN if that differs
+    /// between starts.
     float weight;
-    /// Then, the least height above the plane of its triangles, over their longest side.
+    /// The least height of a start above its triangles' planes, over their longest side. Valid
+    /// unless `weight` is NaN.
     float height;
-    /// Whether only what is close to it by rounding matters: it is a side of its first triangle
-    /// that is itself no edge here.
+    /// True for a side of its first triangle that is no edge here. Only rounding close to it
+    /// matters.
     bool strip;
   };
 
-  /// What came of looking for them.
+  /// The result of a search.
   enum class Found
   {
     All,
     TooMany,
-    Unclear ///< something else than edges matters: what has holes, instances, needles, what is at the light
+    /// Something other than edges matters: holes, instances, needles, or casters at the light.
+    Unclear
   };
-  /// Looks for them.
-  /// @param starts of the shaft, centred; read as long as find() takes
-  /// @param most of them that are not too many
+  /// Find the edges of a shaft.
+  /// @param starts of the shaft, centred; must stay valid during find()
+  /// @param most the largest number of edges that is not too many
   Found find(
     const EdgeTree& tree, const LightShaft& shaft, const RayStarts& starts, std::size_t most);
 
@@ -98,9 +101,9 @@ public:
     return { this->ends_[3][number], this->ends_[4][number], this->ends_[5][number] };
   }
 
-  /// Those that may be in the shaft of one of the starts.
-  /// @param slopes of its rays
-  /// @param numbers gets them
+  /// Select the edges that may be in the shaft of one of the starts.
+  /// @param slopes of the start's rays
+  /// @param numbers receives the edges' numbers
   void select(
     const glm::dvec3& start, const LightShaft::Slopes& slopes, std::vector<std::uint32_t>& numbers);
 
@@ -110,24 +113,25 @@ private:
   Found take(const EdgeTree::Record& record);
   void takeEdge(const TreeEdge& edge);
 
-  /// A triangle as all of the starts see it.
+  /// What all starts see of a triangle.
   struct Sight
   {
     double behind; ///< EdgeTriangle::behind() of the middle of the starts
-    double height; ///< the least above its plane, over its longest side; may be below 0
-    bool alike;    ///< whether it shows them the same side for certain
-    bool left;     ///< whether all rays leave its plane for certain, so that none meets it
-    double width;  ///< of what is close to its edges by rounding
+    /// The least height of a start above its plane, over its longest side; may be below 0.
+    double height;
+    bool alike;   ///< true if all starts certainly see the same side
+    bool left;    ///< true if all rays certainly leave its plane, so that none meets it
+    double width; ///< of the strips at its edges in which rounding matters
   };
   const Sight& look(std::uint32_t number);
   Sight sightOf(const EdgeTriangle& triangle, std::uint32_t number) const;
   bool isLeft(std::uint32_t number) const;
 
-  /// What is close to a line by rounding, as seen from any of the starts.
+  /// Bounds of where rounding matters around a line, as seen from any of the starts.
   struct Closeness
   {
-    double uncertain; ///< as LightShaft::passes() has it
-    double slopes;    ///< so far around the edge as such
+    double uncertain; ///< as for LightShaft::passes()
+    double slopes;    ///< the same as a slope around the edge
   };
   Closeness closeness(const glm::dvec3& from, const glm::dvec3& to, double length, double reach,
     double width, double height) const;
@@ -135,30 +139,30 @@ private:
     const Sight& sight);
   void add(const Edge& edge, const glm::dvec3& from, const glm::dvec3& to, const Closeness& close);
 
-  /// A triangle that was looked at, most of which are again, with each of their edges.
+  /// A cached sight. Triangles are looked up with each of their edges.
   struct Looked
   {
-    std::uint64_t search = 0; ///< in which
+    std::uint64_t search = 0; ///< the search that made it
     std::uint32_t number = 0;
     Sight sight;
   };
 
-  std::uint64_t search_ = 0;   ///< number of this one
-  std::vector<Looked> looked_; ///< by the triangles' numbers, less whole multiples of its size
+  std::uint64_t search_ = 0;   ///< number of the present search
+  std::vector<Looked> looked_; ///< by the triangle's number modulo its size
   const EdgeTree* tree_ = nullptr;
   const LightShaft* shaft_ = nullptr;
-  const RayStarts* starts_ = nullptr; ///< while looking
+  const RayStarts* starts_ = nullptr; ///< only valid during find()
   glm::dvec3 centre_, half_;          ///< of the starts' box, centred
   double radius_ = 0.0;
   std::size_t most_ = 0;
-  bool fewTriangles_ = false; ///< which a tracer may ask without looking at their boxes
+  bool fewTriangles_ = false; ///< true if a tracer may test all triangles without their boxes
   std::vector<Edge> edges_;
   std::array<std::vector<double>, 6>
     ends_;                        ///< x, y, z of where edges begin, then of where they end
-  std::vector<double> uncertain_; ///< the most that rounding may make of their side
+  std::vector<double> uncertain_; ///< bounds rounding of the side, as for LightShaft::passes()
   ///@{
-  /// So far beyond the rays' slopes they matter; infinite in the second where they do wherever they
-  /// are.
+  /// Slope beyond the rays' slopes up to which the edge matters. `anywhere_` is infinite if it
+  /// matters for all rays, else 0.
   std::vector<double> more_;
   std::vector<double> anywhere_;
   ///@}

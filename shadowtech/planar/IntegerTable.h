@@ -10,7 +10,7 @@
 namespace gnomon
 {
 
-/// A long table of integers for shaders, as a texture that table.glsl reads.
+/// A long table of integers in a texture, which shaders read by table.glsl.
 class IntegerTable
 {
 public:
@@ -19,8 +19,9 @@ public:
   {
   }
 
-  /// Replaces the table. A GlStateGuard is the caller's business.
-  /// @param entries of as many bytes as the format's texels; grows to whole rows
+  /// Replace the table. This changes OpenGL's state; the caller restores it (GlStateGuard).
+  /// @param entries one per texel, of the format's size; padded to whole rows
+  /// @param what names the table in errors
   template <typename Entry>
   void set(std::vector<Entry> entries, const char* what)
   {
@@ -30,7 +31,7 @@ public:
     glActiveTexture(GL_TEXTURE0);
     if (static_cast<int>(rows) != this->rows_)
     {
-      this->rows_ = 0; // in case that there is no memory
+      this->rows_ = 0; // stays 0 if memory runs out
       allocateTexture(this->texture_, this->format_, columns, static_cast<int>(rows), 0, what);
       this->rows_ = static_cast<int>(rows);
     }

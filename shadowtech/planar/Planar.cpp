@@ -18,15 +18,15 @@ namespace gnomon
 namespace
 {
 
-/// Samples that are drawn at a time: the bits of a texel.
+/// Number of samples rendered at a time: the bits of a texel.
 constexpr std::size_t samplesPerBatch = 32;
 
-/// What planes_of_pixels.frag.glsl calls pixels that lie on no plane that is served, and on the
-/// first one.
+/// Values of planes_of_pixels.frag.glsl: receivers on none of the chosen planes, and on the first
+/// one.
 constexpr unsigned int offPlanes = 1;
 constexpr int firstPlane = 2;
 
-/// A plane turned to the side that the camera sees.
+/// Return a plane, oriented to the side that the camera sees.
 glm::dvec4 turnedTo(const CameraView& camera, const glm::dvec4& plane)
 {
   const glm::dvec4 eye = camera.isParallel() ? glm::dvec4(-camera.directionCentred(), 0.0)
@@ -34,15 +34,15 @@ glm::dvec4 turnedTo(const CameraView& camera, const glm::dvec4& plane)
   return glm::dot(plane, eye) < 0.0 ? -plane : plane;
 }
 
-/// Whether a light stands before a plane, and not in it as far as rounding can tell. Parallel rays
-/// have facesLight()'s limit.
+/// Return true if a light stands before a plane by more than rounding. Parallel rays have
+/// facesLight()'s limit.
 bool standsBefore(const glm::dvec4& plane, double thickness, const glm::dvec4& light)
 {
   return glm::dot(plane, light) > (light.w > 0.0 ? thickness : 9.5367431640625e-7); // 2^-20
 }
 
-/// The point of the light that a plane is drawn the shadows of in place of a sample: one that is
-/// behind it gives way to the one opposite (sideOfSample()), which stands before a plane that the
+/// Return the point of the light that replaces a sample on a plane. A sample behind the plane is
+/// replaced by the opposite point (sideOfSample()). That one stands before all planes that the
 /// light's centre stands before.
 glm::dvec4 sampleBefore(
   const glm::dvec4& plane, double thickness, const glm::dvec4& sample, const glm::dvec4& centre)
@@ -55,11 +55,11 @@ glm::dvec4 sampleBefore(
   {
     return 2.0 * centre - sample;
   }
-  // Samples of a directional light are on the plane at distance 1.
+  // Samples of a directional light lie on the plane at distance 1.
   return glm::normalize(2.0 * centre - sample / glm::dot(centre, sample));
 }
 
-/// Where a box ends on the far side of a plane.
+/// Return the largest signed distance of a box from a plane.
 double highestAbove(const glm::dvec4& plane, const Bounds& bounds)
 {
   const glm::dvec3 farthest =
@@ -67,7 +67,7 @@ double highestAbove(const glm::dvec4& plane, const Bounds& bounds)
   return glm::dot(plane, glm::dvec4(farthest, 1.0));
 }
 
-/// Makes OpenGL ready to draw shadows into an image of bits.
+/// Set up OpenGL to render shadows into an image of bits.
 void beginShadows(GLuint framebuffer, int width, int height)
 {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
@@ -80,17 +80,18 @@ void beginShadows(GLuint framebuffer, int width, int height)
   glDisablei(GL_BLEND, 0);
   glEnable(GL_COLOR_LOGIC_OP);
   glLogicOp(GL_OR);
-  glEnable(GL_DEPTH_CLAMP); // the pixel's receiver has been seen, and so is its shadow
+  // Receivers are inside the camera's depth range, so their shadows must not be clipped.
+  glEnable(GL_DEPTH_CLAMP);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   const GLuint nothing[4] = { 0, 0, 0, 0 };
   glClearBufferuiv(GL_COLOR, 0, nothing);
 }
 
-/// The planes that bound what can cast onto a plane: it lies above it, and behind the face where a
-/// box's light begins. What is beyond the light needs none: its images on the plane have w < 0
-/// (planarProjection()), and those that the camera would see in the plane's own pixels keep that
-/// sign, so that OpenGL clips them.
+/// Return the planes that clip casters to the part that can cast onto a plane. It lies above the
+/// plane, and behind the near face of a box's light. Casters beyond the light need no plane. Their
+/// images have w < 0 (planarProjection()), and keep that sign where the camera would see them, so
+/// OpenGL clips them.
 std::vector<glm::dvec4> castingPart(const ShadowLight& light, const glm::dvec3& centreWorld,
   const glm::dvec4& plane, double thickness)
 {
@@ -105,14 +106,14 @@ std::vector<glm::dvec4> castingPart(const ShadowLight& light, const glm::dvec3& 
 } // namespace
 
 //------------------------------------------------------------------------------
-/// The samples that are drawn at a time.
+/// The samples rendered at a time.
 struct Planar::Batch
 {
-  std::size_t first = 0; ///< of all samples
+  std::size_t first = 0; ///< index into all samples
   std::size_t count = 0;
   bool last = false;
-  std::vector<glm::dvec4> planes; ///< those that are served, turned to the camera
-  std::vector<bool> facing;       ///< by plane: whether it faces the light's centre
+  std::vector<glm::dvec4> planes; ///< the chosen planes, oriented to the camera
+  std::vector<bool> facing;       ///< for each plane, true if it faces the light's centre
 };
 
 //------------------------------------------------------------------------------
@@ -166,7 +167,7 @@ void Planar::allocate(int width, int height)
   {
     return;
   }
-  this->width_ = 0; // in case that there is no memory
+  this->width_ = 0; // stays 0 if memory runs out
   glActiveTexture(GL_TEXTURE0);
   const TexelFormat integers{ GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT };
   allocateTexture(this->planesOfPixels_, integers, width, height, 0, "the pixels' planes");
@@ -179,7 +180,7 @@ void Planar::allocate(int width, int height)
 }
 
 //------------------------------------------------------------------------------
-/// Brings the tables up to date that lead from what VTK drew to planes.
+/// Update the tables that map VTK's primitives to planes.
 void Planar::sendPlanes(const LayerInput& input)
 {
   if (this->sentVersion_ != this->planes_.version())
@@ -192,8 +193,7 @@ void Planar::sendPlanes(const LayerInput& input)
   {
     for (const DrawnSurface::Block& block : input.drawnSurfaces[drawn].blocks)
     {
-      if (!input.occluders.surfaces[block.surface]
-             .isInstanced()) // what has no planes needs no entry
+      if (!input.occluders.surfaces[block.surface].isInstanced()) // instances have no planes
       {
         blocks.emplace_back(drawn, block.firstPrimitive, this->planes_.drawnBegin(block.surface),
           block.primitiveCount);
@@ -271,7 +271,7 @@ void Planar::drawShadows(const LayerInput& input, const Batch& batch)
 }
 
 //------------------------------------------------------------------------------
-/// Adds a batch's samples to those before; after the last one, fills the light's layer.
+/// Add a batch to the sum. After the last one, fill the light's layer.
 void Planar::sumUp(const LayerInput& input, const Batch& batch)
 {
   const glm::dmat4& viewFromCentred = input.camera.viewFromCentred;
@@ -316,7 +316,7 @@ void Planar::noteWhatIsLeftOut(const LayerInput& input) const
   {
     served += plane.area;
   }
-  // Rounded down, so that 100 % are all.
+  // Round down, so that 100 % means all.
   const int percent = static_cast<int>(100.0 * served / std::max(this->planes_.area(), served));
   if (served < this->planes_.area() * (1.0 - 1e-9))
   {

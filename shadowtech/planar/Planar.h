@@ -14,13 +14,13 @@ namespace gnomon
 
 struct PlanarSettings
 {
-  int planes = 8; ///< how many show shadows, at most
+  int planes = 8; ///< the most planes that show shadows, the largest first
 };
 const SettingsTable& planarSettings();
 
-/// `planar`: casters are projected from the light onto the planes that receive shadows (Blinn
-/// 1988), and drawn there as the camera sees them (docs/techniques/planar.md). What lies on no such
-/// plane shows no cast shadow.
+/// `planar`: casters are projected from the light onto receiving planes (Blinn 1988), and rendered
+/// there as the camera sees them (docs/techniques/planar.md). Receivers on no such plane show no
+/// cast shadow.
 class Planar : public GpuScreenTechnique
 {
 public:
@@ -48,11 +48,11 @@ private:
   IntegerTable planesOfPrimitives_{ { GL_R8UI, GL_RED_INTEGER, 1, GL_UNSIGNED_BYTE } };
   IntegerTable blocks_{ { GL_RGBA32UI, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT } };
   int blockCount_ = 0;
-  std::uint64_t sentVersion_ = 0; ///< of planesOfPrimitives_: ReceiverPlanes::version()
+  std::uint64_t sentVersion_ = 0; ///< ReceiverPlanes::version() of planesOfPrimitives_
 
   GlTexture planesOfPixels_;
   GlTexture shadows_;
-  RunningSum lit_; ///< of several batches: the samples that are seen
+  RunningSum lit_; ///< number of samples that are seen, summed over batches
   GlFramebuffer shadowFramebuffer_;
   ScreenPass screenPass_;
   int width_ = 0;

@@ -14,11 +14,11 @@ namespace gnomon
 namespace
 {
 
-/// How far from their common plane the corners of coplanar triangles lie, as a share of sum |n_i|
-/// |p_i|: rounding moves a corner by up to one unit roundoff 2^-24 of that, the plane, which is
-/// found from such corners, by about as much again, and half of it is left over.
+/// Bounds the distance of coplanar triangles' corners from their common plane, as a share of sum
+/// |n_i| |p_i|. Rounding moves a corner by up to one unit roundoff, 2^-24, of that. The plane is
+/// found from such corners, and is off by about as much. The other half is a reserve.
 constexpr double cornerNoise = 4.0 / (1 << 24);
-/// What evaluating n.p + d in float adds: four products and sums of a rounded plane and a rounded
+/// Bounds rounding of n.p + d in float: four products and sums of a rounded plane and a rounded
 /// point.
 constexpr double evaluationNoise = 8.0 / (1 << 24);
 
@@ -54,8 +54,8 @@ struct Triangle
   }
 };
 
-/// A normal's cell in a cube map of directions; opposite ones are the same. The middle of a face is
-/// the middle of a cell, so that axis-parallel planes stay in one.
+/// Cells of normals on a cube map of directions, in which opposite normals share a cell. A face's
+/// middle is a cell's middle, so axis-parallel planes stay in one cell.
 constexpr int cellsPerSide = 63;
 constexpr int directionCells = 3 * cellsPerSide * cellsPerSide;
 
@@ -66,7 +66,7 @@ int longestAxis(const glm::dvec3& normal)
   return magnitude[axis] >= magnitude.z ? axis : 2;
 }
 
-/// -1 for a normal that counts as its opposite.
+/// Return -1 for normals that count as their opposite, else 1.
 double orientation(const glm::dvec3& normal)
 {
   return normal[longestAxis(normal)] < 0.0 ? -1.0 : 1.0;
@@ -84,17 +84,17 @@ int directionCell(const glm::dvec3& normal)
     cell(normal[(axis + 2) % 3]);
 }
 
-/// Triangles whose planes are much alike, from which a plane may be grown.
+/// Triangles with similar planes, from which a plane may grow.
 struct Candidate
 {
   std::vector<std::size_t> triangles;
   double area = 0.0;
   double largestArea = 0.0;
-  std::size_t largest = 0; ///< the triangle
+  std::size_t largest = 0; ///< number of the largest triangle
 };
 
-/// Sums up triangles that lie on one plane. Their area vectors add up to that of their common
-/// outline, so that the errors of small triangles do not.
+/// A sum over triangles on one plane. Their area vectors add up to that of their common outline, so
+/// errors of small triangles do not add up.
 struct PlaneSum
 {
   glm::dvec3 areaVector{ 0.0 };
@@ -121,13 +121,13 @@ double distanceOff(const glm::dvec4& plane, const glm::dvec3& point)
   return std::abs(glm::dot(plane, glm::dvec4(point, 1.0)));
 }
 
-/// sum |n_i| |p_i|, which bounds the rounding of n.p.
+/// Return sum |n_i| |p_i|, which bounds the rounding of n.p.
 double magnitudeAlong(const glm::dvec4& plane, const glm::dvec3& point)
 {
   return glm::dot(glm::abs(glm::dvec3(plane)), glm::abs(point));
 }
 
-/// Searches a snapshot for planes: looks at every triangle for every plane.
+/// Searches a snapshot for planes. It tests every triangle against every plane.
 class PlaneSearch
 {
 public:
@@ -138,7 +138,7 @@ public:
   }
 
   double area() const { return this->area_; }
-  /// By triangle of the snapshot: 0, or 1 + its plane.
+  /// Return for each triangle of the snapshot 0, or 1 + its plane.
   const std::vector<std::uint8_t>& planeOfTriangle() const { return this->planeOfTriangle_; }
 
   std::vector<ReceiverPlane> run()
@@ -146,7 +146,7 @@ public:
     this->planeOfTriangle_.assign(this->occluders_.triangles.size(), 0);
     this->collectFlat();
     std::vector<ReceiverPlane> planes;
-    // Candidates fail where surfaces are almost flat. More of them than this are not worth the
+    // Candidates fail where surfaces are almost flat. More tries than this are not worth their
     // time.
     int tries = 2 * mostPlanes;
     std::size_t before = 0;
@@ -164,14 +164,14 @@ public:
           this->grow(candidate, planes);
         }
       }
-      // What was like a plane that has been found may be another one.
+      // Triangles left over from similar planes may form another plane.
     } while (planes.size() > before && planes.size() < mostPlanes);
     this->sortByArea(planes);
     return planes;
   }
 
 private:
-  /// Keeps the triangles in whose direction enough of the area looks.
+  /// Collect the triangles in cells of direction with enough area.
   void collectFlat()
   {
     std::vector<double> areaOfDirection(directionCells, 0.0);
@@ -185,7 +185,7 @@ private:
           const std::size_t number = surface.firstTriangle + i;
           const Triangle triangle(this->occluders_, number);
           const double area = triangle.area();
-          if (area > 0.0) // what has none has no direction
+          if (area > 0.0) // triangles without area have no direction
           {
             visit(number, triangle, area, directionCell(triangle.areaVector));
           }
@@ -213,7 +213,7 @@ private:
       });
   }
 
-  /// As if each instance were scaled evenly.
+  /// Return the area of all instances, as if each were scaled evenly.
   double areaOfInstances(const Surface& surface) const
   {
     double areaSource = 0.0;
@@ -229,7 +229,7 @@ private:
     return scale * areaSource;
   }
 
-  /// The cells of direction and offset that hold enough, in order of their area.
+  /// Return the cells of direction and offset with enough area, the largest first.
   std::vector<Candidate> candidates() const
   {
     const double offsetCell =
@@ -269,7 +269,7 @@ private:
     return result;
   }
 
-  /// Whether as many planes as wanted are larger than any that a candidate could be a part of.
+  /// Return true if enough planes are larger than any plane that a candidate may be part of.
   bool hasLargerThan(const Candidate& candidate, const std::vector<ReceiverPlane>& planes) const
   {
     const auto larger = std::count_if(planes.begin(), planes.end(),
@@ -277,14 +277,16 @@ private:
     return static_cast<std::size_t>(larger) >= this->wanted_;
   }
 
-  /// Finds the plane of a candidate's largest triangle, by what else of the candidate lies on it.
+  /// Find a plane from a candidate's largest triangle and all of its triangles that lie on that
+  /// one's plane.
   void grow(const Candidate& candidate, std::vector<ReceiverPlane>& planes)
   {
     const Triangle seed(this->occluders_, candidate.largest);
     PlaneSum one;
     one.add(seed, seed.areaVector);
     const glm::dvec4 seedPlane = one.plane();
-    // Of a small triangle the corners' rounding turns the plane: the farther away, the farther off.
+    // Rounding of a small triangle's corners rotates its plane, with errors that grow with
+    // distance.
     const double height = 2.0 * seed.area() / seed.longestEdge();
     const glm::dvec3 middle = seed.centroid();
     PlaneSum sum;
@@ -312,7 +314,7 @@ private:
     }
   }
 
-  /// Makes a plane of all that lies on it, if that is enough.
+  /// Add a plane with all triangles that lie on it, if they have enough area.
   void gather(const glm::dvec4& plane, std::vector<ReceiverPlane>& planes)
   {
     ReceiverPlane found;
@@ -350,8 +352,8 @@ private:
     {
       return;
     }
-    // Of a plane through the centre along the axes no number rounds, and its own triangles must not
-    // lie before it all the same.
+    // An axis-parallel plane through the centre has no rounding. Its own triangles must not lie
+    // before it even then.
     const glm::dvec3 farthest =
       glm::max(glm::abs(found.boundsCentred.lower), glm::abs(found.boundsCentred.upper));
     const double size = std::max({ farthest.x, farthest.y, farthest.z });
@@ -363,8 +365,8 @@ private:
     }
   }
 
-  /// Whether a triangle's first corner lies on a plane as far as the scene's size can tell: sorts
-  /// out nearly all that do not, at little cost.
+  /// Return true if a triangle's first corner may lie on a plane, by the rounding of the whole
+  /// scene. This cheap test rejects nearly all others.
   bool isNear(const glm::dvec4& plane, std::size_t number) const
   {
     const glm::dvec3 corner =
@@ -374,7 +376,7 @@ private:
     return distanceOff(plane, corner) <= cornerNoise * magnitudeAlong(plane, largest);
   }
 
-  /// Puts the wanted planes in order of area, and forgets the others.
+  /// Sort planes by area, and drop all but the wanted number.
   void sortByArea(std::vector<ReceiverPlane>& planes)
   {
     std::vector<std::size_t> order(planes.size());
@@ -399,7 +401,7 @@ private:
   }
 
   double leastArea() const { return ReceiverPlanes::smallestShare * this->area_; }
-  /// A plane near the border of cells may be spread over so many of them.
+  /// A plane near the borders of cells may be spread over this many.
   static constexpr double splitShare = 1.0 / 8.0;
 
   const Occluders& occluders_;

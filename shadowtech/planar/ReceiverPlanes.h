@@ -13,47 +13,47 @@ namespace gnomon
 
 struct Occluders;
 
-/// The most planes that can be asked for.
+/// The largest number of planes that a setting may ask for.
 constexpr int mostPlanes = 64;
 
 /// A plane on which receiving triangles lie, in centred coordinates.
 struct ReceiverPlane
 {
-  glm::dvec4 plane{ 0.0 }; ///< (n, d), n unit: n.p + d = 0
-  /// From which distance on a point is surely off the plane, in the arithmetic of floats: more than
-  /// its own triangles' corners lie off it, and than float rounds n.p + d by.
+  glm::dvec4 plane{ 0.0 }; ///< (n, d) with n.p + d = 0 and n of unit length
+  /// The distance beyond which a point is certainly off the plane, in float arithmetic. It exceeds
+  /// the distance of its own triangles' corners, and the rounding of n.p + d.
   double thickness = 0.0;
   double area = 0.0; ///< of its triangles
   Bounds boundsCentred;
 };
 
-/// The flat parts of what receives shadows: the largest planes on which triangles of the snapshot
-/// lie, wherever they are and whatever surface they belong to.
+/// The flat parts of receivers: the largest planes on which triangles of the snapshot lie, across
+/// all surfaces.
 ///
-/// Triangles lie on one plane if their corners do, to within what rounding to float has moved them
-/// by. A plane counts if its triangles have at least `smallestShare` of all receivers' area. So the
-/// planes follow from the scene alone, and stay the same when the camera moves. What is drawn as
-/// instances lies on no plane: many small shapes have none that are large.
+/// Triangles lie on one plane if their corners do, up to rounding to float. A plane counts if its
+/// triangles have at least `smallestShare` of all receivers' area. So planes follow from the scene
+/// alone, and stay the same when the camera moves. Instances lie on no plane, as many small shapes
+/// have no large one.
 class ReceiverPlanes
 {
 public:
   static constexpr double smallestShare = 1.0 / 1024.0;
 
-  /// Finds them again if the snapshot or what is wanted has changed.
-  /// @param wanted how many of the largest, at most mostPlanes
+  /// Find the planes, if the snapshot or `wanted` changed.
+  /// @param wanted number of largest planes, at most mostPlanes
   void update(const Occluders& occluders, std::size_t wanted);
 
-  /// In order of area, no more than wanted.
+  /// Return the planes, the largest first; at most as many as wanted.
   const std::vector<ReceiverPlane>& planes() const { return this->planes_; }
-  /// The area of all receiving triangles.
+  /// Return the area of all receiving triangles.
   double area() const { return this->area_; }
 
-  /// For every triangle that VTK draws of a surface, from drawnBegin() on: 0, or 1 + the plane that
-  /// it lies on.
+  /// Return for every triangle that VTK draws 0, or 1 + its plane. A surface's triangles begin at
+  /// drawnBegin().
   const std::vector<std::uint8_t>& planeOfDrawn() const { return this->planeOfDrawn_; }
   std::size_t drawnBegin(std::size_t surface) const { return this->drawnBegin_[surface]; }
 
-  /// Changes when all this changes; 0 before the first update.
+  /// Return a number that changes with any of these values; 0 before the first update.
   std::uint64_t version() const { return this->version_; }
 
 private:

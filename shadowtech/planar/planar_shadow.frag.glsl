@@ -1,11 +1,10 @@
-// The shadow of a caster on a plane: one bit, of the light's sample, in the pixels whose receiver
-// lies on that plane. So no shadow reaches beyond its receiver, and none is compared with the
-// receiver's depth.
+// Writes a caster's shadow on a plane: the bit of the light's sample, in pixels whose receiver lies
+// on that plane. So no shadow extends beyond its receiver, and no depths are compared.
 
 #include "shadowtech/base/cutout.glsl"
 
-uniform usampler2D planesOfPixels; // planes_of_pixels.frag.glsl
-uniform int plane;                 // of the shadow, counted as there
+uniform usampler2D planesOfPixels; // output of planes_of_pixels.frag.glsl
+uniform int plane;                 // the shadow's plane, as planesOfPixels counts
 uniform int sampleBit;
 
 out uint shadowed;

@@ -1,18 +1,18 @@
-// How many of a light's samples each pixel's receiver sees, by the shadows that were drawn on
-// planes. What lies on none sees all of the light if it faces its centre. Up to 32 samples at a
-// time; after the last of them, the share.
+// Counts the samples of a light that each pixel's receiver sees, by the shadows on planes.
+// Receivers on no plane see the whole light if they face its centre. Up to 32 samples are counted
+// at a time. The last pass writes the share of all.
 
 #include "shadowtech/base/light_reach.glsl"
 #include "shadowtech/base/running_sum.glsl"
 
 uniform sampler2D receiverFragments; // zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
-uniform usampler2D planesOfPixels;   // planes_of_pixels.frag.glsl
-uniform usampler2D shadows;          // a bit for each sample that is shadowed
+uniform usampler2D planesOfPixels;   // output of planes_of_pixels.frag.glsl
+uniform usampler2D shadows;          // a bit for each sample in shadow
 uniform int sampleCount;
 uniform vec4 lightView;                // of the centre: (position, 1) or (towards the light, 0)
-uniform int planesFacingLight[PLANES]; // 1: the plane's visible side faces the light's centre
-uniform float divisor;                 // 1, or the number of all samples
+uniform int planesFacingLight[PLANES]; // 1 if the plane's visible side faces the light's centre
+uniform float divisor;                 // the number of all samples in the last pass, else 1
 
 out float visibility;
 

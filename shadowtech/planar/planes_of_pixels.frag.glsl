@@ -1,20 +1,22 @@
-// On which plane each pixel's receiver lies, from the triangle that VTK drew there
+// Finds the plane of each pixel's receiver, from the triangle that VTK drew there
 // (ReceiverPlanes.h).
 
 #include "shadowtech/planar/table.glsl"
 
-uniform sampler2D receiverFragments; // x: the drawn surface + 1, > 0 if it receives; y: the primitive
-uniform usampler2D blocks;           // x: drawn surface, y: its first primitive, z: where that is in
-                                     // planesOfPrimitives, w: how many follow; in order of x and y
+uniform sampler2D receiverFragments; // x: drawn surface + 1, > 0 if it receives; y: primitive
+// x: drawn surface, y: its first primitive, z: index of that in planesOfPrimitives, w: number of
+// primitives; in order of x and y.
+uniform usampler2D blocks;
 uniform int blockCount;
 uniform usampler2D planesOfPrimitives; // 0, or 1 + the plane
 
-out uint plane; // 0: shows no shadow at all; 1: lies on no plane that is served; n + 2: on the n-th
+// 0: receives no shadow; 1: on none of the chosen planes; n + 2: on the n-th plane.
+out uint plane;
 
-// The plane of a drawn surface's primitive, as planesOfPrimitives says it.
+// Return the entry of planesOfPrimitives for a drawn surface's primitive.
 uint planeOf(uint surface, uint primitive)
 {
-  // The last block that begins at or before the primitive.
+  // Find the last block that begins at or before the primitive.
   int low = 0;
   int high = blockCount;
   while (high - low > 1)

@@ -7,7 +7,7 @@
 namespace gnomon
 {
 
-/// `crsm` and `crsma` by the letter of their publication (Morais 2016, chapter 4): not exact
+/// Return `crsm` and `crsma` exactly as published (Morais 2016, chapter 4). They are not exact
 /// (PublishedMap.h).
 const std::vector<ConservativeEntry>& publishedCrsm();
 

@@ -17,15 +17,14 @@ namespace gnomon
 namespace
 {
 
-/// Casters of less area on the map than this, in square texels, count as seen edge on: they are not
-/// drawn.
+/// Area in square texels below which casters count as edge-on, and are left out.
 constexpr double edgeOnArea = 5e-7;
 
-/// A side of a polygon that has a length.
+/// A side of a polygon with a positive length.
 struct Edge
 {
   MapCorner from;
-  double ux, uy; ///< the unit vector along it
+  double ux, uy; ///< unit vector along it
   std::uint8_t side;
 };
 
@@ -35,7 +34,7 @@ struct Edges
   std::array<Edge, mostCorners> edges;
 };
 
-/// The sides of a polygon with the inside to their left.
+/// Return the sides of a polygon, with its inside to their left.
 Edges edgesOf(const MapPolygon& polygon)
 {
   const bool turned = planeOf(polygon).area < 0.0;
@@ -48,7 +47,7 @@ Edges edgesOf(const MapPolygon& polygon)
     const MapCorner& a = polygon.corners[at];
     const MapCorner& b = polygon.corners[next];
     const double length = std::hypot(b.x - a.x, b.y - a.y);
-    if (length > 1e-9) // corners may fall together where polygons are cut
+    if (length > 1e-9) // clipping may make corners coincide
     {
       result.edges[result.count++] = { a, (b.x - a.x) / length, (b.y - a.y) / length,
         polygon.sides[turned ? next : at] };
@@ -57,15 +56,15 @@ Edges edgesOf(const MapPolygon& polygon)
   return result;
 }
 
-/// The half plane to the left of an edge.
-/// @param inwards how far it is moved there
+/// Return the half plane to the left of an edge.
+/// @param inwards how far it is moved to the left, in texels
 HalfPlane leftOf(const Edge& edge, double inwards)
 {
   const double nx = -edge.uy, ny = edge.ux;
   return { nx, ny, -(nx * edge.from.x + ny * edge.from.y) - inwards };
 }
 
-/// What two edges that stay leave of the corner between them.
+/// Return the half plane that cuts off the corner between two edges that stay.
 HalfPlane withoutCorner(const Edge& in, const Edge& out, double offset)
 {
   const double cosine = -(in.ux * out.ux + in.uy * out.uy); // of the corner's angle
@@ -74,14 +73,14 @@ HalfPlane withoutCorner(const Edge& in, const Edge& out, double offset)
   return { nx, ny, -(nx * out.from.x + ny * out.from.y) - offset * (1.0 + cosine) };
 }
 
-/// What is gathered of a texel.
+/// The two layers of a texel.
 struct Layers
 {
   float dilated = std::numeric_limits<float>::infinity();
   float eroded = std::numeric_limits<float>::infinity();
 };
 
-/// Notes the depth of a caster's plane at the centres of a region's texels.
+/// Write the depth of a caster's plane to the texels whose centres lie in a region.
 void drawRegion(const TexelRegion& region, const MapPlane& plane, float Layers::*layer, int width,
   Span rows, Layers* cells)
 {
@@ -97,7 +96,7 @@ void drawRegion(const TexelRegion& region, const MapPlane& plane, float Layers::
   }
 }
 
-/// A published map while it is drawn.
+/// A published map being baked.
 class PublishedDrawing
 {
 public:
@@ -110,8 +109,8 @@ public:
     , casters_(this->placements_.triangleCount(), 0)
     , bands_(this->size_)
   {
-    // With a view whose z grows away from the light, what faces away is wound as it is in its own
-    // plane.
+    // If the view's z grows away from the light, triangles that face away have the same winding on
+    // the map as in their own plane.
     const double handedness = glm::determinant(glm::dmat3(scene.space.viewFromCentred));
     std::atomic<bool> blind{ false };
     this->placements_.visitTriangles(
@@ -122,7 +121,7 @@ public:
         {
           return;
         }
-        // Written so that NaN is blind.
+        // NaN must count as blind.
         if (!(polygon.margin < std::numeric_limits<double>::infinity()))
         {
           blind = true;
@@ -139,10 +138,10 @@ public:
     this->blind_ = blind;
   }
 
-  /// Whether a caster is so near to the light that nothing is certain.
+  /// True if a caster is so near to the light that nothing is certain.
   bool blind() const { return this->blind_; }
 
-  /// Draws all bands.
+  /// Rasterize all bands.
   /// @param take called with each texel's number on the map and its layers, from several threads
   template <typename Take>
   void draw(const Take& take) const
@@ -181,7 +180,7 @@ private:
     }
   }
 
-  /// A side whose neighbour is missing, or faces the light, is none (section 4).
+  /// A side whose neighbour is missing or faces the light is not shared (section 4).
   SharedSides shared(const BandItem& item) const
   {
     SharedSides result{ { false, false, false } };
@@ -207,7 +206,7 @@ private:
   int size_;
   bool blind_ = false;
   CasterPlacements placements_;
-  std::vector<std::uint8_t> casters_; ///< of all placements' triangles: which face away
+  std::vector<std::uint8_t> casters_; ///< for the triangles of all placements, 1 if they face away
   CasterBands bands_;
 };
 

@@ -22,7 +22,7 @@ std::string refusedByPublishedPcss(const ShadowLight& light)
       "'as_published' is for spot lights with a single view";
 }
 
-/// w: of a rectangle the longer side.
+/// Return w; for rectangles the longer side.
 double widthOf(const LightArea& area)
 {
   return 2.0 * std::max(glm::length(area.worldFromUnit[0]), glm::length(area.worldFromUnit[1]));
@@ -49,7 +49,7 @@ MapReach PublishedPcss::mapReach(const ShadowLight& light) const
   MapReach reach;
   if (light.area)
   {
-    // The search's largest radius, with its half a step more.
+    // The search's largest radius, plus half of its step.
     const double step = 1.0 / std::sqrt(pcssCounts(light.of<PcssSettings>().samples).search);
     const double map = 2.0 * std::tan(glm::radians(light.coneAngleDegrees));
     reach.unbiasedAcross = widthOf(*light.area) * (1.0 + step) * map;

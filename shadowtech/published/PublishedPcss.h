@@ -6,18 +6,18 @@
 namespace gnomon
 {
 
-/// `pcss` by the letter of Apelles' listings (4.8 to 4.11; its sections 3.4.1 and 4.1.3), to show
-/// its figures: what `as_published` makes of it. With w the light's width, z_r the receiver's
-/// distance from the light's centre, and K x K points of a step:
+/// `pcss` exactly as in Apelles' listings (4.8 to 4.11; sections 3.4.1 and 4.1.3), to reproduce its
+/// figures; `as_published` selects it. Let w be the light's width, z_r the receiver's distance from
+/// the light's centre, and K x K the points of a step.
 ///
-/// 1. Blocker search within w (1 + 1 / K): that is (z_r - z_n) / z_r w for a near plane z_n at the
+/// 1. Blocker search within w (1 + 1 / K). That is (z_r - z_n) / z_r w for a near plane z_n at the
 ///    light, where these maps' linear depths begin. Blockers are texels nearer than the receiver;
 ///    without any it is lit.
-/// 2. Penumbra: w_p = (z_r - z_b) / z_b w, z_b the blockers' mean distance.
-/// 3. Filter within w_p (1 + 1 / K): the share of the texels that are not nearer than the receiver.
+/// 2. Penumbra: w_p = (z_r - z_b) / z_b w, with z_b the blockers' mean distance.
+/// 3. Filter within w_p (1 + 1 / K): the share of texels that are not nearer than the receiver.
 ///
-/// docs/techniques/published.md says what becomes of that. Of spot lights whose map is a single
-/// view, rectangles being taken for disks of their longer side. Lights without area have the hard
+/// docs/techniques/published.md shows the effects. The technique supports spot lights whose map is
+/// a single view. Rectangles count as disks of their longer side. Lights without area get the hard
 /// shadow of `compare`.
 class PublishedPcss : public DepthMapTechnique
 {
@@ -33,7 +33,7 @@ protected:
   std::string estimatorGlsl(const ShadowLight& light) const override;
 
 private:
-  PcssPoints points_; ///< of a disk
+  PcssPoints points_; ///< points of a disk
   double widthLight_ = 0.0;
 };
 

@@ -1,13 +1,13 @@
-// Percentage closer soft shadows by the letter of Apelles' listings 4.8 to 4.11 (PublishedPcss.h).
-// Distances are those from the light's centre, radii shares of a map of the whole cone.
+// Percentage closer soft shadows exactly as in Apelles' listings 4.8 to 4.11 (PublishedPcss.h).
+// Distances are from the light's centre; radii are shares of a map of the whole cone.
 
 #include "shadowtech/depth_map/depth_map.glsl"
 
-uniform sampler2D lightPoints_LIGHT; // the search's, then the filter's
+uniform sampler2D lightPoints_LIGHT; // the search's points, then the filter's
 uniform float widthLight_LIGHT;
 
-// How far from the light what is on the map lies at a place; beyond everything where there is
-// nothing.
+// Return the distance from the light of the caster at a place on the map; beyond everything if
+// there is none.
 float distanceAt_LIGHT(ViewPoint point, vec2 place)
 {
   ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));
@@ -21,7 +21,7 @@ float distanceAt_LIGHT(ViewPoint point, vec2 place)
   return along * length(vec3(acrossOf_LIGHT(point.view, vec2(texel) + 0.5), 1.0));
 }
 
-// The listings' random number of a pixel.
+// Return the listings' random number for a pixel.
 float random_LIGHT(vec2 pixel)
 {
   return fract(sin(dot(pixel, vec2(12.9898, 78.233))) * 43758.5453);
@@ -32,7 +32,8 @@ float estimate_LIGHT(ViewPoint point, float slack)
   float receiver = length(point.position);
   float angle = 6.2831853 * random_LIGHT(gl_FragCoord.xy);
   mat2 turn = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
-  float map = 2.0 * sqrt(lightCone_LIGHT); // of the whole cone, at distance 1 across the light
+  // Width of the whole cone's map, at distance 1 across the light.
+  float map = 2.0 * sqrt(lightCone_LIGHT);
   mat2 texels = map * texelJacobian_LIGHT(point.view, acrossOf_LIGHT(point.position)) * turn;
 
   const float searchSide = sqrt(float(PCSS_SEARCH_POINTS_LIGHT));
@@ -51,7 +52,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
     return 1.0;
   }
 
-  float blocker = max(sum / blockers, 1e-6 * receiver); // one that touches the light
+  float blocker = max(sum / blockers, 1e-6 * receiver); // for blockers that touch the light
   float penumbra = (receiver - blocker) / blocker * widthLight_LIGHT;
 
   const float filterSide = sqrt(float(PCSS_FILTER_POINTS_LIGHT));

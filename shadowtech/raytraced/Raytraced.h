@@ -5,8 +5,8 @@
 namespace gnomon
 {
 
-/// `raytraced`: every pixel by one shadow ray, of area lights by one to each of `light_samples`
-/// points. The truth that the other techniques are measured by.
+/// `raytraced`: one shadow ray per pixel, or for area lights one to each of `light_samples` points.
+/// It is the reference for all other techniques.
 class Raytraced : public CpuScreenTechnique
 {
 public:

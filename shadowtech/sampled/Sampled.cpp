@@ -19,7 +19,7 @@ namespace gnomon
 namespace
 {
 
-/// What the centre's identifiers are numbered by; those of a batch's points follow.
+/// The number in the identifiers of the centre's shader. The points of a batch follow.
 constexpr int centreNumber = 0;
 
 int numberOf(std::size_t pointOfBatch)
@@ -27,7 +27,7 @@ int numberOf(std::size_t pointOfBatch)
   return centreNumber + 1 + static_cast<int>(pointOfBatch);
 }
 
-/// What some points shine with together.
+/// Return the sum of the colours of some points.
 glm::vec3 shineOf(const std::vector<glm::vec3>& shine, std::size_t first, std::size_t end)
 {
   const auto begin = shine.begin();
@@ -35,11 +35,12 @@ glm::vec3 shineOf(const std::vector<glm::vec3>& shine, std::size_t first, std::s
     begin + static_cast<std::ptrdiff_t>(end), glm::vec3(0.0f));
 }
 
-/// By how much of a texel the map of a light's point is moved. Else the maps of a directional
-/// light, or of a small one, would all round an edge to the same texels, as a scene's box keeps its
-/// place in them, and penumbrae would have steps as wide as texels. Points of Roberts' R2 sequence
-/// (The Unreasonable Effectiveness of Quasirandom Sequences, 2018), the first of which is not
-/// moved.
+/// Return the offset, in texels, by which the map of a light's point is moved. A scene's box stays
+/// in place on the maps of a directional or a small light. Without an offset, all of them would
+/// round an edge to the same texels. Penumbrae would then have steps as wide as texels.
+///
+/// The offsets are Roberts' R2 sequence (The Unreasonable Effectiveness of Quasirandom Sequences,
+/// 2018). The first point's map stays in place.
 glm::dvec2 moveOfMap(std::size_t point)
 {
   const glm::dvec2 step(0.7548776662466927, 0.5698402909980532); // 1/g, 1/g^2, g^3 = g + 1
@@ -50,12 +51,12 @@ std::string refusedBySampled(const ShadowLight& light)
 {
   if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
   {
-    return "'sampled' looks from all points of the light at what its centre reaches, with the "
-           "projections uniform and cube, not '" +
-      findSetting("projection")->get(light) + "'";
+    return "'sampled' supports the projections uniform and cube, not '" +
+      findSetting("projection")->get(light) +
+      "', as all points of the light must see what its centre reaches";
   }
   return light.area && light.lightSampling == LightSampling::Jittered
-    ? "'sampled' takes points in opposite pairs, which a grid of cells does not come in; its "
+    ? "'sampled' needs points in opposite pairs, which a grid of cells lacks; its "
       "'light_sampling' is sobol or random"
     : "";
 }
@@ -129,7 +130,7 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
   const auto most = static_cast<std::size_t>(input.light.of<SampledSettings>().batch);
   if (this->batch_.size() > most)
   {
-    this->batch_.clear(); // gives their memory back
+    this->batch_.clear(); // frees their memory
   }
   const std::size_t wanted = pairedPointsWanted(all, this->summed_, progressive);
   while (this->summed_ < wanted)
@@ -144,23 +145,23 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
 }
 
 //------------------------------------------------------------------------------
-/// How many points this frame may add; 0: all. The sum is one view's.
+/// Return how many points this frame may add; 0 for all. The sum belongs to one view.
 std::size_t Sampled::progressiveIn(const LayerInput& input) const
 {
   const int progressive = input.light.of<SampledSettings>().progressive;
   if (progressive > 0 && input.severalViews)
   {
     input.notes.push_back(nameOf(input.light) +
-      ": 'progressive' refines one view, and the pass draws several (stereo, tiles, renderers): "
-      "all of the light's points are in every frame");
+      ": 'progressive' refines a single view, and the pass renders several (stereo, tiles, "
+      "renderers), so every frame computes all points of the light");
     return 0;
   }
   return static_cast<std::size_t>(progressive);
 }
 
 //------------------------------------------------------------------------------
-/// Forgets the sum if it is not of what is to be shown.
-/// @return whether it did
+/// Restart the sum if it is stale.
+/// @return true if it was
 bool Sampled::beginIfStale(const LayerInput& input)
 {
   Shown shown{ input.receiversShown, { pairedLightSamples(input.light), {} },
@@ -178,7 +179,7 @@ bool Sampled::beginIfStale(const LayerInput& input)
   {
     this->sum_ = RunningSum(channels);
   }
-  this->shown_.reset(); // in case that there is no memory
+  this->shown_.reset(); // stays empty if memory runs out
   this->beginSum(input);
   this->shown_ = std::move(shown);
   return true;
@@ -193,7 +194,7 @@ void Sampled::beginSum(const LayerInput& input)
 }
 
 //------------------------------------------------------------------------------
-/// Draws the maps of some of the points, and adds what they see.
+/// Bake the maps of some points, and add their visibility to the sum.
 void Sampled::addBatch(
   const LayerInput& input, const Points& points, std::size_t first, std::size_t count)
 {
@@ -203,7 +204,7 @@ void Sampled::addBatch(
     this->batch_ = std::vector<Compare>(count);
   }
   ViewFitting fitting = input.fitting;
-  ++fitting.texels.border; // for what maps are moved by
+  ++fitting.texels.border; // room for the maps' offsets
   std::vector<ShadowLight> lights;
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -246,7 +247,7 @@ void Sampled::addBatch(
 }
 
 //------------------------------------------------------------------------------
-/// The shader that compares with the maps of these lights.
+/// Return the shader that compares receivers with the maps of these lights.
 std::string Sampled::sumGlsl(const LayerInput& input, const std::vector<ShadowLight>& lights) const
 {
   std::string text = numberedForLight(this->centre_.visibilityGlsl(input.light), centreNumber);
@@ -267,7 +268,8 @@ std::string Sampled::sumGlsl(const LayerInput& input, const std::vector<ShadowLi
 }
 
 //------------------------------------------------------------------------------
-/// @param shine what the points in the sum shine with together
+/// Fill the layers with the mean.
+/// @param shine sum of the colours of the points in the sum
 void Sampled::showMean(const LayerInput& input, const glm::vec3& shine)
 {
   const int channels = this->shown_->channels;
@@ -276,7 +278,7 @@ void Sampled::showMean(const LayerInput& input, const glm::vec3& shine)
   for (int channel = 0; channel < channels; ++channel)
   {
     const float lit = channels == 3 ? input.light.texture->mean[channel] : 1.0f;
-    // Of a colour that no point has, the sum is 0.
+    // The sum of a colour that no point has is 0.
     const float whole = shine[channel] > 0.0f ? shine[channel] / lit : 1.0f;
     const ChannelView view(this->sum_.texture(), GL_RED + static_cast<GLenum>(channel), GL_GREEN);
     ShaderLibrary::setUniforms(program,
@@ -287,7 +289,7 @@ void Sampled::showMean(const LayerInput& input, const glm::vec3& shine)
 }
 
 //------------------------------------------------------------------------------
-/// Shows the centre's hard shadow. The sum is empty before and after.
+/// Fill the layers with the centre's hard shadow. The sum is empty before and after.
 void Sampled::showCentre(const LayerInput& input)
 {
   if (this->shown_->channels == 1)

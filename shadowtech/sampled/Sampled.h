@@ -14,27 +14,27 @@
 namespace gnomon
 {
 
-/// The most points whose maps are held at a time: one shader reads all of them.
+/// The largest batch: one shader reads all of its maps.
 constexpr int mostBatchSamples = 8;
 
 struct SampledSettings
 {
-  int batch = mostBatchSamples; ///< points whose maps are held at a time
-  /// Points that each frame adds while nothing changes, the first one showing the hard shadow of
-  /// the centre; 0: all are in every frame.
+  int batch = mostBatchSamples; ///< number of points whose maps exist at a time
+  /// Number of points that each frame adds while nothing changes. The first frame shows the hard
+  /// shadow of the centre. 0 computes all points in every frame.
   int progressive = 0;
 };
 const SettingsTable& sampledSettings();
 
-/// `sampled`: soft shadows as the mean of the hard ones that many points of the light cast, each by
-/// a depth map of its own (Heckbert and Herf 1997 from shadow maps instead of projected casters;
-/// docs/techniques/sampled.md).
+/// `sampled`: soft shadows as the mean of the hard shadows of many points of the light, each from
+/// its own depth map. Heckbert and Herf (1997) do so with projected casters instead of maps
+/// (docs/techniques/sampled.md).
 ///
-/// Maps are drawn a batch at a time, and one shader compares each receiver with all maps of the
-/// batch and adds what it sees to a running sum, in whole numbers below 2^24. (Splits that blend
-/// would add others; they are refused.) The sum is kept while nothing changes that it depends on.
-/// In progressive mode the hard shadow that a change shows at once comes from the centre's map,
-/// which outlives the camera's moves.
+/// Maps are baked in batches. One shader compares each receiver with all maps of a batch, and adds
+/// its visibility to a running sum of whole numbers below 2^24. (Splits that blend would add
+/// fractions, so they are refused.) The sum is reused until one of its inputs changes. In
+/// progressive mode, a frame after a change shows the hard shadow of the centre's map, which is
+/// reused when the camera moves.
 class Sampled : public GpuScreenTechnique
 {
 public:
@@ -45,7 +45,7 @@ public:
   void drawVisibility(const LayerInput& input, LightReport& report) override;
 
 private:
-  /// Points of a light, and what each of them shines with: its colour in 255ths, of one channel 1.
+  /// Points of a light with their colours in 255ths; with one channel the colour is 1.
   struct Points
   {
     std::vector<glm::dvec3> offsets; ///< from the light's centre
@@ -57,7 +57,7 @@ private:
     }
   };
 
-  /// What the sum was made for, beside what makes the centre's map stale.
+  /// The key of the sum. The key of the centre's map is separate.
   struct Shown
   {
     std::size_t receivers = 0; ///< LayerInput::receiversShown
@@ -81,10 +81,10 @@ private:
   void showCentre(const LayerInput& input);
 
   Compare centre_;
-  std::optional<Shown> shown_; ///< none: the next frame begins anew
-  std::vector<Compare> batch_; ///< the maps that are held at a time
+  std::optional<Shown> shown_; ///< empty: the next frame restarts the sum
+  std::vector<Compare> batch_; ///< the maps of a batch
   RunningSum sum_;
-  std::size_t summed_ = 0; ///< points in the sum
+  std::size_t summed_ = 0; ///< number of points in the sum
 };
 
 } // namespace gnomon

@@ -1,5 +1,5 @@
-// What the map of one point of the light adds to the sum of all points, behind the source of its
-// estimator (sampled_sum.frag.glsl, Sampled.h).
+// Adds one point of the light to the sum. The source of the point's estimator comes first
+// (sampled_sum.frag.glsl, Sampled.h).
 
 #include "shadowtech/base/shine.glsl"
 
@@ -10,16 +10,16 @@ uniform vec3 pointShine_LIGHT;
 #define pointShine_LIGHT 1.0
 #endif
 
-// Of a receiver that faces the centre. Its normal and the way to the centre are in that light
-// space.
+// Return the contribution for a receiver that faces the centre. `normalCentre` and `toCentre` are
+// in the centre's light space.
 Shine share_LIGHT(vec3 positionView, vec3 normalView, vec3 normalCentre, vec3 toCentre)
 {
   bool faces = facesLight(normalCentre, toCentre + pointOffset_LIGHT);
   bool facesOpposite = facesLight(normalCentre, toCentre - pointOffset_LIGHT);
   if (!faces)
   {
-    // The opposite point counts for both. Where rounding denies it both of them, the receiver's
-    // plane holds the light, and its own plane is no caster.
+    // The opposite point counts for both. If rounding excludes both points, the receiver's plane
+    // holds the light, and does not hide it.
     return facesOpposite ? Shine(0.0) : pointShine_LIGHT;
   }
   vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;

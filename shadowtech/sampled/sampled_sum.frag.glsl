@@ -1,13 +1,13 @@
-// Adds the points of a batch to the sum of a light's points that each pixel's receiver sees. The
-// sources of the batch stand in front of this one, and that of the light's centre, which says what
-// the light reaches.
+// Adds a batch to the sum of a light's points that each pixel's receiver sees. The sources of the
+// batch come first, and before them the source of the light's centre, which defines the light's
+// reach.
 
 #include "shadowtech/base/running_sum.glsl"
 #include "shadowtech/base/shine.glsl"
 
 uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
-uniform Shine batchShine; // of all its points
+uniform Shine batchShine;            // sum over all points of the batch
 
 out Shine sum;
 

@@ -41,10 +41,10 @@ bool certainlyStops(
 
   const double edges[] = { glm::dot(glm::cross(v[1], v[2]), direction),
     glm::dot(glm::cross(v[2], v[0]), direction), glm::dot(glm::cross(v[0], v[1]), direction) };
-  // With the triangle turned so that the ray leaves it through its front.
+  // Orient the triangle such that the ray leaves through its front.
   const double side = edges[0] > 0.0 ? 1.0 : -1.0;
   const double least = rounding * reach * length;
-  // Written so that NaN fails, and triangles without area, whose functions are 0.
+  // NaN must fail, and so must triangles without area, whose functions are 0.
   const auto isInside = [&](double edge) { return side * edge > least; };
   if (!(isInside(edges[0]) && isInside(edges[1]) && isInside(edges[2])) ||
     (surface.oneSided && side < 0.0))

@@ -8,24 +8,27 @@ namespace gnomon
 
 struct Occluders;
 
-/// Whether a triangle stops a shadow ray for certain, so that a tracer in float finds it blocked,
+/// Return true if a triangle certainly stops a shadow ray, so that a float tracer finds it blocked,
 /// too. A miss proves nothing.
 ///
-/// The ray O + t D is held against the triangle v0, v1, v2, relative to O, in double precision.
-/// With u = 2^-24, R the magnitude of O and of the farthest vi, and h the longest edge, a tracer in
-/// float
-/// - moves vertices by rounding to u R, and each edge function (vi x vj).D by up to 2 sqrt(3) u R
-///   times what the edge's ends are off the ray, which is h at most, times |D|;
-/// - rounds the functions' products and sums: less than 24 u R h |D|;
-/// - rounds T = v0.N and N.D, N the cross product of two edges, to less than 24 u R h^2 and 24 u
-/// h^2 |D|. A hit counts where the edge functions are of one sign and at least 64u R h |D|, and T
-/// and, where the ray ends at t = e, e N.D - T are at least 64 u h^2 (R + e |D|) on the side where
-/// the ray goes. N.D is the sum of the edge functions, and so needs no bound of its own. Rays are
-/// rounded again for instances, by up to 8 times as much (instanceNoise() of ShadowRay.h, with a
-/// skewness of 2), in proportion to where instances stand as well.
+/// The ray O + t D is tested against the triangle v0, v1, v2, relative to O, in double precision.
+/// Let u = 2^-24, R the magnitude of O and of the farthest vi, h the longest edge, and N the cross
+/// product of two edges. A float tracer
+/// - moves vertices by rounding to u R. That moves each edge function (vi x vj).D by up to 2
+///   sqrt(3) u R |D| times the distance of the edge's ends from the ray. That distance is at most
+///   h;
+/// - rounds the functions' products and sums by less than 24 u R h |D|;
+/// - rounds T = v0.N and N.D to less than 24 u R h^2 and 24 u h^2 |D|.
 ///
-/// Triangles with a cut-out never count, as the ray may go through a hole. Of one-sided ones only
-/// the front does.
+/// A hit counts if the edge functions have one sign and are at least 64 u R h |D|. T must be at
+/// least 64 u h^2 (R + e |D|) on the side to which the ray goes. For rays that end at t = e, so
+/// must e N.D - T. N.D is the sum of the edge functions, and so needs no bound of its own.
+///
+/// Rays are rounded again for instances, by up to 8 times as much (instanceNoise() of ShadowRay.h,
+/// with a skewness of 2). This rounding is also proportional to where instances stand.
+///
+/// Triangles with a cut-out never count, as the ray may go through a hole. One-sided triangles
+/// count by their front only.
 bool certainlyStops(
   const Occluders& occluders, const CasterTriangle& caster, const ShadowRay& ray, float rayFar);
 

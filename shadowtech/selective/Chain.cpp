@@ -20,7 +20,7 @@ Neighbourhood neighbourhoodOf(int texels)
                      : Neighbourhood::Centre;
 }
 
-/// What a class means for a pixel's shadow ray.
+/// Return what a class decides about a pixel's shadow ray.
 Certainty certaintyOf(ChainClass of)
 {
   switch (of)
@@ -47,7 +47,7 @@ Certainty certaintyOf(ChainClass of)
   return Certainty::Uncertain;
 }
 
-/// Visits a tile's receivers.
+/// Visit a tile's receivers.
 /// @param visit called with the receiver's number in the tile and in the picture
 template <typename Visit>
 void visitPixels(const ReceiverTile& tile, std::size_t width, const Visit& visit)
@@ -64,7 +64,7 @@ void visitPixels(const ReceiverTile& tile, std::size_t width, const Visit& visit
 //------------------------------------------------------------------------------
 std::vector<PixelClass> classesOfChain()
 {
-  // What has no shadow ray is the same everywhere.
+  // The classes without a shadow ray are those of tracing.
   const std::vector<PixelClass> tracing = classesOfTracing();
   return { tracing[static_cast<std::size_t>(TracedClass::NoReceiver)],
     tracing[static_cast<std::size_t>(TracedClass::Unreached)],
@@ -77,15 +77,15 @@ std::vector<PixelClass> classesOfChain()
     { "lit by majority", { 250, 220, 150 } }, { "in shadow by majority", { 130, 110, 30 } } };
 }
 
-/// A receiver, its shadow ray, and what the map says.
+/// A receiver, its shadow ray, and its status on the map.
 struct Chain::Look
 {
   bool receives = false;
   glm::vec3 normal{ 0.0f };
-  glm::vec3 toCentre{ 0.0f }; ///< of the light; of a directional one of length 1
+  glm::vec3 toCentre{ 0.0f }; ///< to the light's centre; of length 1 for directional lights
   ShadowRay ray{};
   float rayFar = 0.0f;
-  std::optional<PlaceOnMaps> place; ///< of rays that would be traced
+  std::optional<PlaceOnMaps> place; ///< only for rays that would be traced
   bool inShadow = false;            ///< the status
 
   PixelStatus status() const
@@ -108,7 +108,7 @@ Chain::Chain(const ChainStages& stages, const TriangleMaps& maps, const RimMaps*
 {
   if (this->stages_.contourPixels > 0)
   {
-    this->input_.receivers.all(); // they are looked at twice
+    this->input_.receivers.all(); // they are read twice
     this->contour_ = this->contour();
   }
 }
@@ -229,10 +229,11 @@ ChainClass Chain::classOf(const Look& look, bool inContour) const
 }
 
 //------------------------------------------------------------------------------
-/// Whether the texels of all maps say of a receiver what its status is.
+/// Return true if the texels of all maps confirm a receiver's status.
 bool Chain::agree(const Look& look, Neighbourhood neighbourhood) const
 {
-  // Without a place on the map no caster can be before the receiver, and its texels are all empty.
+  // Without a place on the map no caster can be before the receiver, so all of its texels are
+  // empty.
   if (look.place && !look.place->agree(neighbourhood))
   {
     return false;
@@ -242,7 +243,7 @@ bool Chain::agree(const Look& look, Neighbourhood neighbourhood) const
 }
 
 //------------------------------------------------------------------------------
-/// What proves that a pixel is in shadow, if anything does.
+/// Return the class of the test that proves a pixel to be in shadow, if one does.
 std::optional<ChainClass> Chain::proof(const Look& look) const
 {
   if (!look.place)
@@ -254,7 +255,7 @@ std::optional<ChainClass> Chain::proof(const Look& look) const
   { return certainlyStops(this->input_.occluders, caster, look.ray, look.rayFar); };
 
   std::array<CasterTriangle, 9> tested;
-  auto end = tested.begin(); // of what has been tested
+  auto end = tested.begin(); // of `tested`
   int texels = 0;
   const bool hit = this->stages_.neighbourTexels > 0 &&
     visitNeighbourhood(neighbourhoodOf(this->stages_.neighbourTexels), place,

@@ -19,48 +19,48 @@ namespace gnomon
 
 struct ReceiverTile;
 
-/// What becomes of pixels that nothing decides for certain.
+/// How to resolve pixels that no test decides.
 enum class Leftovers
 {
-  Trace,   ///< they get their shadow ray
-  Lit,     ///< they are lit: what nothing can prove to be in shadow mostly is
-  Majority ///< they get the status that most of the nine texels around them say
+  Trace,   ///< trace their shadow ray
+  Lit,     ///< lit, as most pixels without a proof of shadow are
+  Majority ///< the status of most of the nine texels around them
 };
 
-/// What becomes of pixels outside of a contour.
+/// How to resolve pixels outside the contour.
 enum class OutsideContour
 {
-  Map,  ///< they keep the status that the map says
-  Check ///< those whose nine texels do not agree are treated as if they were inside
+  Map,  ///< by the map's status
+  Check ///< as inside, if their nine texels disagree
 };
 
-/// Which stages a chain has, in their order.
+/// The stages of a chain, in order.
 struct ChainStages
 {
-  int contourPixels = 0; ///< width of the contour; 0: the whole image
+  int contourPixels = 0; ///< width of the contour; 0 for the whole image
   OutsideContour outside = OutsideContour::Map;
   int coherenceTexels = 0; ///< 0, 4 or 9
-  /// Of an area light: how many points around it see maps that have to agree with the centre's; 0:
-  /// its shadows are the hard ones of its centre.
+  /// For area lights, the number of points around the light whose maps must agree with the
+  /// centre's. 0 shows the hard shadows of the centre.
   std::size_t rimPoints = 0;
   int neighbourTexels = 0; ///< 0, 1, 4 or 9
   Adjacency adjacency = Adjacency::Off;
   Leftovers leftovers = Leftovers::Trace;
 };
 
-/// By what a chain decides a pixel: indices into classesOfChain().
+/// The stage that decided a pixel: indices into classesOfChain().
 enum class ChainClass : std::uint8_t
 {
-  NoReceiver,            ///< nothing is seen, or what receives no shadow
+  NoReceiver,            ///< background, or a surface that receives no shadow
   Unreached,             ///< turned away from the light, or outside its cone or box
-  OutsideLit,            ///< outside of the contour, by its texel
+  OutsideLit,            ///< outside the contour, by its texel
   OutsideShadow,         ///< the same
   HintedLit,             ///< by texels that agree
   HintedShadow,          ///< the same
   ConfirmedByTexel,      ///< in shadow by its texel, whose triangle is hit
-  ConfirmedByNeighbours, ///< one of the other texels' triangles is
-  ConfirmedByAdjacency,  ///< one that is adjacent to its texel's triangle is
-  Corrected,             ///< lit by its texel, but one of the texels' triangles is hit
+  ConfirmedByNeighbours, ///< a triangle of another texel is hit
+  ConfirmedByAdjacency,  ///< a triangle adjacent to its texel's is hit
+  Corrected,             ///< lit by its texel, but a triangle of the texels is hit
   TracedLit,             ///< traced; lit by its texel
   TracedShadow,          ///< traced; in shadow by its texel
   LeftLit,
@@ -69,25 +69,24 @@ enum class ChainClass : std::uint8_t
 };
 std::vector<PixelClass> classesOfChain();
 
-/// Moderno's chain (Shadow Mapping and Ray-Tracing, 3.6): pixels near a change of their status by
-/// the shadow map pass one stage after the other, cheapest first, until one decides them. Confirmed
-/// and corrected pixels are in shadow for certain; what is hinted, outside, left or by majority is
-/// taken at its word.
+/// Moderno's chain (Shadow Mapping and Ray-Tracing, 3.6). Pixels near a change of their status on
+/// the shadow map pass stages, cheapest first, until one decides them. Confirmed and corrected
+/// pixels are certainly in shadow. Classes hinted, outside, left and by majority are not verified.
 class Chain : public ReceiverDecider
 {
 public:
-  /// All of these have to live as long as the chain. Finds the contour, if there is to be one.
-  /// @param rim of soft shadows, up to date: what is left is traced with all of the light's
-  /// samples; null: with the ray to its centre
-  /// @param fans up to date with the occluders where there is a stage of adjacency
+  /// Find the contour, if the stages have one. All arguments must outlive the chain.
+  /// @param rim maps of an area light, up to date; undecided pixels are traced with all samples.
+  /// Null traces the ray to the centre only.
+  /// @param fans up to date with the occluders if adjacency is a stage
   Chain(const ChainStages& stages, const TriangleMaps& maps, const RimMaps* rim,
     const TriangleFans& fans, const ScreenInput& input);
 
-  /// Each pixel's visibility; fills the input's classes, if there are to be any.
+  /// Compute each pixel's visibility, and fill the input's classes if it has any.
   /// @return the number of rays traced
   std::size_t run(std::vector<float>& visibility) const;
 
-  /// What run() lets the tracer know of a tile.
+  /// Decide the pixels of a tile for the tracer, during run().
   void ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const override;
 
 private:
@@ -104,7 +103,7 @@ private:
   const TriangleFans& fans_;
   const ScreenInput& input_;
   ShadowRayLight rayLight_;
-  std::vector<std::uint8_t> contour_; ///< 1 for its pixels; empty: the whole image
+  std::vector<std::uint8_t> contour_; ///< 1 for its pixels; empty for the whole image
 };
 
 } // namespace gnomon

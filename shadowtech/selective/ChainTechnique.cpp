@@ -50,7 +50,7 @@ std::size_t ChainTechnique::bytesOfMaps() const
 }
 
 //------------------------------------------------------------------------------
-/// @param soft whether its area counts, not its centre alone
+/// @param soft true to test the light's area rather than its centre
 bool ChainTechnique::lightLiesInCaster(const ScreenInput& input, bool soft)
 {
   const ShadowLight& light = input.light;
@@ -58,7 +58,7 @@ bool ChainTechnique::lightLiesInCaster(const ScreenInput& input, bool soft)
   {
     return false;
   }
-  // Where the light is, the maps' views say: they are baked again when it moves.
+  // The cache needs no position as its key: maps are baked again when the light moves.
   const std::optional<LightArea> area = soft ? light.area : std::nullopt;
   if (!this->inCaster_ || this->inCaster_->first != area)
   {
@@ -77,7 +77,7 @@ void ChainTechnique::computeVisibility(
   const bool soft = input.light.area && stages.rimPoints > 0;
   if (this->lightLiesInCaster(input, soft))
   {
-    // No texel shows that caster, so that only proofs and rays count.
+    // No texel shows that caster, so only proofs and rays are correct.
     stages.contourPixels = 0;
     stages.coherenceTexels = 0;
   }

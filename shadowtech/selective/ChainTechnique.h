@@ -11,16 +11,16 @@
 namespace gnomon
 {
 
-/// Of `coherence` and `selective`: how many texels around a pixel's place on the map have to agree
-/// for the map to be believed; 0: it is not.
+/// Setting of `coherence` and `selective`: how many texels around a pixel's place on the map must
+/// agree for the map's status to count. 0 never uses it.
 struct CoherenceSettings
 {
   int texels = 4;
 };
 const SettingsTable& coherenceSettings();
 
-/// What `coherence` and `selective` share: triangle maps, and a chain of tests that decides pixels
-/// by them. A technique says which stages its chain has.
+/// The base of `coherence` and `selective`: triangle maps, and a chain of tests that decides pixels
+/// by them. A technique chooses the stages.
 class ChainTechnique : public CpuScreenTechnique
 {
 public:
@@ -32,16 +32,17 @@ public:
 
 protected:
   virtual ChainStages stagesOf(const ShadowSettings& settings) const = 0;
-  /// What its info() is but for the name.
+  /// Return the common part of info().
   static TechniqueInfo infoOf(const std::string& name);
 
 private:
   bool lightLiesInCaster(const ScreenInput& input, bool soft);
 
   TriangleMaps maps_;
-  RimMaps rim_; ///< of soft shadows
+  RimMaps rim_; ///< for soft shadows
   TriangleFans fans_;
-  /// Of the maps' casters and light: its area, and whether it lies in a caster. None: not known.
+  /// Cached for the maps' casters and light: its area, and whether it lies in a caster. Empty if
+  /// not computed.
   std::optional<std::pair<std::optional<LightArea>, bool>> inCaster_;
 };
 

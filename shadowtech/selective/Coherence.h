@@ -5,10 +5,12 @@
 namespace gnomon
 {
 
-/// `coherence`: pixels whose texels disagree are traced, all others get what their texels say
-/// (Beister, Ernst, Stamminger, A Hybrid GPU-CPU Renderer, 2005). Of an area light, the texels are
-/// those of eight maps, from its centre and from seven points around it, and what they disagree on
-/// is traced with all samples. Not exact: texels may agree and be wrong.
+/// `coherence`: pixels whose texels disagree are traced. All others get their texels' status
+/// (Beister, Ernst, Stamminger, A Hybrid GPU-CPU Renderer, 2005).
+///
+/// For an area light, texels of eight maps must agree: of its centre and of seven points around it.
+/// Other pixels are traced with all samples. The technique is not exact, as texels may agree and be
+/// wrong.
 class Coherence : public ChainTechnique
 {
 public:

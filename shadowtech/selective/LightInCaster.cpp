@@ -14,13 +14,13 @@ namespace gnomon
 namespace
 {
 
-/// How far off a caster's plane a ray's end may be by rounding, over the largest centred
-/// coordinate: the bound of planeNoise() (ShadowRay.h) for triangles that are no slivers.
+/// How far rounding may move a ray's end off a caster's plane, over the largest centred coordinate.
+/// It is the bound of planeNoise() (ShadowRay.h) for triangles that are no slivers.
 constexpr double rounding = 1.9073486328125e-6; // 2^-19
 
 using Corners = std::array<glm::dvec3, 3>;
 
-/// How far a point in a triangle's plane is from the triangle.
+/// Return the distance of a point in a triangle's plane from the triangle.
 /// @param normal of any length
 double distanceInPlane(const Corners& corners, const glm::dvec3& normal, const glm::dvec3& point)
 {
@@ -37,12 +37,13 @@ double distanceInPlane(const Corners& corners, const glm::dvec3& normal, const g
   return isInside ? 0.0 : nearest;
 }
 
-/// @param noise how far off its plane a triangle's points may seem to lie
+/// Return true if a light lies in a triangle.
+/// @param noise how far off its plane rounding may move a triangle's points, in world units
 bool liesIn(const Corners& corners, const glm::dvec3& position, const LightArea* area, double noise)
 {
   const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double length = glm::length(normal);
-  // Of an instance, a triangle may have no area, and then no plane: it stops no ray.
+  // Triangles of instances may have no area, and so no plane; these stop no ray.
   if (!(length > 0.0) || std::abs(glm::dot(normal, position - corners[0])) > noise * length)
   {
     return false;

@@ -8,14 +8,13 @@
 namespace gnomon
 {
 
-/// Return whether a positional light lies in a caster: on one of its triangles, to within rounding.
+/// Return true if a positional light lies in a caster: on one of its triangles, to within rounding.
 ///
-/// The shadow rays to such a light end on that triangle, but its maps see the triangle edge-on, and
-/// so not at all. An area lies in a triangle if it is flat, coplanar with it and as near to it as
-/// its radius. A light that crosses a caster does not lie in it: either side sees the caster.
-///
+/// Shadow rays to this light end on the triangle. Its maps see the triangle edge-on, and so miss
+/// it. An area lies in a triangle if it is flat, coplanar with it, and no farther than its radius.
+/// A light that crosses a caster does not lie in it, as either side sees the caster.
 /// @param positionCentred the light's centre
-/// @param area around it, in world units; null: the light is a point
+/// @param area around it, in world units; null for a point light
 bool liesInCaster(
   const glm::dvec3& positionCentred, const LightArea* area, const Occluders& occluders);
 

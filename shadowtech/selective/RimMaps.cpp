@@ -19,7 +19,7 @@ int RimMaps::update(const ShadowLight& light, const ViewFitting& fitting,
   {
     this->points_ = std::vector<Point>(points);
   }
-  // What the centre's box leaves out, casts nothing.
+  // Casters outside the centre's box cast nothing.
   const std::optional<glm::dvec4> begins =
     light.box ? std::optional(nearFaceCentred(light, fitting.centreWorld)) : std::nullopt;
   int drawn = 0;
@@ -32,7 +32,7 @@ int RimMaps::update(const ShadowLight& light, const ViewFitting& fitting,
     {
       continue;
     }
-    point.views = {}; // in case that there is no memory
+    point.views = {}; // stays empty if memory runs out
     point.maps.bake(views, light.mapSizeTexels, occluders, begins);
     point.views = std::move(views);
     ++drawn;

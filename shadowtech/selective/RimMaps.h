@@ -13,29 +13,31 @@
 namespace gnomon
 {
 
-/// Triangle maps that points around an area light see, as well as its centre: where all of them say
-/// the same of a receiver, it is taken to be so for all of the light.
+/// Triangle maps of points around an area light, in addition to its centre's. If all of them give a
+/// receiver the same status, it counts for the whole light.
 class RimMaps
 {
 public:
-  /// Forgets the maps, because casters or settings have changed.
+  /// Drop all maps, after casters or settings changed.
   void clear() { this->points_.clear(); }
-  /// Draws the maps whose views have changed.
-  /// @param light with an area
-  /// @param fitting that of the centre's views
-  /// @param points how many
-  /// @return how many points' maps were drawn
-  /// @throws TextureMemoryError for maps without room
+  /// Bake the maps whose views changed.
+  /// @param light must have an area
+  /// @param fitting of the centre's views
+  /// @param points number of points around the light
+  /// @return the number of maps baked
+  /// @throws TextureMemoryError without enough memory
   int update(const ShadowLight& light, const ViewFitting& fitting, const Occluders& occluders,
     std::size_t points);
 
-  /// Whether the texels of all points' maps say this of a receiver. A point behind the receiver's
-  /// plane is not asked, since it gives way to the opposite one (directionToSample()). Where the
-  /// light has a texture, that changes the colour of what nothing hides the light from: no map says
-  /// of a receiver whose plane cuts the light that it is lit.
+  /// Return true if the texels of all points' maps confirm a receiver's status.
+  ///
+  /// Points behind the receiver's plane are not tested, as their opposites replace them
+  /// (directionToSample()). If the light has a texture, that changes the colour of unhidden
+  /// receivers. So no receiver whose plane cuts a textured light counts as lit.
   /// @param origin where the receiver's shadow rays start, centred
   /// @param normal of the receiver, on the camera's side
-  /// @param toCentre from the receiver to the light's centre; of a directional light of length 1
+  /// @param toCentre from the receiver to the light's centre; of length 1 for directional lights
+  /// @param inShadow the status to confirm
   bool agree(const glm::dvec3& origin, const glm::vec3& normal, const glm::vec3& toCentre,
     Neighbourhood neighbourhood, bool inShadow) const;
 
@@ -48,12 +50,12 @@ private:
     LightViews views;
     TriangleMaps maps;
   };
-  /// Whether a receiver's plane has some of the light behind it and some in front.
-  /// @param toCentre the light's, which the receiver faces
+  /// Return true if the light has a texture, and part of its area is behind the receiver's plane.
+  /// @param toCentre to the light, which the receiver faces
   bool cutsTexture(const glm::vec3& normal, const glm::vec3& toCentre) const;
 
   std::vector<Point> points_;
-  std::optional<LightArea> textured_; ///< the light's area, if it has a texture
+  std::optional<LightArea> textured_; ///< the light's area; empty without a texture
 };
 
 } // namespace gnomon

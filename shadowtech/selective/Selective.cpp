@@ -10,8 +10,8 @@ std::string refusedBySelective(const ShadowLight& light)
   if (light.of<ChainSettings>().contourPixels == 0 &&
     light.of<ChainSettings>().outside == OutsideContour::Check)
   {
-    return "nothing is outside of a 'contour' that is the whole image; 'outside' is for those of "
-           "2, 4 and 6 pixels";
+    return "nothing is outside a 'contour' that is the whole image; 'outside' needs a contour of "
+           "2, 4 or 6 pixels";
   }
   return light.of<ChainSettings>().leftovers == Leftovers::Lit &&
       light.of<CoherenceSettings>().texels == 0 && light.of<ChainSettings>().neighbourTexels == 0 &&

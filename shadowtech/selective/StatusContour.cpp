@@ -14,7 +14,7 @@ std::vector<std::uint8_t> contourOf(
 {
   const auto rowOf = [width](int y)
   { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width); };
-  // Which statuses there are around each pixel in its row.
+  // Combine the statuses around each pixel in its row.
   std::vector<std::uint8_t> inRow(statuses.size());
   tbb::parallel_for(0, height,
     [&](int y)

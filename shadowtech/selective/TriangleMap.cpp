@@ -15,16 +15,15 @@ namespace gnomon
 namespace
 {
 
-/// What rounding to float moves depths on a plane by, over their magnitude and what they change by
-/// from texel to texel: four times half a unit in the last place.
+/// Bounds rounding of depths on a plane to float, over their magnitude and their change per texel:
+/// four times half a unit in the last place.
 constexpr double depthRounding = 2.384185791015625e-7; // 2^-22
 
-/// Depths are counted from the farthest caster's, that they are finest in float where most of what
-/// a light in the midst of a scene sees is: depths are in proportion to -1 / distance there.
+/// Depths count from the farthest caster. A light among its casters has depths in proportion to -1
+/// / distance, so float is finest where most of them are.
 constexpr double farthestDepth = 1.0;
 
-/// A polygon's plane, where rounding does not take it beyond the corners' depths, which it would on
-/// slivers.
+/// A polygon's plane, clamped to its corners' depths, as slivers may exceed them by rounding.
 struct BoundedPlane
 {
   MapPlane plane;
@@ -48,7 +47,7 @@ struct BoundedPlane
   }
 };
 
-/// The columns of a row whose centres lie in a convex polygon; none if first > last.
+/// Return the columns of a row whose centres lie in a convex polygon; none if first > last.
 Span columnsOf(const MapPolygon& polygon, double y, int size)
 {
   double low = static_cast<double>(size);
@@ -59,7 +58,7 @@ Span columnsOf(const MapPolygon& polygon, double y, int size)
     const MapCorner* b = &polygon.corners[(i + 1) % polygon.count];
     if (a->y > b->y)
     {
-      std::swap(a, b); // so that neighbours cut their common edge at the same place
+      std::swap(a, b); // neighbours must cut their common edge at the same place
     }
     if (a->y <= y && y < b->y)
     {
@@ -73,7 +72,7 @@ Span columnsOf(const MapPolygon& polygon, double y, int size)
   return { firstFrom(low), firstFrom(high) - 1 };
 }
 
-/// A map while it is drawn.
+/// A map being baked.
 class MapDrawing
 {
 public:
@@ -143,7 +142,7 @@ private:
         const double depth = plane.depthAt(x, y);
         TriangleTexel& texel = texels[column];
         const auto rounded = static_cast<float>(depth);
-        // Where two are as near, it does not matter which thread comes first.
+        // Break ties by number, so that the order of threads does not matter.
         const bool nearer = rounded < texel.depth ||
           (rounded == texel.depth && texel.caster.exists() && caster < texel.caster);
         const bool looksCloser = nearer && (this->kept_ || surface.cutout);
@@ -156,7 +155,8 @@ private:
     }
   }
 
-  /// Whether a triangle blocks light at a point of it: in the light's box, and not in a hole.
+  /// Return true if a triangle blocks light at one of its points: inside the light's box, and not
+  /// in a hole.
   bool blocksAt(const CasterTriangle& caster, const Surface& surface, const MapCorner& point) const
   {
     const glm::dvec4 homogeneous =
@@ -218,7 +218,7 @@ std::optional<MapPlace> TriangleMap::placeOf(
   place.y = point.y * perW;
   place.depth = point.z * perW;
   const double size = this->size_;
-  // Written so that NaN fails. What has no W is behind a positional light.
+  // NaN must fail. Points without positive W are behind a positional light.
   if (!(point.w > 0.0 && place.x >= 0.0 && place.x < size && place.y >= 0.0 && place.y < size))
   {
     return std::nullopt;

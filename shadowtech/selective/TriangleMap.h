@@ -15,12 +15,12 @@
 namespace gnomon
 {
 
-/// A triangle that casts, where it stands.
+/// A casting triangle of one instance.
 struct CasterTriangle
 {
-  std::uint32_t surface = none;  ///< of the snapshot; `none` for no triangle
+  std::uint32_t surface = none;  ///< in the snapshot; `none` for no triangle
   std::uint32_t instance = 0;    ///< of a surface with instances
-  std::uint32_t triangle = none; ///< of the snapshot
+  std::uint32_t triangle = none; ///< number in the snapshot
 
   static constexpr std::uint32_t none = 0xffffffffu;
 
@@ -37,67 +37,69 @@ struct CasterTriangle
   }
 };
 
-/// What a map has at a texel's centre: the caster that is nearest to the light there.
+/// The caster nearest to the light at a texel's centre.
 struct TriangleTexel
 {
   CasterTriangle caster;
   float depth = std::numeric_limits<float>::infinity(); ///< at the centre
   ///@{
-  /// What depth changes by on the caster's plane, to the next texel.
+  /// Change of depth on the caster's plane to the next texel.
   float perColumn = 0.0f;
   float perRow = 0.0f;
   ///@}
 };
 
-/// A shadow ray as a map sees it: as one point, where it starts.
+/// Where a shadow ray starts, on a map.
 struct MapPlace
 {
   int column = 0, row = 0; ///< the texel that holds the point
   double x = 0.0, y = 0.0; ///< in texels
   double depth = 0.0;
-  /// The plane of the receiver, moved to where the ray starts: over (x, y, depth, 1), positive on
-  /// the side that the camera sees.
+  /// The receiver's plane, moved to the ray's start. Its product with (x, y, depth, 1) is positive
+  /// on the side that the camera sees.
   glm::dvec4 plane{ 0.0 };
 };
 
-/// The texels around a place, in squares.
+/// Squares of texels around a place.
 enum class Neighbourhood
 {
-  Centre, ///< the texel that holds it
-  Four,   ///< with the three nearest to it: those that a bilinear filter weighs
-  Nine    ///< with all that touch it
+  Centre, ///< the texel that holds the place
+  Four,   ///< with the three nearest to the place, as a bilinear filter weighs
+  Nine    ///< with all that touch its texel
 };
 
-/// A shadow map of one view of a light that also says which triangle it saw: at the centre of each
-/// texel, as Williams' (1978). Drawn on the CPU, in double precision; both sides of casters count,
-/// but of those that are one-sided, and the holes of textures are left out.
+/// A shadow map of one view of a light that also stores which triangle is nearest at the centre of
+/// each texel, as Williams' (1978). It is baked on the CPU, in double precision. Both sides of
+/// casters count, unless they are one-sided. Holes of textures are left out.
 ///
 /// *Depth* is that of conservative maps (ConservativeMap.h), affine on planes across the map and
-/// growing along every ray, but that it ends at 0, behind all casters, so that floats hold it well.
+/// growing along every ray. It ends at 0, behind all casters, to suit the precision of floats.
 class TriangleMap
 {
 public:
-  /// Draws the casters.
-  /// @param keptFromCentred of a light with a box: a plane (n, d) in centred coordinates, no deeper
-  /// than the view's box; of casters, only what has n.p + d >= 0 counts
+  /// Bake the casters.
+  /// @param keptFromCentred for lights with a box, a plane (n, d) in centred coordinates, no deeper
+  /// than the view's box; only parts of casters with n.p + d >= 0 count
   TriangleMap(const LightView& view, const std::optional<glm::dvec4>& keptFromCentred,
     int sizeTexels, const Occluders& occluders);
 
-  /// Where a shadow ray lies on the map; nothing where it lies beside it.
+  /// Return where a shadow ray starts on the map; nothing if that is outside.
   /// @param origin where it starts, centred
   /// @param normal of its receiver, on the camera's side
   std::optional<MapPlace> placeOf(const glm::dvec3& origin, const glm::dvec3& normal) const;
 
-  /// A texel; an empty one outside of the map.
+  /// Return a texel; an empty one outside the map.
   const TriangleTexel& texel(int column, int row) const;
 
-  /// Whether the caster at a texel's centre hides a receiver, as far as that can be told: its plane
-  /// passes between the receiver and the light, and at the centre, even pushed back by what it may
-  /// be deeper on the way to the receiver's place, it lies before the receiver's plane.
+  /// Return true if the caster at a texel's centre hides a receiver, as far as the map can tell.
+  /// Two conditions must hold:
+  /// - the caster's plane passes between the receiver and the light;
+  /// - at the centre, the caster lies before the receiver's plane, even if pushed back. The push is
+  ///   its largest change of depth on the way to the receiver's place.
   ///
-  /// No bias is tuned. A triangle does neither to its own points. Where a surface is convex,
-  /// neighbours lie behind the receiver's plane; where it is concave, the receiver lies before
-  /// theirs. What is left are surfaces that are both within a texel.
+  /// No bias is tuned. A triangle meets neither condition for its own points. Where a surface is
+  /// convex, neighbours lie behind the receiver's plane. Where it is concave, the receiver lies
+  /// before theirs. Only surfaces that are both within a texel remain.
   bool shadows(const TriangleTexel& texel, int column, int row, const MapPlace& place) const;
   bool shadows(int column, int row, const MapPlace& place) const
   {
@@ -109,14 +111,13 @@ public:
 private:
   int size_;
   glm::dmat4 mapFromCentred_;   ///< to X, Y, Q and W of MapPoint
-  glm::dmat4 planeFromCentred_; ///< its inverse, transposed: takes planes
+  glm::dmat4 planeFromCentred_; ///< its inverse transposed, which maps planes
   std::vector<TriangleTexel> texels_;
 };
 
-/// Visits the texels of a neighbourhood, the one that holds the place first.
-/// @param visit called with column and row, inside of the map or not; returns whether that is
-/// enough
-/// @return whether it was
+/// Visit the texels of a neighbourhood, the one that holds the place first.
+/// @param visit called with column and row, inside the map or not; returns true to stop
+/// @return true if `visit` stopped
 template <typename Visit>
 bool visitNeighbourhood(Neighbourhood neighbourhood, const MapPlace& place, const Visit& visit)
 {

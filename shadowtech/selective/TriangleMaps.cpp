@@ -30,7 +30,7 @@ bool PlaceOnMaps::agree(Neighbourhood neighbourhood) const
 void TriangleMaps::bake(const LightViews& views, int sizeTexels, const Occluders& occluders,
   const std::optional<glm::dvec4>& keptFromCentred)
 {
-  this->maps_.clear(); // what they had makes room
+  this->maps_.clear(); // frees the old maps' memory first
   requireRoomForMap(sizeof(TriangleTexel), sizeTexels, static_cast<int>(views.views.size()));
   for (const LightView& view : views.views)
   {

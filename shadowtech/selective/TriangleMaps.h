@@ -9,33 +9,33 @@
 namespace gnomon
 {
 
-/// Where a shadow ray lies on the maps of a light.
+/// A shadow ray's start on one of the maps of a light.
 struct PlaceOnMaps
 {
-  const TriangleMap* map; ///< lives as long as the maps do
+  const TriangleMap* map; ///< valid as long as the maps exist
   MapPlace place;
 
   bool shadows(int column, int row) const { return this->map->shadows(column, row, this->place); }
-  /// The status by the map: what the texel that holds the place says.
+  /// Return the status by the map: true if the place's own texel says shadow.
   bool shadows() const { return this->shadows(this->place.column, this->place.row); }
-  /// How many of the nine texels around say that the receiver is in shadow.
+  /// Return how many of the nine texels around say shadow.
   int votes() const;
-  /// Whether all texels of a neighbourhood say the same.
+  /// Return true if all texels of a neighbourhood give the same status.
   bool agree(Neighbourhood neighbourhood) const;
 };
 
-/// The triangle maps of all of a light's views.
+/// The triangle maps of all views of a light.
 class TriangleMaps
 {
 public:
-  /// Draws the casters into a map per view.
-  /// @param keptFromCentred of a light with a box: a plane (n, d) in centred coordinates; of
-  /// casters, only what has n.p + d >= 0 counts
-  /// @throws TextureMemoryError for maps without room; there are none then
+  /// Bake a map for each view.
+  /// @param keptFromCentred for lights with a box, a plane (n, d) in centred coordinates; only
+  /// parts of casters with n.p + d >= 0 count
+  /// @throws TextureMemoryError without enough memory; there are no maps then
   void bake(const LightViews& views, int sizeTexels, const Occluders& occluders,
     const std::optional<glm::dvec4>& keptFromCentred);
 
-  /// The place on the first map that holds it, which of splits is the finest; nothing where no
+  /// Return the place on the first map that holds it, the finest of splits. Without a place no
   /// caster can be between the light and the receiver, as views see all casters.
   std::optional<PlaceOnMaps> find(const glm::dvec3& origin, const glm::dvec3& normal) const;
 

@@ -433,7 +433,7 @@ TEST_F(CellsDrawnOnGpu, areNotThereWhereOpenGlFails)
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(cells));
     ASSERT_NE(glMapBuffer(GL_SHADER_STORAGE_BUFFER, GL_READ_ONLY), nullptr);
     EXPECT_EQ(failureOf([&] { target.read(nothing); }),
-      "a conservative map of 8 texels could not be drawn on the GPU: OpenGL reports error 0x502");
+      "a conservative map of 8 texels could not be baked on the GPU: OpenGL reports error 0x502");
     glUnmapBuffer(GL_SHADER_STORAGE_BUFFER);
     EXPECT_EQ(failureOf([&] { target.read(nothing); }), "");
   }
