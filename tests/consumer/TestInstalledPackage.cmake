@@ -73,6 +73,11 @@ endif()
 
 # The Python package, by README.md's line.
 if(PYTHON)
+  foreach(file py.typed GnomonLights.pyi GnomonPlugin.pyi)
+    if(NOT EXISTS "${WORK_DIR}/prefix/${PYTHON_DESTINATION}/gnomon/${file}")
+      message(FATAL_ERROR "The Python package has no ${file}.")
+    endif()
+  endforeach()
   string(REGEX MATCH "```python\n([^ `]*[^`]*\\))" block "${readme}")
   set(line "${CMAKE_MATCH_1}")
   file(READ "${CONSUMER_DIR}/../../examples/shadows.py" program)
