@@ -373,7 +373,11 @@ public:
    * point data: "light N" for each light that casts, by its number in the renderer's collection, 1
    * lit, 0 in shadow (three components of a light with a texture); "position", in world
    * coordinates; "normal", geometric, of unit length, on the camera's side; "coverage", 1 where a
-   * surface was drawn, else 0, and the other numbers mean nothing.
+   * surface was drawn, else 0, and the numbers so far mean nothing; "prop", an integer, the number
+   * in vtkRenderer::GetViewProps() of what was drawn, -1 for nothing; "cell", an integer, the cell
+   * of the mapper's input where that is a vtkPolyData, as for picking. It is -1 for other input
+   * (composite data, other data sets, glyphs, molecules), parts of assemblies, levels of detail,
+   * and spheres and tubes in place of points and lines.
    */
   void GetVisibilityImage(vtkImageData* image) const;
 

@@ -192,7 +192,9 @@ def visibility(shadows: vtkGnomonShadowPass) -> dict[str, numpy.ndarray]:
     dict of str to numpy.ndarray
         Arrays of height x width (x 3), row 0 at the bottom: "light N" for each light that casts, by
         its number in the renderer, 1 lit, 0 in shadow; "position" in world coordinates; "normal";
-        "coverage", 1 where a surface was drawn. They are the caller's own: later frames do not
+        "coverage", 1 where a surface was drawn; "prop", the surface's prop by its number in
+        renderer.GetViewProps(), -1 for nothing; "cell", by its number in the mapper's input where
+        that is a polydata, else -1. They are the caller's own: later frames do not
         write into them. Empty where nothing was kept.
     """
     from vtkmodules.util.numpy_support import vtk_to_numpy
