@@ -15,13 +15,16 @@
  * what one prop does (casts, receives, one-sided) with vtkGnomonPropKeys. Opaque surfaces cast and
  * receive, by mappers of polydata, data sets, composite data and glyphs, under actors, assemblies,
  * followers and props with levels of detail (docs/guide/what_casts.md). Translucent surfaces
- * receive, and cast only if asked. Everything else is drawn as VTK draws it; a warning names, once,
- * what is lit and left out. A headlight that is the only light casts only if asked.
+ * receive, and cast only if asked. Everything else is drawn as VTK draws it; a warning names what is
+ * lit and left out. A headlight that is the only light casts only if asked.
  *
  * Other passes may stand around it, or inside it as its delegate (docs/pass_chains.md).
  *
  * The pass steps aside for hardware selection, and draws the scene as plain VTK does, without a map
  * or a ray, when no light casts. It leaves the OpenGL state as it found it.
+ *
+ * What is wrong with a frame is said once, by an error or a warning of the pass, and again only if
+ * the text is another one, or after a frame in which it was mended.
  *
  * Techniques take OpenGL 4.3. Those that trace from the CPU (raytraced, silhouette, crsm, crsma,
  * penumbra) take 3.2; below 4.3 lights with others have raytraced instead, after an error
@@ -426,8 +429,10 @@ private:
   void TellPlain(const char* reason);
   void DrawPlain(const vtkRenderState* s);
   void RenderPlain(const vtkRenderState* s, const char* reason);
-  void TellOfLights();
-  void TellWhatIsLeftOut();
+  void TellOfLights(vtkRenderer* renderer);
+  void TellWhatIsLeftOut(vtkRenderer* renderer);
+  void TellOfRoute(vtkRenderer* renderer, bool isTaken);
+  void TellOfResolution(const vtkRenderState* s, bool isReceivers);
 
   vtkGnomonShadowPass(const vtkGnomonShadowPass&) = delete;
   void operator=(const vtkGnomonShadowPass&) = delete;
