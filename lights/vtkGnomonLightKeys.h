@@ -93,20 +93,24 @@ public:
   ///@{
   /**
    * Set one of the settings. The size is clamped to what the setting takes; 0 or less takes it
-   * away.
+   * away. Where the light says nothing, GetTechnique returns null and GetMapSize 0.
    */
   static void SetTechnique(vtkLight* light, const char* technique);
+  static const char* GetTechnique(vtkLight* light);
   static void SetMapSize(vtkLight* light, int mapSizeTexels);
+  static int GetMapSize(vtkLight* light);
   ///@}
 
   ///@{
   /**
    * Limit a directional light to a box, and lift that limit again. Sizes that are not positive and
    * finite, and an up direction of no length, are an error and change nothing; an up direction
-   * along the light makes the light cast no shadow, which the frame's report says.
+   * along the light makes the light cast no shadow, which the frame's report says. GetBox gives
+   * width, height and depth, and the up direction; without a box it returns false and gives nothing.
    */
   static void SetBox(
     vtkLight* light, double width, double height, double depth, const double up[3]);
+  static bool GetBox(vtkLight* light, double size[3], double up[3]);
   static void RemoveBox(vtkLight* light);
   ///@}
 

@@ -73,14 +73,19 @@ public:
    */
   static void MakeKeyLight(vtkLight* light, vtkCamera* camera, const double bounds[6]);
 
+  ///@{
   /**
    * Turn a light into a direction, in degrees. Pitch and yaw 0 is the way along -z. Yaw turns to
    * the left, around +y; pitch then raises it, so that -90 shines straight down. A positional light
    * turns about its position, a directional one about its focal point, as far from it as before.
    * (vtkLight's SetDirectionAngle takes -pitch and yaw, but puts the focal point into the origin
-   * and makes the light directional.)
+   * and makes the light directional.) GetPitchAndYaw gives both, in this order, for any light: a
+   * pitch in [-90, 90] and a yaw in [-180, 180], which is 0 straight up and down. A light without a
+   * direction is an error of the light, and gives zeros.
    */
   static void SetPitchAndYaw(vtkLight* light, double pitchDegrees, double yawDegrees);
+  static void GetPitchAndYaw(vtkLight* light, double degrees[2]);
+  ///@}
 
 protected:
   vtkGnomonLightPlacement() = default;
