@@ -106,7 +106,8 @@ public:
    * Limit a directional light to a box, and lift that limit again. Sizes that are not positive and
    * finite, and an up direction of no length, are an error and change nothing; an up direction
    * along the light makes the light cast no shadow, which the frame's report says. GetBox gives
-   * width, height and depth, and the up direction; without a box it returns false and gives nothing.
+   * width, height and depth, and the up direction; without a box it returns false and changes
+   * nothing.
    */
   static void SetBox(
     vtkLight* light, double width, double height, double depth, const double up[3]);

@@ -19,8 +19,8 @@
  *
  * Multisampling is off by default (SetMultiSamples). If no context can be made, Initialize() and
  * everything that needs one is an error (vtkErrorMacro), said once, that says what was tried, and
- * nothing is drawn. The window's calls belong on one thread; on a thread where another window system's context
- * (GLX) is current, release that one first.
+ * nothing is drawn. The window's calls belong on one thread; on a thread where another window
+ * system's context (GLX) is current, release that one first.
  */
 
 #ifndef vtkGnomonEGLRenderWindow_h

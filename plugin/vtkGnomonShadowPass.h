@@ -15,16 +15,16 @@
  * what one prop does (casts, receives, one-sided) with vtkGnomonPropKeys. Opaque surfaces cast and
  * receive, by mappers of polydata, data sets, composite data and glyphs, under actors, assemblies,
  * followers and props with levels of detail (docs/guide/what_casts.md). Translucent surfaces
- * receive, and cast only if asked. Everything else is drawn as VTK draws it; a warning names what is
- * lit and left out. A headlight that is the only light casts only if asked.
+ * receive, and cast only if asked. Everything else is drawn as VTK draws it; a warning names what
+ * is lit and left out. A headlight that is the only light casts only if asked.
  *
  * Other passes may stand around it, or inside it as its delegate (docs/pass_chains.md).
  *
  * The pass steps aside for hardware selection, and draws the scene as plain VTK does, without a map
  * or a ray, when no light casts. It leaves the OpenGL state as it found it.
  *
- * What is wrong with a frame is said once, by an error or a warning of the pass, and again only if
- * the text is another one, or after a frame in which it was mended.
+ * The pass says once what is wrong with a frame, by an error or a warning. It says so again if the
+ * text changes, or if the mistake returns after a frame without it.
  *
  * Techniques take OpenGL 4.3. Those that trace from the CPU (raytraced, silhouette, crsm, crsma,
  * penumbra) take 3.2; below 4.3 lights with others have raytraced instead, after an error

@@ -14,8 +14,8 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What errors and warnings of a frame are about. Each is looked at by itself, so that a frame which
-/// ends early mends nothing that it did not come to.
+/// What errors and warnings of a frame are about. Each is looked at by itself, so that a frame that
+/// ends early mends nothing that it did not reach.
 enum class Topic
 {
   Context,

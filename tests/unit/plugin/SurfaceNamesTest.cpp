@@ -1,5 +1,5 @@
-// Whose surface and which cell a pixel shows, against VTK's picker, which meets cells by rays of its
-// own.
+// Whose surface and which cell a pixel shows, against VTK's picker, which meets cells by its own
+// rays.
 
 #include "PassScene.h"
 

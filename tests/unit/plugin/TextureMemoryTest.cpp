@@ -119,7 +119,8 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-/// An error in the first frame, no shadows in any, and all as it was before once the maps have room again.
+/// An error in the first frame, no shadows in any, and all as it was before once the maps have room
+/// again.
 TEST_P(MapsWithoutRoom, areAnErrorThatOffersSmallerOnesAndLeaveNothingBehind)
 {
   PassScene scene(100, 80);
