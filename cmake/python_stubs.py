@@ -51,22 +51,33 @@ class Stub:
                 continue
             if inspect.isroutine(value) and not inspect.isdatadescriptor(value):
                 add(self.lines_of_method(name, value))
-            elif inspect.isdatadescriptor(value):  # a property that calls a getter or a setter
-                add([f"{name}: {self.any()}"])
+            elif inspect.isdatadescriptor(value):
+                add([f"{name}: {self.type_of_property(kind, value)}"])
             else:
                 add([f"{name}: {type(value).__name__}"])
         if len(lines) == 1:
             add(["..."])
         return lines
 
-    def lines_of_method(self, name, method):
-        head, _, text = (method.__doc__ or "").partition("\n\n")
-        signatures = []
-        for line in re.sub(r"\n[ \t]+", " ", head).split("\n"):
+    def type_of_property(self, kind, value):
+        """What its getter returns, which the property's text names."""
+        getter = re.search(r"\bGet\w+", value.__doc__ or "")
+        method = getattr(kind, getter[0], None) if getter else None
+        signatures = self.signatures(getter[0], method.__doc__ or "") if method else []
+        return signatures[0].rpartition(" -> ")[2].rstrip(":") if signatures else self.any()
+
+    def signatures(self, name, text):
+        found = []
+        for line in re.sub(r"\n[ \t]+", " ", text.partition("\n\n")[0]).split("\n"):
             if line.startswith(name + "("):
                 signature = self.signature(line)
-                if signature not in signatures:
-                    signatures.append(signature)
+                if signature not in found:
+                    found.append(signature)
+        return found
+
+    def lines_of_method(self, name, method):
+        text = (method.__doc__ or "").partition("\n\n")[2]
+        signatures = self.signatures(name, method.__doc__ or "")
         if not signatures:
             signatures = [f"def {name}(self, *arguments: {self.any()}) -> {self.any()}:"]
         lines = []
