@@ -23,7 +23,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.csv" PATTERN "*.svg")
 foreach(page README.md CHANGELOG.md LICENSE cmake/debian-packages.txt examples/shadows.cxx
-    examples/shadows.py examples/headless_figure.cxx)
+    examples/shadows.py examples/pyvista_shadows.py examples/headless_figure.cxx)
   get_filename_component(folder "${page}" DIRECTORY)
   install(FILES "${PROJECT_SOURCE_DIR}/${page}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}")
 endforeach()

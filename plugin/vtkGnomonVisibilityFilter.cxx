@@ -166,6 +166,13 @@ struct vtkGnomonVisibilityFilter::Internals
   {
     this->lights.push_back({ glm::normalize(towards), hours, nullptr });
   }
+  /// @return null for a number that does not exist
+  const AddedLight* find(int index) const
+  {
+    return index >= 0 && index < static_cast<int>(this->lights.size())
+      ? &this->lights[static_cast<std::size_t>(index)]
+      : nullptr;
+  }
 };
 
 vtkStandardNewMacro(vtkGnomonVisibilityFilter);
@@ -330,6 +337,28 @@ int vtkGnomonVisibilityFilter::GetNumberOfLights()
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonVisibilityFilter::GetDirection(int index, double towards[3])
+{
+  const AddedLight* const added = this->Internal->find(index);
+  const glm::dvec3 direction = added ? added->towards : glm::dvec3(0.0);
+  std::copy_n(&direction.x, 3, towards);
+}
+
+//------------------------------------------------------------------------------
+vtkLight* vtkGnomonVisibilityFilter::GetLight(int index)
+{
+  const AddedLight* const added = this->Internal->find(index);
+  return added ? added->light : nullptr;
+}
+
+//------------------------------------------------------------------------------
+double vtkGnomonVisibilityFilter::GetHours(int index)
+{
+  const AddedLight* const added = this->Internal->find(index);
+  return added ? added->hours : 0.0;
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkGnomonVisibilityFilter::GetNumberOfRays()
 {
   return static_cast<vtkTypeInt64>(this->Internal->rays);
@@ -422,6 +451,15 @@ std::vector<gnomon::WeightedLight> weightedLights(const std::vector<AddedLight>&
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+int vtkGnomonVisibilityFilter::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  // An abort is of one execution. Older releases of VTK clear it by themselves, newer ones do not.
+  this->AbortExecute = 0;
+  return this->Superclass::RequestUpdateExtent(request, input, output);
+}
 
 //------------------------------------------------------------------------------
 int vtkGnomonVisibilityFilter::RequestData(

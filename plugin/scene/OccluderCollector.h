@@ -43,6 +43,8 @@ public:
   SnapshotChange collect(vtkRenderer* renderer, bool readsNormals = false);
 
   const Occluders& occluders() const { return this->surfaces_.occluders(); }
+  /// One for each of the snapshot's surfaces.
+  const std::vector<SurfaceRecord>& records() const { return this->surfaces_.records(); }
 
   /// What the last collect() left out although it may be visible and opaque (mappers that are not
   /// served), and what it could not do for a surface, in words.

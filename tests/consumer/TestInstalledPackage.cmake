@@ -64,6 +64,11 @@ endif()
 
 # The Python package.
 if(PYTHON)
+  foreach(file py.typed GnomonLights.pyi GnomonPlugin.pyi)
+    if(NOT EXISTS "${WORK_DIR}/prefix/${PYTHON_DESTINATION}/gnomon/${file}")
+      message(FATAL_ERROR "The Python package has no ${file}.")
+    endif()
+  endforeach()
   execute_process(
     COMMAND "${CMAKE_COMMAND}" -E env --unset=DISPLAY
       "PYTHONPATH=${WORK_DIR}/prefix/${PYTHON_DESTINATION}"

@@ -9,47 +9,12 @@ from unittest import mock
 
 import numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
-from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkPointSource, vtkSphereSource
+from vtkmodules.vtkFiltersSources import vtkPointSource, vtkSphereSource
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
-from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
 
 import gnomon
-
-
-def add(renderer, source):
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputConnection(source.GetOutputPort())
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    renderer.AddActor(actor)
-    return actor
-
-
-class Scene:
-    """A ball over a floor, seen from above."""
-
-    def __init__(self, has_sun=True):
-        self.renderer = vtkRenderer()
-        self.window = gnomon.vtkGnomonEGLRenderWindow()
-        self.window.SetSize(120, 90)
-        self.window.AddRenderer(self.renderer)
-        floor = vtkPlaneSource()
-        floor.SetOrigin(-3, -3, 0)
-        floor.SetPoint1(3, -3, 0)
-        floor.SetPoint2(-3, 3, 0)
-        ball = vtkSphereSource()
-        ball.SetCenter(0, 0, 1)
-        ball.SetRadius(0.5)
-        add(self.renderer, floor)
-        self.ball = add(self.renderer, ball)
-        camera = self.renderer.GetActiveCamera()
-        camera.SetPosition(0, -5, 6)
-        camera.SetFocalPoint(0, 0, 0)
-        self.renderer.ResetCameraClippingRange()
-        if has_sun:
-            sun = vtkLight()
-            sun.SetPosition(1, 0, 1.5)
-            self.renderer.AddLight(sun)
+from scene import Scene, add
 
 
 class Shadows(unittest.TestCase):
@@ -69,6 +34,14 @@ class Shadows(unittest.TestCase):
         dark = covered & (arrays["light 0"] == 0) & (arrays["position"][..., 2] < 1e-6)
         self.assertGreater(dark.sum(), 50)
         self.assertLess(arrays["position"][dark][:, 0].mean(), -0.4)
+        # The floor is the first prop, of one cell, the ball the second, of many.
+        on_floor = covered & (arrays["position"][..., 2] < 1e-6)
+        for name, kind in (("prop", "i"), ("cell", "i")):
+            self.assertEqual((arrays[name].shape, arrays[name].dtype.kind), ((90, 120), kind))
+            self.assertTrue((arrays[name][on_floor] == 0).all())
+            self.assertTrue((arrays[name][~covered] == -1).all())
+        self.assertTrue((arrays["prop"][covered & ~on_floor] == 1).all())
+        self.assertGreater(len(numpy.unique(arrays["cell"][covered & ~on_floor])), 20)
 
     def test_arrays_outlive_frames_and_the_pass(self):
         scene = Scene()

@@ -110,6 +110,9 @@ echo "$SECONDS s: installing packages"
     inside apt-get install -qq --yes --no-install-recommends -o Dpkg::Use-Pty=0 $packages
 } > "$folder/$release-packages.log" 2>&1 ||
   untested "its packages do not install ($folder/$release-packages.log)"
+# Not in all releases; what takes it is skipped without.
+inside apt-get install -qq --yes --no-install-recommends -o Dpkg::Use-Pty=0 python3-pyvista \
+  > "$folder/$release-optional.log" 2>&1 || echo "$release has no python3-pyvista"
 inside dpkg-query -W -f '${Package} ${Version}\n' g++ libvtk9-dev libembree-dev libgl1-mesa-dri
 
 echo "$SECONDS s: building"
