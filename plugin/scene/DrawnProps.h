@@ -40,7 +40,7 @@ struct DrawnBlock
   vtkPolyData* drawnAs = nullptr;    ///< VTK draws it in the data's place; null: the data itself
   vtkMapper* solids = nullptr;       ///< the mapper, if it draws a solid at each point and no cells
   SurfaceCells solidCells = SurfaceCells::Spheres; ///< kind of these solids
-  /// @{
+  ///@{
   /// Radius of spheres at vertex cells and of tubes along lines: an affine function of the world
   /// position, as each has a constant number of pixels. Zero if VTK draws none.
   glm::dvec4 pointRadiusFromWorld{ 0.0 };

@@ -22,7 +22,7 @@ glm::ivec2 sizeOf(const vtkRenderState* s);
 /// Return the origin of that picture in the bound framebuffer, in pixels.
 glm::ivec2 originOf(const vtkRenderState* s);
 
-/// @{
+///@{
 /// Return a renderer's camera. Positions are relative to a point before they become floats.
 /// @param centreWorld the origin of centred coordinates
 glm::dmat4 centredFromView(vtkRenderer* renderer, const glm::dvec3& centreWorld); ///< rigid
