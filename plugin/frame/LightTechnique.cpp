@@ -33,7 +33,7 @@ void LightTechnique::chooseFit(
 }
 
 //------------------------------------------------------------------------------
-/// Why a light's views cannot be fitted to the receivers that are drawn; empty if they can.
+/// Return why a light's views cannot be fitted to the drawn receivers; empty if they can.
 std::string LightTechnique::reasonAgainstReceivers(
   const ShadowLight& light, Route route, bool translucentReceivers) const
 {
@@ -113,7 +113,7 @@ void LightTechnique::updateMaps(
   stage.report.values.push_back({ "maps of " + nameOf(light), changes.empty(), changes });
   if (changes.empty())
   {
-    this->baked_.rasterizer = wanted.rasterizer; // it may be the same for another reason
+    this->baked_.rasterizer = wanted.rasterizer; // its reason may differ for the same rasterizer
   }
   else
   {
@@ -123,7 +123,7 @@ void LightTechnique::updateMaps(
 }
 
 //------------------------------------------------------------------------------
-/// Lays out the light's views, and keeps how.
+/// Lay out the light's views, and store the fitting.
 LightViews LightTechnique::layOut(
   const ShadowLight& light, const MapStage& stage, const MapReach& reach)
 {
@@ -142,8 +142,8 @@ LightViews LightTechnique::layOut(
   LightViews views = fitLightViews(seen, fitting);
   if (reach.dependsOnViews())
   {
-    // How many texels that is, only a view can tell. A wider border makes them fewer. The faces of
-    // a cube hold all casters together, and none needs what an area reaches beside it.
+    // Only a view determines this reach in texels. A wider border makes it smaller. The faces of a
+    // cube hold all casters together, so none needs the reach of an area beside it.
     const double areaAcross = views.layout == ViewLayout::Cube
       ? 0.0
       : reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred);
@@ -155,7 +155,7 @@ LightViews LightTechnique::layOut(
 }
 
 //------------------------------------------------------------------------------
-/// What maps of this frame are to be drawn from.
+/// Return the inputs of the maps of this frame.
 LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const MapStage& stage)
 {
   Bake wanted;
@@ -186,7 +186,7 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
 //------------------------------------------------------------------------------
 void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake wanted)
 {
-  this->baked_.key.reset(); // in case that there is no memory
+  this->baked_.key.reset(); // stays empty if memory runs out
   const bool onCpu = wanted.rasterizer && !wanted.isDrawnOnGpu();
   if (!onCpu)
   {
