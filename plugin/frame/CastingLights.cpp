@@ -45,8 +45,8 @@ const EstimatorEntry& composeHere(ShadowLight& light)
   if (!canDrawMaps() && (drawsMaps || info.evaluation != Evaluation::ScreenCpu))
   {
     throw CompositionError("'" + light.technique +
-      "' takes OpenGL 4.3, and this context has less; what the CPU traces takes 3.2: 'raytraced', "
-      "'silhouette', 'penumbra'");
+      "' needs OpenGL 4.3, and this context has less; 'raytraced', 'silhouette' and 'penumbra' "
+      "need 3.2");
   }
   return estimator;
 }
@@ -62,7 +62,7 @@ const EstimatorEntry& composeIn(ShadowLight& light, std::vector<std::string>& mi
   catch (const CompositionError& error)
   {
     misfits.push_back(
-      nameOf(light) + ": " + error.what() + ". It has '" + fallbackTechnique() + "' instead");
+      nameOf(light) + ": " + error.what() + ". It uses '" + fallbackTechnique() + "' instead");
   }
   const int mapSizeTexels = light.mapSizeTexels;
   static_cast<ShadowSettings&>(light) = {};
@@ -78,8 +78,8 @@ void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::stri
   if (samples > 1 && samples > mostMapSamples())
   {
     const std::string most = std::to_string(mostMapSamples());
-    notes.push_back(nameOf(light) + ": OpenGL draws maps with at most " + most +
-      " samples of a texel, not " + std::to_string(samples));
+    notes.push_back(nameOf(light) + ": OpenGL supports at most " + most +
+      " samples per texel of a map, not " + std::to_string(samples));
     findSetting("map_samples")->set(light, most);
   }
   if (light.texture && !info.seesTextures)
@@ -183,7 +183,8 @@ void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
       of.light.technique = "raytraced";
       of.light.estimator.clear();
       of.estimator = &composeIn(of.light, report.misfits);
-      of.budgetReason = of.asked ? "" : "the memory budget has no room for its map, so it has rays";
+      of.budgetReason =
+        of.asked ? "" : "the memory budget has no room for its map, so rays replace it";
     }
     else if (share.mapSizeTexels < of.light.mapSizeTexels)
     {

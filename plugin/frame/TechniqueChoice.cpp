@@ -248,16 +248,16 @@ std::string TechniqueChoice::whyNoMaps() const
     static_cast<std::size_t>(mostLooks) * Probes::across * Probes::across;
   if (WrongProbes{ mostProbes, 0 }.mostShare() > wishes.maximumError)
   {
-    return "probes cannot show that so small an error is kept";
+    return "probes cannot show an error as small as the limit";
   }
   if (this->frame_.severalViews)
   {
-    return "several views are drawn, which are to look alike";
+    return "several views are drawn and must look alike";
   }
   if (this->frame_.lights.size() > mostInlineLights)
   {
-    return "shaders would ask the maps of " + std::to_string(this->frame_.lights.size()) +
-      " lights, and " + std::to_string(mostInlineLights) + " are the most";
+    return "shaders can read the maps of at most " + std::to_string(mostInlineLights) +
+      " lights, not " + std::to_string(this->frame_.lights.size());
   }
   const auto isOther = [](const CastingLight& casting)
   { return !casting.asked && !casting.own.info().isPointwise(); };
@@ -272,11 +272,11 @@ std::string TechniqueChoice::whyNoMaps() const
   if (std::any_of(
         this->occluders_.surfaces.begin(), this->occluders_.surfaces.end(), isUnseenReceiver))
   {
-    return "a surface shows shadows and casts none, which probes do not see";
+    return "a surface shows shadows but casts none, so probes miss it";
   }
   if (this->visibility_.tracerChoice().gpu)
   {
-    return "the GPU traces, which does not say what pixels show, so that no map can be probed";
+    return "the GPU tracer does not return what pixels show, so no map can be probed";
   }
   return {};
 }
@@ -342,7 +342,7 @@ std::string TechniqueChoice::tryMap(
     }
     if (!wrong)
     {
-      return "the tracer does not say what pixels show, so that no map can be probed";
+      return "the tracer does not return what pixels show, so no map can be probed";
     }
     // If no visible point faces the light, nothing can be wrong.
     choice.isProbed = wrong->asked == 0 || wrong->mostShare() <= limit;
