@@ -112,7 +112,7 @@ void TechniqueChoice::choose(const std::function<void(CastingLight&)>& bake)
 }
 
 //------------------------------------------------------------------------------
-/// Return what changed since the last frame, and the present counts.
+/// Return the changes since the last frame and the present counts.
 FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& hard)
 {
   std::size_t view = 0;

@@ -80,8 +80,8 @@ vtkMapper* chosenLevel(vtkLODActor* actor)
   return best;
 }
 
-/// Return what a vtkQuadricLODActor draws. In frames that must be as fast as interaction asks, that
-/// is its coarse level. VTK makes that level in the first such frame, which draws the full one.
+/// Return a vtkQuadricLODActor's drawing. Frames that must be as fast as interaction asks have the
+/// coarse level. VTK makes that level in the first of them, which still has the full one.
 ActorDrawing quadricDrawing(vtkQuadricLODActor* actor, vtkMatrix4x4* matrix, vtkRenderer* renderer)
 {
   vtkActor* device = QuadricAccess::device(actor);

@@ -14,7 +14,7 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What an actor draws in this frame.
+/// The actor, mapper and matrix of an actor's drawing in this frame.
 struct ActorDrawing
 {
   vtkActor* actor = nullptr; ///< as VTK hands it to a render pass; null if not supported
@@ -22,9 +22,9 @@ struct ActorDrawing
   vtkMatrix4x4* matrix = nullptr;
 };
 
-/// Return what an actor draws, also for actors that draw by means of inner actors: followers and
-/// actors with levels of detail. The level is the one that VTK will choose in this frame, from the
-/// time that the renderer has allocated to the actor.
+/// Return an actor's drawing, also for actors that draw by inner actors: followers and actors with
+/// levels of detail. The level is the one that VTK will choose in this frame, from the time that
+/// the renderer has allocated to the actor.
 ///
 /// @param matrix the actor's, or that of its path below an assembly
 ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* renderer);

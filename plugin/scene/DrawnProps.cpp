@@ -554,9 +554,7 @@ DrawnProps Finder::take()
   }
   if (this->moved_ > 0)
   {
-    this->drawn_.notes.push_back(
-      "vertices cast from where the data has them, not from where shader "
-      "code may move them (" +
+    this->drawn_.notes.push_back("shadows ignore shader code that may move vertices (" +
       std::to_string(this->moved_) + (this->moved_ == 1 ? " prop)" : " props)"));
   }
   return std::move(this->drawn_);

@@ -131,8 +131,8 @@ vtkFloatArray* floatsOf(vtkPolyData* data, const char* name, int components)
 
 struct DataSetMapperAccess : vtkDataSetMapper
 {
-  /// Do what vtkDataSetMapper::Render() does before it hands colours and planes to the inner
-  /// mapper.
+  /// Return the inner mapper, prepared as by vtkDataSetMapper::Render(), without colours and
+  /// planes.
   static vtkPolyDataMapper* inner(vtkDataSetMapper* mapper)
   {
     vtkPolyDataMapper*& inner = mapper->*(&DataSetMapperAccess::PolyDataMapper);
