@@ -187,8 +187,8 @@ TEST_F(PassTest, samplesThatOpenGlDoesNotHaveAreNoted)
   std::vector<std::string> expected;
   if (samples != 8)
   {
-    expected.push_back("light 0: OpenGL draws maps with at most " + std::to_string(samples) +
-      " samples of a texel, not 8");
+    expected.push_back("light 0: OpenGL supports at most " + std::to_string(samples) +
+      " samples per texel of a map, not 8");
   }
   EXPECT_EQ(scene.report().notes, expected);
 }

@@ -421,7 +421,7 @@ TEST_F(OldOpenGL, hasRaysInPlaceOfWhatItCannotDraw)
   {
     this->expectShadow(technique, "raytraced");
     const std::string errors = this->takeErrors();
-    EXPECT_THAT(errors, HasSubstr("takes OpenGL 4.3")) << technique;
+    EXPECT_THAT(errors, HasSubstr("needs OpenGL 4.3")) << technique;
     EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << "said once";
   }
   this->scene.pass->SetTechnique("raytraced");
