@@ -20,7 +20,7 @@ namespace gnomon
 struct SurfaceName
 {
   int prop = -1; ///< the number in vtkRenderer::GetViewProps()
-  /// The mapper's input, whose cells the surface's triangles are; null for all else.
+  /// The mapper's input, whose cells the surface's triangles are; null otherwise.
   vtkPolyData* data = nullptr;
   SurfaceCells cells = SurfaceCells::Polygons;
 

@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/BannedPhrases.cmake")
 
-set(folders lights examples shadowtech plugin/scene plugin/data plugin/window plugin/vtk_versions)
+set(folders lights examples shadowtech plugin/scene plugin/data plugin/window plugin/vtk_versions plugin/frame)
 set(endings h cpp cxx glsl py sh)
 
 string(JOIN "|" phrase ${banned_phrases})

@@ -427,7 +427,7 @@ TEST_F(OldOpenGL, hasRaysInPlaceOfWhatItCannotDraw)
   this->scene.pass->SetTechnique("raytraced");
   this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU);
   this->scene.render();
-  EXPECT_THAT(this->takeErrors(), HasSubstr("tracing on the GPU takes OpenGL 4.3"));
+  EXPECT_THAT(this->takeErrors(), HasSubstr("tracing on the GPU needs OpenGL 4.3"));
 }
 
 //------------------------------------------------------------------------------
