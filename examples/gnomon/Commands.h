@@ -16,6 +16,7 @@ void addTechniquesCommand(CLI::App& app);
 void addScenesCommand(CLI::App& app);
 void addSettingsCommand(CLI::App& app);
 void addStudyCommand(CLI::App& app);
+void addViewCommand(CLI::App& app);
 ///@}
 
 /// A window's size as the command line says it: WIDTHxHEIGHT, each from 1 to 16384.

@@ -68,6 +68,9 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
   const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts = nullptr,
   std::vector<float>* differences = nullptr);
 
+/// 1 per pixel of which any light's visibility was decided by a ray.
+std::vector<unsigned char> tracedMask(const VisibilityImages& images);
+
 /// The dimmed picture with false light in blue and false shadow in red; where `traced` is given and
 /// not 0, the pixels that a ray decided and that are right in purple.
 Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& verdicts,

@@ -37,6 +37,9 @@ struct ComparisonPlan
 /// The technique whose visibility is the truth. The truth of area lights takes
 /// ComparisonPlan::truthSamples, while its times are of the plan's samples.
 inline constexpr const char* truthTechnique = "raytraced";
+/// What the truth of area lights is set to.
+/// @param seed that no technique has which is compared with it
+std::map<std::string, std::string> truthSettings(int samples, const std::string& seed);
 
 /// What a comparison tells while it runs; each function may be empty.
 struct ComparisonEvents

@@ -49,6 +49,9 @@ ShadowSettings settingsOf(const VariantSpec& spec);
 /// technique's
 VariantSpec parseTechnique(const std::string& text);
 
+/// Has a pass draw a variant that isGnomon(), and forget what it was set to.
+void setUp(vtkGnomonShadowPass* pass, const VariantSpec& spec);
+
 /// What draws this variant, for vtkRenderer::SetPass; null for plain VTK.
 vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkPolyData.h>
 #include <vtkProp3D.h>
@@ -126,6 +127,12 @@ SceneLight parseLight(const std::string& spec);
 ///     parallel_scale=2
 /// @throws BadInput
 SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
+
+///@{
+/// Makes a renderer's lights, and a camera, those of a scene.
+void setLights(vtkRenderer* renderer, const std::vector<SceneLight>& lights);
+void setCamera(vtkCamera* camera, const SceneCamera& source);
+///@}
 
 /// A renderer with the scene's actors, props, lights, camera (clipping range set) and background.
 /// Surfaces are shared with the scene and with other renderers made from it, all else is its own.

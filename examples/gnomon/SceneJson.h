@@ -17,5 +17,7 @@ SceneLight readLight(const JsonValue& value, const std::filesystem::path& folder
 /// A camera of a scene file or of --camera. Without `defaults`, position and target must be there.
 /// @throws BadInput
 SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>& defaults);
+/// The same camera, for scene files.
+nlohmann::ordered_json toJson(const SceneCamera& camera);
 
 } // namespace gnomon::tool

@@ -100,6 +100,15 @@ bool askedToCast(vtkProp* viewProp)
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
 }
 
+/// Whether a light changes how a prop looks. Outlines that VTK's interactor styles put around what is
+/// picked reflect nothing.
+bool showsLight(vtkProperty* property)
+{
+  return property->GetLighting() &&
+    (property->GetInterpolation() == VTK_PBR || property->GetDiffuse() > 0.0 ||
+      property->GetSpecular() > 0.0);
+}
+
 /// Has blocks say which normals VTK shades their triangles with: not where it is told to shade them
 /// flat, nor where shader code of a user's own moves them.
 void takeNormals(vtkActor* actor, DrawnBlock& block)
@@ -271,7 +280,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   {
     return;
   }
-  const bool lit = actor->GetProperty()->GetLighting();
+  const bool lit = showsLight(actor->GetProperty());
   const bool asPoints = actor->GetProperty()->GetRepresentation() == VTK_POINTS;
   const bool pointsAreSpheres = actor->GetProperty()->GetRenderPointsAsSpheres();
   const bool sizedInPixels = pointsAreSpheres || drawsTubes(actor->GetProperty());

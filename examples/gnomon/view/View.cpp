@@ -1,0 +1,379 @@
+#include "view/View.h"
+
+#include "Errors.h"
+#include "Vec3.h"
+#include "VtkMessages.h"
+#include "view/ViewKeys.h"
+
+#include "plugin/frame/Clock.h"
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
+
+#include <vtkActorCollection.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+constexpr int marginPixels = 6;
+
+/// Light letters on a dark ground, which can be read before all scenes.
+void styleText(vtkTextActor* text, bool inColumns)
+{
+  vtkTextProperty* const look = text->GetTextProperty();
+  look->SetColor(1.0, 1.0, 1.0);
+  look->SetBackgroundColor(0.05, 0.06, 0.08);
+  look->SetBackgroundOpacity(0.72);
+  look->SetVerticalJustificationToTop();
+  if (inColumns)
+  {
+    look->SetFontFamilyToCourier();
+  }
+}
+
+std::string joined(const std::vector<std::string>& lines)
+{
+  std::string text;
+  for (const std::string& line : lines)
+  {
+    text += (text.empty() ? " " : "\n ") + line + " ";
+  }
+  return text;
+}
+
+std::string countAndShare(std::int64_t pixels, const VisibilityError& error)
+{
+  char text[64];
+  std::snprintf(text, sizeof text, "%lld (%.2f %%)", static_cast<long long>(pixels),
+    100.0 * error.share(pixels));
+  return text;
+}
+
+/// What stands behind the colours of pixels.
+std::vector<std::string> legendOf(const ViewState& state, ViewPass* pass)
+{
+  if (!pass->complaint().empty())
+  {
+    return { nameOf(state.show) + ": " + pass->complaint() };
+  }
+  if (pass->error())
+  {
+    const VisibilityError& error = *pass->error();
+    return { "wrong pixels: " + countAndShare(error.wrongPixels(), error),
+      "blue: false light " + countAndShare(error.falseLight, error),
+      "red: false shadow " + countAndShare(error.falseShadow, error), "purple: traced" };
+  }
+  switch (state.show)
+  {
+    case Show::Classes:
+      return { "how pixels were decided" };
+    case Show::Texels:
+      return { "texels: red larger than pixels, blue smaller" };
+    default:
+      return {};
+  }
+}
+
+/// "auto: silhouette", "pssm, map 1024".
+std::string techniqueLine(const ViewState& state, const FrameReport& report)
+{
+  if (state.show == Show::Truth)
+  {
+    return "the truth: every pixel traced";
+  }
+  std::string text = state.technique;
+  for (const LightReport& light : report.lights)
+  {
+    if (light.casts)
+    {
+      text += light.technique != state.technique ? ": " + light.technique : "";
+      text += light.mapSizeTexels > 0 ? ", map " + std::to_string(light.mapSizeTexels) : "";
+      break;
+    }
+  }
+  return text;
+}
+
+/// A scene's renderer, whose lights leave their shadows to the state.
+vtkSmartPointer<vtkRenderer> rendererOf(const Scene& scene, const ViewState& state)
+{
+  return makeRenderer(scene, state.size.aspect());
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+View::View(vtkRenderWindow* window, Scene scene, const ViewState& state)
+  : window_(window)
+  , scene_(withoutShadowSettings(std::move(scene)))
+  , renderer_(rendererOf(this->scene_, state))
+  , handle_(this->front_)
+{
+  vtkPropCollection* const props = this->renderer_->GetViewProps();
+  std::vector<std::string> names;
+  for (const SceneModel& model : this->scene_.models)
+  {
+    names.push_back(model.name);
+  }
+  for (const SceneProp& prop : this->scene_.props)
+  {
+    names.push_back(prop.name);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    this->propNames_[static_cast<vtkProp*>(props->GetItemAsObject(static_cast<int>(i)))] =
+      names[i].empty() ? "model " + std::to_string(i) : names[i];
+  }
+  this->renderer_->SetPass(this->pass_);
+  this->setUpLayers();
+  this->apply(state);
+}
+
+//------------------------------------------------------------------------------
+View::~View()
+{
+  for (vtkRenderer* const renderer :
+    { this->renderer_.Get(), this->lines_.Get(), this->front_.Get() })
+  {
+    this->window_->RemoveRenderer(renderer);
+    renderer->RemoveAllObservers();
+  }
+  this->window_->RemoveObservers(vtkCommand::StartEvent);
+}
+
+//------------------------------------------------------------------------------
+void View::setUpLayers()
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(this->frusta_);
+  vtkNew<vtkActor> lines;
+  lines->SetMapper(mapper);
+  lines->GetProperty()->LightingOff();
+  lines->GetProperty()->SetLineWidth(1.5f);
+  this->lines_->AddActor(lines);
+  this->lines_->PreserveDepthBufferOn();
+  this->front_->AddViewProp(this->corner_);
+  this->front_->AddViewProp(this->help_);
+  styleText(this->corner_, false);
+  styleText(this->help_, true);
+
+  this->window_->SetMultiSamples(0);
+  this->window_->SetNumberOfLayers(3);
+  this->window_->AddRenderer(this->renderer_);
+  for (vtkRenderer* const layer : { this->lines_.Get(), this->front_.Get() })
+  {
+    layer->SetLayer(layer == this->lines_ ? 1 : 2);
+    layer->InteractiveOff();
+    this->window_->AddRenderer(layer);
+  }
+  this->lines_->SetActiveCamera(this->renderer_->GetActiveCamera());
+  vtkNew<vtkCamera> camera;
+  this->front_->SetActiveCamera(camera);
+  this->window_->AddObserver(vtkCommand::StartEvent, this, &View::beginFrame);
+  this->lines_->AddObserver(vtkCommand::StartEvent, this, &View::beforeLines);
+  this->front_->AddObserver(vtkCommand::StartEvent, this, &View::beforeFront);
+}
+
+//------------------------------------------------------------------------------
+void View::apply(const ViewState& state)
+{
+  this->state_ = state;
+  const int* const size = this->window_->GetSize();
+  if (size[0] != state.size.width || size[1] != state.size.height)
+  {
+    this->window_->SetSize(state.size.width, state.size.height);
+  }
+  this->window_->SetStereoRender(state.stereo);
+  setCamera(this->renderer_->GetActiveCamera(), state.camera);
+  this->lights_ = this->scene_.lights;
+  for (std::size_t i = 0; i < this->lights_.size(); ++i)
+  {
+    place(this->lights_[i], state.lights[i]);
+  }
+  setLights(this->renderer_, this->lights_);
+  if (!state.surfaces.empty())
+  {
+    vtkActorCollection* const actors = this->renderer_->GetActors();
+    vtkCollectionSimpleIterator it;
+    actors->InitTraversal(it);
+    while (vtkActor* const actor = actors->GetNextActor(it))
+    {
+      actor->GetProperty()->SetRepresentation(
+        state.surfaces == "wireframe" ? VTK_WIREFRAME : VTK_SURFACE);
+    }
+  }
+  this->pass_->setUp(state, this->lights_, this->renderer_);
+}
+
+//------------------------------------------------------------------------------
+ViewState View::state() const
+{
+  ViewState state = this->state_;
+  const int* const size = this->window_->GetSize();
+  state.size = { size[0], size[1] };
+  state.stereo = this->window_->GetStereoRender();
+  vtkCamera* const camera = this->renderer_->GetActiveCamera();
+  camera->GetPosition(state.camera.position.data());
+  camera->GetFocalPoint(state.camera.target.data());
+  camera->GetViewUp(state.camera.up.data());
+  state.camera.fovDegrees = camera->GetViewAngle();
+  state.camera.parallelScale.reset();
+  if (camera->GetParallelProjection())
+  {
+    state.camera.parallelScale = camera->GetParallelScale();
+  }
+  return state;
+}
+
+//------------------------------------------------------------------------------
+const SceneLight* View::selectedLight() const
+{
+  return this->state_.light < this->lights_.size() ? &this->lights_[this->state_.light] : nullptr;
+}
+
+//------------------------------------------------------------------------------
+Picture View::still()
+{
+  this->still_ = true;
+  this->handle_.ball()->Highlight(0);
+  this->pass_->setStill(true);
+  this->pass_->setUp(this->state_, this->lights_, this->renderer_);
+  do
+  {
+    this->window_->Render();
+  } while (this->pass_->shown()->GetProgress() < 1.0);
+  Picture picture = capture(this->window_);
+  this->pass_->setStill(false);
+  this->pass_->setUp(this->state_, this->lights_, this->renderer_);
+  this->still_ = false;
+  return picture;
+}
+
+//------------------------------------------------------------------------------
+void View::beginFrame()
+{
+  this->frameStart_ = steadyMilliseconds();
+  this->renderer_->ResetCameraClippingRange();
+}
+
+//------------------------------------------------------------------------------
+void View::beforeLines()
+{
+  this->frusta_->Initialize();
+  const LightSights* const sights = this->pass_->sights();
+  const LightSight* const sight =
+    sights && this->state_.frusta ? sights->find(static_cast<int>(this->state_.light)) : nullptr;
+  if (sight)
+  {
+    this->frusta_->ShallowCopy(
+      frustumLines(sight->views, sights->snapshot().occluders().centreWorld));
+  }
+}
+
+//------------------------------------------------------------------------------
+void View::beforeFront()
+{
+  // What has been drawn is the scene, and its time that of this frame.
+  std::vector<std::string> lines = this->cornerLines();
+  if (!this->still_)
+  {
+    this->window_->WaitForCompletion();
+    char time[32];
+    std::snprintf(time, sizeof time, "%.0f ms", steadyMilliseconds() - this->frameStart_);
+    lines.insert(lines.begin() + 1, time);
+  }
+  ++this->framesDrawn_;
+  this->showLines(lines);
+  vtkCamera* const camera = this->front_->GetActiveCamera();
+  camera->DeepCopy(this->renderer_->GetActiveCamera());
+  const SceneLight* const light = this->selectedLight();
+  this->handle_.setVisible(light && this->state_.handle);
+  if (light)
+  {
+    // Wide, and a function of the state alone, as is the size of the ball, which follows from it.
+    Vec3 eye;
+    camera->GetPosition(eye.data());
+    const double farthest = std::max(camera->GetDistance(), length(light->position - eye));
+    camera->SetClippingRange(1e-3 * farthest, 10.0 * farthest);
+    this->handle_.follow(*light);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::string> View::cornerLines()
+{
+  std::vector<std::string> lines = { techniqueLine(
+    this->state_, this->pass_->shown()->GetReport()) };
+  const std::vector<std::string> legend = legendOf(this->state_, this->pass_);
+  lines.insert(lines.end(), legend.begin(), legend.end());
+  if (this->state_.sun)
+  {
+    char elevation[48];
+    std::snprintf(elevation, sizeof elevation, ", %.1f degrees high",
+      placeOf(*this->state_.sun).elevationDegrees);
+    lines.push_back("sun " + this->state_.sun->time() + elevation);
+  }
+  if (this->state_.probe && this->pass_->sights())
+  {
+    if (!this->probe_)
+    {
+      this->probe_ = std::make_unique<PixelProbe>();
+    }
+    const auto nameOf = [this](const vtkProp* prop)
+    {
+      const auto found = this->propNames_.find(prop);
+      return found == this->propNames_.end() ? std::string("another prop") : found->second;
+    };
+    const std::vector<std::string> answer = this->probe_->ask(
+      this->pass_->shown()->GetVisibility(), *this->pass_->sights(), nameOf, *this->state_.probe);
+    lines.insert(lines.end(), answer.begin(), answer.end());
+  }
+  return lines;
+}
+
+//------------------------------------------------------------------------------
+void View::showLines(const std::vector<std::string>& lines)
+{
+  const int* const size = this->window_->GetSize();
+  this->corner_->SetInput(joined(lines).c_str());
+  this->corner_->GetTextProperty()->SetFontSize(std::clamp(size[1] / 38, 10, 18));
+  this->corner_->SetPosition(marginPixels, size[1] - marginPixels);
+  this->help_->SetVisibility(this->state_.help);
+  if (this->state_.help)
+  {
+    // As large as lets the table fit, in width and height.
+    const int rows = static_cast<int>(viewKeys().size()) + static_cast<int>(lines.size()) + 4;
+    const int byHeight = static_cast<int>(0.78 * size[1] / rows);
+    const int byWidth = static_cast<int>(1.6 * size[0] / 78);
+    this->help_->SetInput(helpText(this->state_).c_str());
+    this->help_->GetTextProperty()->SetFontSize(std::clamp(std::min(byHeight, byWidth), 6, 16));
+    this->help_->GetTextProperty()->SetVerticalJustificationToBottom();
+    this->help_->SetPosition(marginPixels, marginPixels);
+  }
+}
+
+//------------------------------------------------------------------------------
+Picture drawWithoutScreen(const ViewState& state, Scene scene)
+{
+  VtkMessages messages;
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  View view(window, std::move(scene), state);
+  Picture picture = view.still();
+  if (!messages.errors().empty())
+  {
+    throw Failure("rendering: " + messages.errors().front());
+  }
+  return picture;
+}
+
+} // namespace gnomon::tool
