@@ -264,6 +264,13 @@ void View::beginFrame()
 {
   this->frameStart_ = steadyMilliseconds();
   this->renderer_->ResetCameraClippingRange();
+  const bool stereo = this->window_->GetStereoRender();
+  if (stereo != this->stereoBefore_)
+  {
+    // VTK would draw the first left eye with the matrices that it keeps of the picture before.
+    this->renderer_->GetActiveCamera()->Modified();
+    this->stereoBefore_ = stereo;
+  }
 }
 
 //------------------------------------------------------------------------------

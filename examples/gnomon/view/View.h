@@ -77,7 +77,8 @@ private:
   LightHandle handle_;
   std::unique_ptr<PixelProbe> probe_; ///< once asked for
   bool still_ = false;
-  double frameStart_ = 0.0; ///< by steadyMilliseconds()
+  bool stereoBefore_ = false; ///< of the last frame
+  double frameStart_ = 0.0;   ///< by steadyMilliseconds()
   int framesDrawn_ = 0;
 };
 

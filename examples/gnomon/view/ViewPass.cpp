@@ -92,8 +92,8 @@ void ViewPass::setUp(
   this->truth_->SetKeepVisibility(probed || state.show == Show::Error);
   for (vtkGnomonShadowPass* const pass : { this->technique_.Get(), this->truth_.Get() })
   {
-    pass->SetInteractive(this->still_ ? vtkGnomonShadowPass::INTERACTIVE_OFF
-                                      : vtkGnomonShadowPass::INTERACTIVE_AUTO);
+    pass->SetInteractive(
+      this->still_ ? vtkGnomonShadowPass::INTERACTIVE_OFF : vtkGnomonShadowPass::INTERACTIVE_AUTO);
   }
 }
 

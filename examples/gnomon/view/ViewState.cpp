@@ -131,8 +131,7 @@ ViewState initialState(const std::string& name, const Scene& scene)
 VariantSpec variantOf(const ViewState& state)
 {
   VariantSpec spec = parseTechnique(state.technique);
-  spec.mapSizeTexels =
-    estimatorOf(settingsOf(spec)).info.bakesMap() ? state.mapSizeTexels : 0;
+  spec.mapSizeTexels = estimatorOf(settingsOf(spec)).info.bakesMap() ? state.mapSizeTexels : 0;
   return spec;
 }
 
