@@ -3,106 +3,23 @@
 #include "Errors.h"
 #include "Vec3.h"
 #include "VtkMessages.h"
-#include "view/ViewKeys.h"
 
 #include "plugin/frame/Clock.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkTextProperty.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace gnomon::tool
 {
 namespace
 {
-
-constexpr int marginPixels = 6;
-
-/// Light letters on a dark ground, which can be read before all scenes.
-void styleText(vtkTextActor* text, bool inColumns)
-{
-  vtkTextProperty* const look = text->GetTextProperty();
-  look->SetColor(1.0, 1.0, 1.0);
-  look->SetBackgroundColor(0.05, 0.06, 0.08);
-  look->SetBackgroundOpacity(0.72);
-  look->SetVerticalJustificationToTop();
-  if (inColumns)
-  {
-    look->SetFontFamilyToCourier();
-  }
-}
-
-std::string joined(const std::vector<std::string>& lines)
-{
-  std::string text;
-  for (const std::string& line : lines)
-  {
-    text += (text.empty() ? " " : "\n ") + line + " ";
-  }
-  return text;
-}
-
-std::string countAndShare(std::int64_t pixels, const VisibilityError& error)
-{
-  char text[64];
-  std::snprintf(text, sizeof text, "%lld (%.2f %%)", static_cast<long long>(pixels),
-    100.0 * error.share(pixels));
-  return text;
-}
-
-/// What stands behind the colours of pixels.
-std::vector<std::string> legendOf(const ViewState& state, ViewPass* pass)
-{
-  if (!pass->complaint().empty())
-  {
-    return { nameOf(state.show) + ": " + pass->complaint() };
-  }
-  if (pass->error())
-  {
-    const VisibilityError& error = *pass->error();
-    return { "wrong pixels: " + countAndShare(error.wrongPixels(), error),
-      "blue: false light " + countAndShare(error.falseLight, error),
-      "red: false shadow " + countAndShare(error.falseShadow, error), "purple: traced" };
-  }
-  switch (state.show)
-  {
-    case Show::Classes:
-      return { "how pixels were decided" };
-    case Show::Texels:
-      return { "texels: red larger than pixels, blue smaller" };
-    default:
-      return {};
-  }
-}
-
-/// "auto: silhouette", "pssm, map 1024".
-std::string techniqueLine(const ViewState& state, const FrameReport& report)
-{
-  if (state.show == Show::Truth)
-  {
-    return "the truth: every pixel traced";
-  }
-  std::string text = state.technique;
-  for (const LightReport& light : report.lights)
-  {
-    if (light.casts)
-    {
-      text += light.technique != state.technique ? ": " + light.technique : "";
-      text += light.mapSizeTexels > 0 ? ", map " + std::to_string(light.mapSizeTexels) : "";
-      break;
-    }
-  }
-  return text;
-}
 
 /// A scene's renderer, whose lights leave their shadows to the state.
 vtkSmartPointer<vtkRenderer> rendererOf(const Scene& scene, const ViewState& state)
@@ -117,6 +34,7 @@ View::View(vtkRenderWindow* window, Scene scene, const ViewState& state)
   : window_(window)
   , scene_(withoutShadowSettings(std::move(scene)))
   , renderer_(rendererOf(this->scene_, state))
+  , text_(this->front_)
   , handle_(this->front_)
 {
   vtkPropCollection* const props = this->renderer_->GetViewProps();
@@ -162,10 +80,6 @@ void View::setUpLayers()
   lines->GetProperty()->SetLineWidth(1.5f);
   this->lines_->AddActor(lines);
   this->lines_->PreserveDepthBufferOn();
-  this->front_->AddViewProp(this->corner_);
-  this->front_->AddViewProp(this->help_);
-  styleText(this->corner_, false);
-  styleText(this->help_, true);
 
   this->window_->SetMultiSamples(0);
   this->window_->SetNumberOfLayers(3);
@@ -300,7 +214,7 @@ void View::beforeFront()
     lines.insert(lines.begin() + 1, time);
   }
   ++this->framesDrawn_;
-  this->showLines(lines);
+  this->text_.show(lines, this->state_, this->window_->GetSize());
   vtkCamera* const camera = this->front_->GetActiveCamera();
   camera->DeepCopy(this->renderer_->GetActiveCamera());
   const SceneLight* const light = this->selectedLight();
@@ -319,17 +233,7 @@ void View::beforeFront()
 //------------------------------------------------------------------------------
 std::vector<std::string> View::cornerLines()
 {
-  std::vector<std::string> lines = { techniqueLine(
-    this->state_, this->pass_->shown()->GetReport()) };
-  const std::vector<std::string> legend = legendOf(this->state_, this->pass_);
-  lines.insert(lines.end(), legend.begin(), legend.end());
-  if (this->state_.sun)
-  {
-    char elevation[48];
-    std::snprintf(elevation, sizeof elevation, ", %.1f degrees high",
-      placeOf(*this->state_.sun).elevationDegrees);
-    lines.push_back("sun " + this->state_.sun->time() + elevation);
-  }
+  std::vector<std::string> lines = linesOf(this->state_, this->pass_);
   if (this->state_.probe && this->pass_->sights())
   {
     if (!this->probe_)
@@ -346,27 +250,6 @@ std::vector<std::string> View::cornerLines()
     lines.insert(lines.end(), answer.begin(), answer.end());
   }
   return lines;
-}
-
-//------------------------------------------------------------------------------
-void View::showLines(const std::vector<std::string>& lines)
-{
-  const int* const size = this->window_->GetSize();
-  this->corner_->SetInput(joined(lines).c_str());
-  this->corner_->GetTextProperty()->SetFontSize(std::clamp(size[1] / 38, 10, 18));
-  this->corner_->SetPosition(marginPixels, size[1] - marginPixels);
-  this->help_->SetVisibility(this->state_.help);
-  if (this->state_.help)
-  {
-    // As large as lets the table fit, in width and height.
-    const int rows = static_cast<int>(viewKeys().size()) + static_cast<int>(lines.size()) + 4;
-    const int byHeight = static_cast<int>(0.78 * size[1] / rows);
-    const int byWidth = static_cast<int>(1.6 * size[0] / 78);
-    this->help_->SetInput(helpText(this->state_).c_str());
-    this->help_->GetTextProperty()->SetFontSize(std::clamp(std::min(byHeight, byWidth), 6, 16));
-    this->help_->GetTextProperty()->SetVerticalJustificationToBottom();
-    this->help_->SetPosition(marginPixels, marginPixels);
-  }
 }
 
 //------------------------------------------------------------------------------

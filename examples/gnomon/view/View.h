@@ -6,12 +6,12 @@
 #include "view/PixelProbe.h"
 #include "view/ViewPass.h"
 #include "view/ViewState.h"
+#include "view/ViewText.h"
 
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
-#include <vtkTextActor.h>
 
 #include <map>
 #include <memory>
@@ -50,7 +50,7 @@ public:
   const SceneLight* selectedLight() const;
   ///@{
   /// Of the last frame.
-  std::string cornerText() const { return this->corner_->GetInput(); }
+  std::string cornerText() const { return this->text_.corner(); }
   int framesDrawn() const { return this->framesDrawn_; } ///< and those before
   ///@}
 
@@ -60,7 +60,6 @@ private:
   void beforeLines();
   void beforeFront();
   std::vector<std::string> cornerLines();
-  void showLines(const std::vector<std::string>& lines);
 
   vtkRenderWindow* window_;
   const Scene scene_; ///< as it was loaded, without what its lights say of their shadows
@@ -72,8 +71,7 @@ private:
   vtkNew<vtkRenderer> front_; ///< its camera has clipping planes of its own
   vtkNew<ViewPass> pass_;
   vtkNew<vtkPolyData> frusta_;
-  vtkNew<vtkTextActor> corner_;
-  vtkNew<vtkTextActor> help_;
+  ViewText text_;
   LightHandle handle_;
   std::unique_ptr<PixelProbe> probe_; ///< once asked for
   bool still_ = false;

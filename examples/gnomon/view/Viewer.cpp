@@ -126,14 +126,13 @@ bool Viewer::onWheelBackward(vtkObject*, unsigned long, void*)
 }
 
 //------------------------------------------------------------------------------
+/// The widget draws the frame that follows.
 void Viewer::onDrag()
 {
-  this->change(
-    [this](ViewState& state)
-    {
-      state.lights[state.light] = this->view_.handle().placeOfBall(*this->view_.selectedLight());
-      state.sun.reset();
-    });
+  ViewState state = this->view_.state();
+  state.lights[state.light] = this->view_.handle().placeOfBall(*this->view_.selectedLight());
+  state.sun.reset();
+  this->view_.apply(state);
 }
 
 //------------------------------------------------------------------------------
