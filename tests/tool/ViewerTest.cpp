@@ -86,12 +86,13 @@ protected:
   /// @return how many there are
   int drawAgain()
   {
+    const Scene scene = loadScene(this->state().scene);
     this->viewer.reset(); // one thread holds a GLX or an EGL context, not both
     int count = 0;
     for (int i = 1; std::filesystem::exists(this->shot(i) + ".json"); ++i)
     {
-      auto [state, scene] = readView(this->shot(i) + ".json");
-      const Picture again = drawWithoutScreen(state, std::move(scene));
+      const ViewState state = parseState(readBytes(this->shot(i) + ".json"), "file", scene);
+      const Picture again = drawWithoutScreen(state, scene);
       EXPECT_EQ(differingPixels(again, readPicture(this->shot(i) + ".png")), 0u) << textOf(state);
       ++count;
     }
