@@ -242,6 +242,16 @@ TEST_F(RenderCommand, DrawsASettingsFileOfTheViewer)
   EXPECT_EQ(picture.rgb, drawWithoutScreen(state, scene).rgb);
   EXPECT_EQ(picture.width, 64);
 
+  // A lamp that refuses the technique has another one, and the picture says so.
+  const Scene room = loadScene("room");
+  ViewState refused = initialState("room", room);
+  refused.size = { 320, 240 };
+  refused.technique = "nsm";
+  const Picture plain = drawWithoutScreen(refused, room);
+  refused.technique = "lispsm";
+  refused.frusta = true;
+  EXPECT_NE(drawWithoutScreen(refused, room).rgb, plain.rgb);
+
   EXPECT_THROW(this->render("", "-o " + out), BadInput);
   EXPECT_THROW(this->render("cube --settings " + file, "-o " + out), BadInput);
   EXPECT_THROW(this->render("--settings " + file, "--size 9x9 -o " + out), CLI::ParseError);

@@ -292,7 +292,13 @@ TEST_F(ViewerTest, KeysOfVtkKeepTheirMeaning)
   this->press("3");
   EXPECT_FALSE(this->state().stereo);
   EXPECT_EQ(differingPixels(plain, this->viewer->view().still()), 0u);
-  // A dragged mouse turns the camera while the button is down, and the joystick beyond it.
+
+  const Vec3 still = this->state().camera.position;
+  this->moveTo(100, 200); // beside the handle
+  this->mouse(vtkCommand::LeftButtonPressEvent);
+  this->moveTo(130, 200);
+  this->mouse(vtkCommand::LeftButtonReleaseEvent);
+  EXPECT_NE(this->state().camera.position, still); // the trackball's
   this->moveTo(160, 120);
   this->press("p");
   this->save(""); // without the outline

@@ -45,6 +45,19 @@ const LightView* viewOf(const LightViews& views, const glm::dvec3& positionCentr
   return nullptr;
 }
 
+/// Completes a light, and tells whether its technique has a map. One that refuses the light has none.
+bool bakesMap(ShadowLight& light)
+{
+  try
+  {
+    return compose(light).info.bakesMap();
+  }
+  catch (const CompositionError&)
+  {
+    return false;
+  }
+}
+
 /// A corner of what a view holds, in centred coordinates.
 glm::dvec3 cornerOf(const LightView& view, double x, double y, double z)
 {
@@ -63,9 +76,8 @@ void LightSights::update(vtkRenderer* renderer, const ShadowSettings& settings)
   this->lights_.clear();
   for (ShadowLight& light : LightManager().collect(renderer, settings).lights)
   {
-    const TechniqueInfo& info = compose(light).info;
     LightViews views;
-    if (info.bakesMap())
+    if (bakesMap(light))
     {
       ViewFitting fitting;
       fitting.centreWorld = occluders.centreWorld;

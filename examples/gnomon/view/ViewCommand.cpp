@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "view/Viewer.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -25,6 +26,17 @@ struct ViewOptions
   std::string press;
   bool keys = false;
 };
+
+/// VTK aborts where there is no X server to ask for.
+void requireScreen()
+{
+  vtkNew<vtkRenderWindow> window;
+  const char* const display = std::getenv("DISPLAY");
+  if (window->IsA("vtkXOpenGLRenderWindow") && (!display || !*display))
+  {
+    throw BadInput("view: DISPLAY names no X server, expected one; gnomon render takes none");
+  }
+}
 
 /// The state that a viewer begins with, and its scene.
 std::pair<ViewState, Scene> beginning(const ViewOptions& options)
@@ -89,6 +101,7 @@ void view(const ViewOptions& options)
     std::cout << keysAsMarkdown();
     return;
   }
+  requireScreen();
   auto [state, scene] = beginning(options);
   ViewChoices choices{ techniquesOf(options, scene) };
   if (!options.techniques.empty())

@@ -1,5 +1,6 @@
 #include "view/ViewText.h"
 
+#include "Text.h"
 #include "view/ViewKeys.h"
 
 #include "shadowtech/base/vtkGnomonFrameReport.h"
@@ -72,6 +73,43 @@ std::vector<std::string> legendOf(const ViewState& state, ViewPass* pass)
   }
 }
 
+/// Breaks a sentence into lines.
+std::vector<std::string> wrapped(const std::string& sentence)
+{
+  constexpr std::size_t mostLetters = 60;
+  std::vector<std::string> lines(1);
+  for (const std::string& word : splitWords(sentence))
+  {
+    if (lines.back().size() + word.size() >= mostLetters)
+    {
+      lines.emplace_back();
+    }
+    lines.back() += (lines.back().empty() ? "" : " ") + word;
+  }
+  return lines;
+}
+
+/// Where the picture is not what was asked for: lights that refuse the technique, and maps that are
+/// smaller than the overlays say.
+std::vector<std::string> reservations(const ViewState& state, const FrameReport& report)
+{
+  std::vector<std::string> lines;
+  for (const std::string& misfit : report.misfits)
+  {
+    const std::vector<std::string> more = wrapped(misfit);
+    lines.insert(lines.end(), more.begin(), more.end());
+  }
+  const bool overlaid = state.frusta || state.show == Show::Texels;
+  for (const LightReport& light : report.lights)
+  {
+    if (overlaid && light.sceneIndex == static_cast<int>(state.light) && light.fit == "receivers")
+    {
+      lines.emplace_back("fitted to receivers: the map holds less than shown");
+    }
+  }
+  return lines;
+}
+
 /// "auto: silhouette", "pssm, map 1024".
 std::string techniqueLine(const ViewState& state, const FrameReport& report)
 {
@@ -100,6 +138,8 @@ std::vector<std::string> linesOf(const ViewState& state, ViewPass* pass)
   std::vector<std::string> lines = { techniqueLine(state, pass->shown()->GetReport()) };
   const std::vector<std::string> legend = legendOf(state, pass);
   lines.insert(lines.end(), legend.begin(), legend.end());
+  const std::vector<std::string> more = reservations(state, pass->shown()->GetReport());
+  lines.insert(lines.end(), more.begin(), more.end());
   if (state.sun)
   {
     char elevation[48];
