@@ -2,8 +2,8 @@
 # gnomon_quick_tests builds, and all of them. tests/main/QuickTier.h says which cases of GoogleTest
 # programs are quick; tests/slow_cases.txt names those that are slow in any case.
 
-# gnomon_run_test_program(<program> [NAME <name>] [SLOW] [ON_X_SERVER] [SHARDS <number>] [SLOW_SHARDS <number>]
-#   [CASES <pattern>... | BUT <pattern>...] [ENVIRONMENT <name=value>...])
+# gnomon_run_test_program(<program> [NAME <name>] [SLOW] [ON_X_SERVER] [SHARDS <number>]
+#   [SLOW_SHARDS <number>] [CASES <pattern>... | BUT <pattern>...] [ENVIRONMENT <name=value>...])
 #
 # Registers a GoogleTest program with CTest as <name>.1, <name>.2 and so on, each a process with a
 # share of the cases, and <name>.slow.1 and so on with the cases outside of the quick tier, if
@@ -11,7 +11,8 @@
 # program out of the quick tier. CASES and BUT are patterns of --gtest_filter, for cases that need
 # processes of their own. ON_X_SERVER gives each process a display of its own.
 function(gnomon_run_test_program program)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "SLOW;ON_X_SERVER" "NAME;SHARDS;SLOW_SHARDS" "CASES;BUT;ENVIRONMENT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg
+    "SLOW;ON_X_SERVER" "NAME;SHARDS;SLOW_SHARDS" "CASES;BUT;ENVIRONMENT")
   if(NOT DEFINED arg_NAME)
     set(arg_NAME ${program})
   endif()

@@ -19,7 +19,9 @@ void addStudyCommand(CLI::App& app);
 void addViewCommand(CLI::App& app);
 ///@}
 
-/// A window's size as the command line says it: WIDTHxHEIGHT, each from 1 to 16384.
+inline constexpr int largestSidePixels = 16384;
+
+/// A window's size as the command line says it: WIDTHxHEIGHT, each from 1 to largestSidePixels.
 struct PictureSize
 {
   int width = 1024;

@@ -42,8 +42,6 @@ namespace gnomon::tool
 namespace
 {
 
-constexpr int largestSidePixels = 16384;
-
 /// What the command line says.
 struct RenderOptions
 {

@@ -24,7 +24,7 @@ bool isDirectional(const SceneLight& light)
 }
 
 /// Appends a line through these points.
-void addLine(const std::vector<Vec3>& through, vtkPoints* points, vtkCellArray* lines)
+void appendLine(const std::vector<Vec3>& through, vtkPoints* points, vtkCellArray* lines)
 {
   lines->InsertNextCell(static_cast<int>(through.size()));
   for (const Vec3& point : through)
@@ -124,7 +124,7 @@ void LightHandle::follow(const SceneLight& light)
   vtkNew<vtkCellArray> lines;
   if (light.type != SceneLight::Type::Point || light.area)
   {
-    addLine({ position, target }, points, lines);
+    appendLine({ position, target }, points, lines);
   }
   // Of a directional light the size is the whole angle that it fills.
   const double size = placeOf(light).size;
@@ -132,7 +132,7 @@ void LightHandle::follow(const SceneLight& light)
     directional ? this->domeRadius() * std::tan(0.5 * vtkMath::RadiansFromDegrees(size)) : size;
   if (radius > 0.0)
   {
-    addLine(outlineOf(light, position, axis, radius), points, lines);
+    appendLine(outlineOf(light, position, axis, radius), points, lines);
   }
   this->lines_->SetPoints(points);
   this->lines_->SetLines(lines);

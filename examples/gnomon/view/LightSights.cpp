@@ -45,7 +45,8 @@ const LightView* viewOf(const LightViews& views, const glm::dvec3& positionCentr
   return nullptr;
 }
 
-/// Completes a light, and tells whether its technique has a map. One that refuses the light has none.
+/// Completes a light, and tells whether its technique has a map. One that refuses the light has
+/// none.
 bool bakesMap(ShadowLight& light)
 {
   try

@@ -12,7 +12,7 @@ namespace
 
 using NameOf = std::function<std::string(const vtkProp*)>;
 
-std::string shortNumber(double value)
+std::string fourDigits(double value)
 {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
@@ -47,7 +47,7 @@ std::string whyDark(const LightSight& sight, const LightSights& sights, const Em
       const Surface& surface = occluders.surfaces[hit->surface];
       return "behind " + nameOf(sights.snapshot().propOf(hit->surface)) + ", triangle " +
         std::to_string(hit->triangle - surface.firstTriangle) + ", " +
-        shortNumber(hit->at * glm::length(ray.direction)) + " away";
+        fourDigits(hit->at * glm::length(ray.direction)) + " away";
     });
 }
 
@@ -75,7 +75,7 @@ std::vector<std::string> PixelProbe::ask(const VisibilityImages& images, const L
   const glm::dvec3 world = glm::dvec3(images.origin[0], images.origin[1], images.origin[2]) +
     glm::dvec3(images.positionX[i], images.positionY[i], images.positionZ[i]);
   lines.front() +=
-    ": at " + shortNumber(world.x) + ", " + shortNumber(world.y) + ", " + shortNumber(world.z);
+    ": at " + fourDigits(world.x) + ", " + fourDigits(world.y) + ", " + fourDigits(world.z);
   this->tracer_.update(sights.snapshot().occluders());
   const glm::vec3 position(world - sights.snapshot().occluders().centreWorld);
   const glm::vec3 normal(images.normalX[i], images.normalY[i], images.normalZ[i]);
@@ -87,7 +87,7 @@ std::vector<std::string> PixelProbe::ask(const VisibilityImages& images, const L
     {
       continue;
     }
-    std::string line = gnomon::nameOf(sight->light) + ": " + shortNumber(images.visibility[k][i]);
+    std::string line = gnomon::nameOf(sight->light) + ": " + fourDigits(images.visibility[k][i]);
     if (!images.classes[k].classes.empty())
     {
       line += " (" + images.classes[k].classes[images.classes[k].ofPixels[i]].name + ")";

@@ -24,7 +24,8 @@ struct SunTime
   std::string time() const;
 };
 
-/// Reads "2024-06-21T12:00+02:00,48.1,11.6": the time, north latitude and east longitude in degrees.
+/// Reads "2024-06-21T12:00+02:00,48.1,11.6": the time, north latitude and east longitude in
+/// degrees.
 /// @param source for errors
 /// @throws BadInput
 SunTime parseSunTime(const std::string& text, const std::string& source);

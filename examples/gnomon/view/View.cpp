@@ -12,6 +12,7 @@
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPropCollection.h>
 #include <vtkProperty.h>
 
 #include <algorithm>

@@ -87,9 +87,9 @@ std::string saysSun(const ViewState& state)
   return state.sun ? state.sun->time() : "";
 }
 
-ViewKey ofVtk(char code, std::string help, Change change = nullptr)
+ViewKey ofVtk(char code, std::string help)
 {
-  return { code, std::string(1, code), std::move(help), true, std::move(change), nullptr };
+  return { code, std::string(1, code), std::move(help), true, nullptr, nullptr };
 }
 
 std::vector<ViewKey> makeKeys()
@@ -100,6 +100,8 @@ std::vector<ViewKey> makeKeys()
   { return [show](const ViewState& state) { return onOff(state.show == show); }; };
   const auto surfaces = [](const char* name)
   { return [name](ViewState& state, const Scene&, const ViewChoices&) { state.surfaces = name; }; };
+  const auto saysSurfaces = [](const char* name)
+  { return [name](const ViewState& state) { return onOff(state.surfaces == name); }; };
   return {
     { '[', "[", "the technique before", false, takeTechnique(-1), nullptr },
     { ']', "]", "the next technique", false, takeTechnique(1),
@@ -144,8 +146,8 @@ std::vector<ViewKey> makeKeys()
     ofVtk('r', "all of the scene"),
     ofVtk('f', "fly to the point under the cursor"),
     ofVtk('p', "outline the prop under the cursor"),
-    ofVtk('w', "wireframe", surfaces("wireframe")),
-    ofVtk('s', "surfaces", surfaces("surface")),
+    { 'w', "w", "wireframe", true, surfaces("wireframe"), saysSurfaces("wireframe") },
+    { 's', "s", "surfaces", true, surfaces("surface"), saysSurfaces("surface") },
     { '3', "3", "stereo", true, nullptr, says(&ViewState::stereo) },
     ofVtk('j', "joystick: the camera moves on"),
     ofVtk('t', "trackball: the camera follows the mouse"),

@@ -22,7 +22,7 @@ namespace
 {
 
 /// Draws a picture into the framebuffer that is bound, and leaves depths alone.
-void draw(const Picture& picture, vtkRenderWindow* window)
+void drawPicture(const Picture& picture, vtkRenderWindow* window)
 {
   const std::size_t rowBytes = 3 * static_cast<std::size_t>(picture.width);
   std::vector<unsigned char> bottomUp;
@@ -123,9 +123,9 @@ void ViewPass::Render(const vtkRenderState* s)
   {
     this->drawAll(this->technique_, s);
     const Picture picture = capture(window);
-    draw(this->state_.show == Show::Error   ? this->errors(picture, s)
-        : this->state_.show == Show::Texels ? this->texels(picture, renderer)
-                                            : this->classes(picture),
+    drawPicture(this->state_.show == Show::Error ? this->errors(picture, s)
+        : this->state_.show == Show::Texels      ? this->texels(picture, renderer)
+                                                 : this->classes(picture),
       window);
   }
   this->NumberOfRenderedProps = this->shown()->GetNumberOfRenderedProps();

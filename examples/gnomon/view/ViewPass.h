@@ -28,8 +28,8 @@ public:
   /// @param lights the scene's, as the state places them
   /// @param renderer that has them already
   void setUp(const ViewState& state, const std::vector<SceneLight>& lights, vtkRenderer* renderer);
-  /// For the next setUp(): whether pictures are to be complete and to depend on nothing but the state: all samples of
-  /// area lights at once, and maps baked.
+  /// For the next setUp(): whether pictures are to be complete and to depend on nothing but the
+  /// state, with all samples of area lights at once, and maps baked.
   void setStill(bool still) { this->still_ = still; }
 
   void Render(const vtkRenderState* s) override;

@@ -20,7 +20,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<const char*, 5> showNames = { "technique", "truth", "error", "classes",
   "texels" };
 constexpr NumberRange lightSize{ 0.0, 1e12 };
-constexpr int largestSidePixels = 16384;
 constexpr std::size_t largestFileBytes = 1 << 20;
 
 /// The size that the setting `light_radius` says.

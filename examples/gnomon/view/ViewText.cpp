@@ -30,7 +30,7 @@ void styleText(vtkTextActor* text, bool inColumns)
   }
 }
 
-std::string joined(const std::vector<std::string>& lines)
+std::string asOneText(const std::vector<std::string>& lines)
 {
   std::string text;
   for (const std::string& line : lines)
@@ -74,7 +74,7 @@ std::vector<std::string> legendOf(const ViewState& state, ViewPass* pass)
 }
 
 /// Breaks a sentence into lines.
-std::vector<std::string> wrapped(const std::string& sentence)
+std::vector<std::string> brokenIntoLines(const std::string& sentence)
 {
   constexpr std::size_t mostLetters = 60;
   std::vector<std::string> lines(1);
@@ -96,7 +96,7 @@ std::vector<std::string> reservations(const ViewState& state, const FrameReport&
   std::vector<std::string> lines;
   for (const std::string& misfit : report.misfits)
   {
-    const std::vector<std::string> more = wrapped(misfit);
+    const std::vector<std::string> more = brokenIntoLines(misfit);
     lines.insert(lines.end(), more.begin(), more.end());
   }
   const bool overlaid = state.frusta || state.show == Show::Texels;
@@ -166,7 +166,7 @@ ViewText::ViewText(vtkRenderer* renderer)
 void ViewText::show(
   const std::vector<std::string>& lines, const ViewState& state, const int size[2])
 {
-  this->corner_->SetInput(joined(lines).c_str());
+  this->corner_->SetInput(asOneText(lines).c_str());
   this->corner_->GetTextProperty()->SetFontSize(std::clamp(size[1] / 38, 10, 18));
   this->corner_->SetPosition(marginPixels, size[1] - marginPixels);
   this->help_->SetVisibility(state.help);
