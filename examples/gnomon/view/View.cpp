@@ -216,7 +216,8 @@ void View::beforeFront()
     lines.insert(lines.begin() + 1, time);
   }
   ++this->framesDrawn_;
-  this->text_.show(lines, this->state_, this->window_->GetSize());
+  this->text_.show(
+    lines, legendOf(this->state_, this->pass_), this->state_, this->window_->GetSize());
   vtkCamera* const camera = this->front_->GetActiveCamera();
   camera->DeepCopy(this->renderer_->GetActiveCamera());
   const SceneLight* const light = this->selectedLight();
