@@ -100,8 +100,8 @@ bool askedToCast(vtkProp* viewProp)
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
 }
 
-/// Whether a light changes how a prop looks. Outlines that VTK's interactor styles put around what is
-/// picked reflect nothing.
+/// Whether a light changes how a prop looks. The outlines that VTK's interactor styles put around
+/// what is picked reflect nothing.
 bool showsLight(vtkProperty* property)
 {
   return property->GetLighting() &&
