@@ -100,6 +100,15 @@ bool askedToCast(vtkProp* viewProp)
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
 }
 
+/// True if a light changes how a prop looks. The outlines that VTK's interactor styles put around
+/// what is picked reflect nothing.
+bool showsLight(vtkProperty* property)
+{
+  return property->GetLighting() &&
+    (property->GetInterpolation() == VTK_PBR || property->GetDiffuse() > 0.0 ||
+      property->GetSpecular() > 0.0);
+}
+
 /// Set the normals with which VTK shades a block's triangles. Flat or unlit properties have none.
 /// The caller skips props whose vertices a user's shader code may move.
 void takeNormals(vtkActor* actor, DrawnBlock& block)
@@ -272,7 +281,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   {
     return;
   }
-  const bool lit = actor->GetProperty()->GetLighting();
+  const bool lit = showsLight(actor->GetProperty());
   const bool asPoints = actor->GetProperty()->GetRepresentation() == VTK_POINTS;
   const bool pointsAreSpheres = actor->GetProperty()->GetRenderPointsAsSpheres();
   const bool sizedInPixels = pointsAreSpheres || drawsTubes(actor->GetProperty());

@@ -335,6 +335,10 @@ TEST(OccluderProps, PointsAsSpheresOfOtherMappersAreNoted)
     actor->GetProperty()->LightingOff();
     EXPECT_EQ(scene.collectSurfaces(), 0u);
     EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
+    actor->GetProperty()->LightingOn();
+    actor->GetProperty()->SetDiffuse(0.0); // as the outlines of picked props are
+    EXPECT_EQ(scene.collectSurfaces(), 0u);
+    EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
   }
 }
 
