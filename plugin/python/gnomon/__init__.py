@@ -38,9 +38,11 @@ from .images import assert_images_equal
 __all__ = [
     "add_shadows",
     "assert_images_equal",
+    "draw",
     "hours_lit",
     "remove_shadows",
     "report",
+    "sun_path",
     "visibility",
     "vtkGnomonAreaLight",
     "vtkGnomonEGLRenderWindow",
@@ -60,10 +62,10 @@ _before = {}
 
 
 def __getattr__(name):
-    if name == "hours_lit":  # takes NumPy, which the rest can do without
-        from .data import hours_lit
+    if name in ("draw", "hours_lit", "sun_path"):  # take NumPy, which the rest can do without
+        from . import data, figure
 
-        return hours_lit
+        return getattr(figure if name == "draw" else data, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -1,11 +1,51 @@
 """Shadow as data, for arrays."""
 
+import datetime
+
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
+from .GnomonLights import vtkGnomonSun
 from .GnomonPlugin import vtkGnomonVisibilityFilter
+
+
+def sun_path(latitude, longitude, date, minutes=10.0, zone=0.0):
+    """The suns of a day, from midnight to midnight, by vtkGnomonSun.
+
+    Parameters
+    ----------
+    latitude, longitude : float
+        Degrees to the north and to the east.
+    date : str or datetime.date
+        As "2026-12-21".
+    minutes : float
+        From one sun to the next, in (0, 1440].
+    zone : float
+        Hours to the east of UTC, which say when midnight is.
+
+    Returns
+    -------
+    (numpy.ndarray, numpy.ndarray)
+        The k suns above the horizon: k x 3 unit vectors towards them (x east, y north, z up), and
+        the hours that each stands for; what `hours_lit` takes.
+
+    Raises
+    ------
+    ValueError
+        For a date, a place or a step that does not exist.
+    """
+    day = datetime.date.fromisoformat(str(date))
+    sun = vtkGnomonSun()
+    errors = _errors_of(sun)
+    sun.SetPlace(latitude, longitude)
+    sun.SetDate(day.year, day.month, day.day)
+    sun.SetTime(12, 0, 0.0, zone)
+    directions, hours = vtkDoubleArray(), vtkDoubleArray()
+    sun.MakeDayPath(minutes, directions, hours)
+    _raise_first(errors)
+    return vtk_to_numpy(directions), vtk_to_numpy(hours)
 
 
 def hours_lit(receivers, directions, hours=None, casters=None, samples=1, angular_diameter=0.0):
@@ -44,23 +84,33 @@ def hours_lit(receivers, directions, hours=None, casters=None, samples=1, angula
     directions = _array("directions", directions, (None, 3), float)
     hours = _array("hours", numpy.ones(len(directions)) if hours is None else hours,
                    (len(directions),), float)
-    errors = []
-
-    def take(_caller, _event, message):
-        errors.append(message)
-
-    take.CallDataType = "string0"
-    shadows.AddObserver("ErrorEvent", take)
+    errors = _errors_of(shadows)
     shadows.AddDirections(numpy_to_vtk(directions), numpy_to_vtk(hours))
     shadows.SetSamples(samples)
     shadows.SetAngularDiameter(angular_diameter)
     shadows.ComputeReasonsOff()
     if not errors:
         shadows.Update()
-    if errors:
-        raise ValueError(errors[0].split("): ", 1)[-1].strip())
+    _raise_first(errors)
     data = shadows.GetOutput().GetCellData()
     return vtk_to_numpy(data.GetArray(shadows.GetHoursName()))
+
+
+def _errors_of(vtk_object):
+    """A list to which the object's errors are added from now on."""
+    errors = []
+
+    def take(_caller, _event, message):
+        errors.append(message)
+
+    take.CallDataType = "string0"
+    vtk_object.AddObserver("ErrorEvent", take)
+    return errors
+
+
+def _raise_first(errors):
+    if errors:
+        raise ValueError(errors[0].split("): ", 1)[-1].strip())
 
 
 def _array(name, values, shape, kind):
