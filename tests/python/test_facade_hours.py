@@ -24,7 +24,8 @@ if os.path.exists(picture):
 
 start = time.monotonic()
 example = os.path.join(here, "..", "..", "examples", "facade_hours.py")
-said = subprocess.run([sys.executable, example, picture], check=True, capture_output=True, text=True)
+command = [sys.executable, example, picture]
+said = subprocess.run(command, check=True, capture_output=True, text=True)
 seconds = time.monotonic() - start
 print(said.stdout + said.stderr + f"{os.path.basename(example)} took {seconds:.1f} seconds.")
 

@@ -28,7 +28,8 @@ def draw(surfaces, direction, path, seen_from=(0.8, -1.0, 0.6), size=(640, 480),
     Raises
     ------
     ValueError
-        For arrays of other shapes, settings that do not exist, and a picture that cannot be written.
+        For arrays of other shapes, settings that do not exist, and a picture that cannot be
+        written.
     """
     from . import add_shadows
 
