@@ -21,6 +21,7 @@ foreach(source __init__.py data.py figure.py images.py)
     "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}/gnomon/${source}" COPYONLY)
 endforeach()
 install(DIRECTORY "${gnomon_python_folder}" DESTINATION "${GNOMON_PYTHON_DESTINATION}"
+  COMPONENT python
   FILES_MATCHING PATTERN "*.py")
 
 # The installed wrappers find the libraries wherever the installation is moved to.
