@@ -112,8 +112,12 @@ inside "$bare" cmake -D PREFIX=/usr -D DOCUMENTATION=/usr/share/doc/gnomon-doc \
   -D PYTHON_DESTINATION=lib/python3/dist-packages \
   -P /src/tests/consumer/TestInstalledPackage.cmake
 
+announce "finding Gnomon without its program"
+logged without inside "$bare" sh -c \
+  'apt-get purge --yes gnomon && cmake -S /tmp/consumer/project -B /tmp/consumer/without'
+
 announce "removing packages"
-names=$(cd "$packages" && printf '%s\n' * | sed 's/_.*//')
+names=$(cd "$packages" && printf '%s\n' * | sed 's/_.*//' | grep -vx gnomon)
 # shellcheck disable=SC2086 # the names are words
 logged remove inside "$bare" apt-get purge --yes $names
 left=$(find "$bare/usr" -iname '*gnomon*' ! -iname '*gnomonic*') # a projection of Boost's
