@@ -16,7 +16,7 @@ vtk_module_wrap_python(
   DEPENDS VTK::RenderingOpenGL2)
 
 set(gnomon_python_folder "${PROJECT_SOURCE_DIR}/plugin/python/gnomon")
-foreach(source __init__.py data.py errors.py images.py)
+foreach(source __init__.py data.py errors.py figure.py images.py)
   configure_file("${gnomon_python_folder}/${source}"
     "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}/gnomon/${source}" COPYONLY)
 endforeach()
@@ -38,8 +38,10 @@ add_custom_command(
 add_custom_target(GnomonPythonStubs ALL DEPENDS ${gnomon_stubs})
 file(TOUCH "${gnomon_built_package}/gnomon/py.typed")
 install(FILES ${gnomon_stubs} "${gnomon_built_package}/gnomon/py.typed"
-  DESTINATION "${GNOMON_PYTHON_DESTINATION}/gnomon")
+  DESTINATION "${GNOMON_PYTHON_DESTINATION}/gnomon"
+  COMPONENT python)
 install(DIRECTORY "${gnomon_python_folder}" DESTINATION "${GNOMON_PYTHON_DESTINATION}"
+  COMPONENT python
   FILES_MATCHING PATTERN "*.py")
 
 # The installed wrappers find the libraries wherever the installation is moved to.

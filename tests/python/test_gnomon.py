@@ -14,6 +14,7 @@ from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
 
 import gnomon
+from gnomon.images import _pixels
 from scene import Scene, add
 
 
@@ -273,8 +274,32 @@ class Data(unittest.TestCase):
         lit = gnomon.hours_lit(self.floor, vtk_to_numpy(directions), vtk_to_numpy(hours))
         self.assertTrue(16.5 < lit[0] < 17.0, lit)  # the longest day in Berlin: 16.8 hours
 
+    def test_the_path_of_a_day_is_the_sun_s(self):
+        directions, hours = gnomon.sun_path(52.52, 13.405, "2026-12-21", minutes=30, zone=1)
+        self.assertEqual(directions.shape, (len(hours), 3))
+        self.assertTrue(7.2 < hours.sum() < 7.8, hours.sum())  # the shortest day in Berlin
+        noon = directions[directions[:, 2].argmax()]
+        self.assertTrue(abs(noon[0]) < 0.1 and noon[1] < 0, noon)  # in the south
+        self.assertAlmostEqual(noon[2], numpy.sin(numpy.radians(90 - 52.52 - 23.44)), delta=0.002)
+
+    def test_a_picture_of_arrays(self):
+        # Seen from above, a roof of 1 x 1 beside its shadow, over a floor of 3 x 3.
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "roof.png")
+            gnomon.draw([self.floor, self.roof], [1, 0, 1], path, [0, 0, 1], size=(200, 160))
+            picture = _pixels(path).astype(int)
+        self.assertEqual(picture.shape, (160, 200, 3))
+        dark = (picture.max(axis=2) < 80).sum()
+        shown = (picture != picture[0, 0]).any(axis=2).sum()
+        self.assertAlmostEqual(dark / shown, 1 / 9, delta=0.005)
+
     def test_mistakes_are_said(self):
         for call, what in (
+            (lambda: gnomon.sun_path(91, 0, "2026-12-21"), "no place"),
+            (lambda: gnomon.sun_path(0, 0, "2026-02-30"), "day"),
+            (lambda: gnomon.sun_path(0, 0, "2026-02-20", minutes=0), "step"),
+            (lambda: gnomon.draw([self.floor], [0, 1], "x.png"), "direction: expected"),
+            (lambda: gnomon.draw([self.floor], [0, 0, 1], "x.png", technique="none"), "."),
             (lambda: gnomon.hours_lit(self.floor, [[0, 0]]), "directions: expected"),
             (lambda: gnomon.hours_lit(self.floor, self.suns, [1]), "hours: expected"),
             (lambda: gnomon.hours_lit((self.floor[0], [[0, 1, 9]]), self.suns), "found 0 to 9"),

@@ -55,9 +55,11 @@ if TYPE_CHECKING:
 __all__ = [
     "add_shadows",
     "assert_images_equal",
+    "draw",
     "hours_lit",
     "remove_shadows",
     "report",
+    "sun_path",
     "visibility",
     "vtkGnomonAreaLight",
     "vtkGnomonEGLRenderWindow",
@@ -78,10 +80,10 @@ _before: dict[str, Any] = {}
 if not TYPE_CHECKING:  # for which every name would exist
 
     def __getattr__(name):
-        if name == "hours_lit":  # takes NumPy, which the rest can do without
-            from .data import hours_lit
+        if name in ("draw", "hours_lit", "sun_path"):  # need NumPy, which the rest can do without
+            from . import data, figure
 
-            return hours_lit
+            return getattr(figure if name == "draw" else data, name)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

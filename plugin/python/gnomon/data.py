@@ -2,18 +2,64 @@
 
 from __future__ import annotations
 
+import datetime
 from typing import TYPE_CHECKING
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from .errors import collect_errors
+from .GnomonLights import vtkGnomonSun
 from .GnomonPlugin import vtkGnomonVisibilityFilter
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+
+def sun_path(
+    latitude: float,
+    longitude: float,
+    date: str | datetime.date,
+    minutes: float = 10.0,
+    zone: float = 0.0,
+) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Return the suns of a day, from midnight to midnight, by vtkGnomonSun.
+
+    Parameters
+    ----------
+    latitude, longitude : float
+        Degrees to the north and to the east.
+    date : str or datetime.date
+        As "2026-12-21".
+    minutes : float
+        From one sun to the next, in (0, 1440].
+    zone : float
+        Hours to the east of UTC, which say when midnight is.
+
+    Returns
+    -------
+    (numpy.ndarray, numpy.ndarray)
+        The k suns above the horizon: k x 3 unit vectors towards them (x east, y north, z up), and
+        the hours that each stands for; what `hours_lit` takes.
+
+    Raises
+    ------
+    ValueError
+        For a date, a place or a step that does not exist.
+    """
+    day = datetime.date.fromisoformat(str(date))
+    sun = vtkGnomonSun()
+    errors, _ = collect_errors(sun)
+    sun.SetPlace(latitude, longitude)
+    sun.SetDate(day.year, day.month, day.day)
+    sun.SetTime(12, 0, 0.0, zone)
+    directions, hours = vtkDoubleArray(), vtkDoubleArray()
+    sun.MakeDayPath(minutes, directions, hours)
+    if errors:
+        raise ValueError(errors[0])
+    return vtk_to_numpy(directions), vtk_to_numpy(hours)
 
 
 def hours_lit(
