@@ -1,4 +1,4 @@
-// Random cases: gnomon_fuzz scenes|sequences|files, and what it has found once: gnomon_fuzz replay.
+// Run random cases: gnomon_fuzz scenes|sequences|files. Repeat earlier finds: gnomon_fuzz replay.
 
 #include "Runner.h"
 
@@ -29,8 +29,8 @@ const CaseKind& kindOf(const std::string& name)
   throw std::runtime_error("there is no kind \"" + name + "\"");
 }
 
-/// Runs what a list of finds names: a line each, with kind, seed, index and what was wrong. Lines
-/// that begin with # say something else.
+/// Run a list of finds: a line each, with kind, seed, index and error. Lines that begin with # are
+/// comments.
 unsigned replay(const std::string& path)
 {
   std::ifstream file(path);
