@@ -295,7 +295,7 @@ void fly(const Scene& scene, const Options& options)
 
 int run(int argc, char** argv)
 {
-  CLI::App app{ "Prints how well auto chooses while the camera moves: a line a place",
+  CLI::App app{ "Measures how well auto chooses while the camera moves: a line per place",
     "gnomon_benchmark_auto" };
   Options options;
   app.add_option("SCENES", options.scenes, "Scenes: built-in names or scene files")->required();

@@ -204,7 +204,7 @@ std::vector<Axis> makeAxes(const Options& options)
   for (const auto& [width, height] :
     { std::pair(512, 512), { 1024, 1024 }, { 1920, 1080 }, { 3840, 2160 } })
   {
-    // Of a base of 1024 x 1024; of another, in proportion.
+    // For a base of 1024 x 1024; another base scales in proportion.
     const PictureSize size{ width * options.sidePixels / 1024, height * options.sidePixels / 1024 };
     pixels.cases.push_back(named(std::to_string(size.width) + " x " + std::to_string(size.height),
       static_cast<double>(size.width) * size.height));

@@ -75,7 +75,7 @@ private:
 struct Time
 {
   double wall;
-  /// Of all threads. With software OpenGL on a busy machine, it varies less than wall time.
+  /// CPU time of all threads. It tells more than wall time on a busy machine with software OpenGL.
   double processor;
 };
 

@@ -213,8 +213,8 @@ private:
   }
 
   /// True if a position lies on a triangle other than the truth's, within the tolerance. The
-  /// pixel's ray must meet or nearly pass it there, and a camera ray that a rasteriser cannot tell
-  /// from the pixel's must see that triangle first.
+  /// pixel's ray must meet or nearly pass it there. A camera ray that a rasteriser cannot tell from
+  /// the pixel's must see that triangle first.
   bool onOtherSurface(const Vec3& position, double x, double y, const Point& truth) const
   {
     const Ray ray = this->camera_.through(x, y);

@@ -24,7 +24,7 @@ struct Mesh
   std::vector<std::array<Vec2, 3>> coordinates;
 };
 
-/// Which texels of a repeated image are drawn: those whose alpha is not 0.
+/// The texels of a repeated image that are drawn: those whose alpha is not 0.
 struct Holes
 {
   int width = 0;

@@ -11,8 +11,8 @@ namespace gnomon::hard
 
 /// @file
 /// Flicker of shadows: the share of the pixels at shadows' edges that turn from right to wrong or
-/// back between two frames, while the camera or the light moves by small steps. The truth flickers
-/// by 0; a shadow that moves with its map's texels flickers much.
+/// back between two frames. The camera or the light moves by small steps. The truth flickers by 0;
+/// a shadow that moves with its map's texels flickers much.
 ///
 /// A moving picture samples errors at other points, and would flicker by that alone. For a moving
 /// camera, maps are therefore fitted to its place and looked up from its first place.

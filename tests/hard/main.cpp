@@ -87,8 +87,8 @@ int run(int argc, char** argv)
     ->check(CLI::IsMember(namesOf(columns())));
   app
     .add_option("--known", options.known,
-      "A table of cells that are known to be broken: any other is an error, and so is one that is "
-      "not broken any more")
+      "A table of cells that are known to be broken: any other broken cell is an error, and so is "
+      "one of these that is fixed")
     ->check(CLI::ExistingFile);
   app.add_option("-o", options.folder, "Where hard_cases.csv, .svg and .md are written");
   CLI::Option* const tenth =

@@ -8,9 +8,9 @@
 // writes PREFIX.messages, PREFIX.lights ("own" or "key") and one PREFIX.N.ppm a window: its last
 // picture. The program's own passes are not used; without PROGRAM_TECHNIQUE there is none.
 //
-// With PROGRAM_FRAMES=N, where the program starts its interactor, the camera of its first renderer
-// moves by small steps, in runs of N frames without Gnomon and with it, as of a picture that moves;
-// PREFIX.motion gets the median milliseconds of both, and what `auto` chose last.
+// With PROGRAM_FRAMES=N, the camera of the first renderer moves by small steps where the program
+// starts its interactor. It moves in runs of N frames without Gnomon and with it, as frames in
+// motion. PREFIX.motion gets the median milliseconds of both, and the last choice of `auto`.
 
 #include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonLightPlacement.h>

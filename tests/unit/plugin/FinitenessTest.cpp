@@ -136,8 +136,8 @@ TEST_BY_VARIANTS(DegenerateScenes, UnderLightsOfAnySize, isSoft)
 }
 
 //------------------------------------------------------------------------------
-/// Cameras that see nothing at all, away from everything, from inside a caster, in the floor's
-/// plane, and from below, where no receiver faces the light. They do not affect later frames.
+/// Cameras that see nothing at all, away from everything, inside a caster, and in the floor's
+/// plane. From below, no receiver faces the light. They do not affect later frames.
 TEST_BY_VARIANTS(DegenerateScenes, SeenFromAnywhere, isForAll)
 {
   PassScene scene(64, 48);

@@ -339,8 +339,8 @@ TEST_F(Fitting, warpUnderLightAlongTheViewIsAsGoodAsNone)
 //------------------------------------------------------------------------------
 TEST_F(Fitting, snappedEdgesStayWhereTheyAreWhenTheCameraMoves)
 {
-  // The floor from straight above. A pixel is a tenth of a texel or less, and the camera moves by
-  // whole pixels, so the same places of the floor can be compared.
+  // The floor from straight above. A pixel is a tenth of a texel or less. The camera moves by whole
+  // pixels, so the same places of the floor can be compared.
   constexpr int side = 512;
   constexpr double halfHeight = 3.0;
   const double pixel = 2.0 * halfHeight / side;

@@ -550,8 +550,8 @@ TEST_F(LightTextures, areRefinedFromTheHardShadow)
 }
 
 //------------------------------------------------------------------------------
-/// On a matt floor under a window, shading from all points equals rays to all of them, except for
-/// the cosines, which differ from those of the window's centre.
+/// On a matt floor under a window, shading from all points equals rays to all of them. Only the
+/// cosines differ: they are not those of the window's centre.
 TEST_F(PassTest, aWindowsPointsShadeAMattFloorAsRaysSeeIt)
 {
   const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene("soft-window"), 1.0);

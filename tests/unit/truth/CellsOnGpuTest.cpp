@@ -336,8 +336,8 @@ void subdivide(Occluders& occluders)
   }
 }
 
-/// Of a band of rows, the CPU stores a limited number of triangles for their noise, and visits the
-/// others again.
+/// The CPU stores a limited number of a band's triangles for their noise, and visits the others
+/// again.
 TEST_F(CellsDrawnOnGpu, areThoseOfTheCpuWhereManyTrianglesLieInABand)
 {
   RandomPicture picture = makeRandomPicture("touching boxes", 3);

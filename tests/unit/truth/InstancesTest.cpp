@@ -112,8 +112,8 @@ TEST(Instances, VisibilityIsThatOfTheirTriangles)
   EXPECT_LE(different, pixels / 100000) << "rays that meet an edge to within rounding";
 }
 
-/// No triangle of an instance shadows itself, from half of the shadow ray's offset on, for all
-/// matrices that stretch, shear (within their limit) and move it.
+/// No triangle of an instance shadows itself, from half of the shadow ray's offset on. That holds
+/// for all matrices that stretch, shear (within their limit) and move it.
 TEST(Instances, TheOffsetHoldsThroughTheirMatrices)
 {
   SignedRandom random(11);
