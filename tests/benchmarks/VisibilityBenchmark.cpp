@@ -108,7 +108,7 @@ BENCHMARK(filter)
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);
 
-/// Trace with Embree alone: packets of sixteen neighbours in their order, a bit counted for each
+/// Traces with Embree alone: packets of sixteen neighbours in their order, a bit counted for each
 /// ray.
 class BareLoop
 {

@@ -29,7 +29,7 @@ constexpr double storedPrecision = 1e-6;
 /// Unit normals further apart (about 0.1 degrees) belong to different surfaces.
 constexpr double sameNormalDistance = 0.002;
 
-/// Make rays through the points of a picture.
+/// Makes rays through the points of a picture.
 class CameraRays
 {
 public:

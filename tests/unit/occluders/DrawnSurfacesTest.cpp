@@ -47,7 +47,7 @@ using namespace gnomon::test;
 namespace
 {
 
-/// Draw the scene with numbers as colours: primitive numbers, or drawn surfaces and sides.
+/// Draws the scene with numbers as colours: primitive numbers, or drawn surfaces and sides.
 class NumberPass : public vtkOpenGLRenderPass
 {
 public:

@@ -182,7 +182,8 @@ ExactFloor awayFromEdges(const ExactFloor& exact, double band)
   };
 }
 
-/// Return where a floor point's ray to the light meets the square's plane, as a share of its sides.
+/// The place where a floor point's ray to the light meets the square's plane, in shares of its
+/// sides.
 using PlaceOnSquare = std::function<glm::dvec2(const glm::dvec2&)>;
 
 /// A square with holes above a floor, under a sun at 45 degrees that moves its shadow by 5 along x,

@@ -929,7 +929,7 @@ public:
   vtkActor* actor;
 };
 
-/// Return the difference of two pictures where both show the floor.
+/// The difference of two pictures where both show the floor.
 struct FloorDifference
 {
   std::size_t dark = 0;

@@ -169,7 +169,8 @@ TEST(EmbreeTracer, MovedAndScaledScenesGiveTheSameVisibility)
   }
 }
 
-/// Count the pixels of the first surface that face the light, and of these those that are not lit.
+/// Counts of the first surface's pixels that face the light, and of these the ones that are not
+/// lit.
 struct FacingPixels
 {
   int facing = 0;

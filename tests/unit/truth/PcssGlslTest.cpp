@@ -238,7 +238,7 @@ private:
   Changes changes_;
 };
 
-/// Count the texels of the map that the shader itself reads for receivers. Each receiver has its
+/// Counts of texels of the map that the shader itself reads for receivers. Each receiver has its
 /// own pixel.
 struct Reads
 {

@@ -304,8 +304,8 @@ ReceiverPixels receiversAt(
   return receivers;
 }
 
-/// Return a triangle in the middle of the map and one across each side. Some of them face away from
-/// the light.
+/// A triangle in the middle of the map and one across each side. Some of them face away from the
+/// light.
 struct Flaps
 {
   Occluders occluders;

@@ -104,7 +104,7 @@ void expectSame(const Shown& judged, const Shown& traced, const std::string& whe
   }
 }
 
-/// Count the pixels by the way in which they are decided.
+/// Counts of pixels by the way in which they are decided.
 using DecidedPixels = std::array<std::size_t, 5>; // by TracedClass
 void countDecided(const TileVerdicts& verdicts, const Shown& judged, DecidedPixels& counts)
 {
