@@ -116,10 +116,10 @@ public:
    * GetBox returns the sizes and the up direction; without a box it returns false and changes
    * nothing.
    *
-   * @param width size across the light and across `up`, in world units
-   * @param height size across the light and along `up`, in world units
-   * @param depth size along the light, in world units
-   * @param up the near face's up direction, of any length, in the light's own coordinates
+   * - `width`: size across the light and across `up`, in world units
+   * - `height`: size across the light and along `up`, in world units
+   * - `depth`: size along the light, in world units
+   * - `up`: the near face's up direction, of any length, in the light's own coordinates
    */
   static void SetBox(
     vtkLight* light, double width, double height, double depth, const double up[3]);

@@ -53,6 +53,7 @@ public:
    * Make a light shine on the sphere around a box, as ShineOnSphere() does. An empty box is an
    * error.
    *
+   * @param light as in ShineOnSphere()
    * @param bounds xmin, xmax, ymin, ymax, zmin, zmax (vtkProp's GetBounds, vtkRenderer's
    * ComputeVisiblePropBounds)
    */

@@ -44,7 +44,8 @@ if TYPE_CHECKING:
 
     import numpy
 
-    from .data import hours_lit as hours_lit
+    from .data import hours_lit as hours_lit, sun_path as sun_path
+    from .figure import draw as draw
 
     class _HasRenderer(Protocol):
         """What has a renderer, as pyvista.Plotter does."""

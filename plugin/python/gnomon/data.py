@@ -29,8 +29,10 @@ def sun_path(
 
     Parameters
     ----------
-    latitude, longitude : float
-        Degrees to the north and to the east.
+    latitude : float
+        Degrees to the north.
+    longitude : float
+        Degrees to the east.
     date : str or datetime.date
         As "2026-12-21".
     minutes : float

@@ -50,6 +50,7 @@ def draw(
     """
     from . import add_shadows
 
+    technique = settings.pop("technique", None)
     renderer = vtkRenderer()
     renderer.SetBackground(0.6, 0.75, 0.9)
     for surface in surfaces:
@@ -72,5 +73,5 @@ def draw(
     window = vtkGnomonEGLRenderWindow()
     window.SetSize(*size)
     window.AddRenderer(renderer)
-    add_shadows(renderer, **settings)
+    add_shadows(renderer, None if technique is None else str(technique), **settings)
     _write(_pixels(window), str(path))
