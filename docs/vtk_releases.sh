@@ -12,9 +12,9 @@ if [ "${GNOMON_VTK_MOUNTS:-}" != own ]; then
   export GNOMON_VTK_MOUNTS=own
   exec unshare --mount --propagation private "$(realpath "${BASH_SOURCE[0]}")" "$@"
 fi
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=$(realpath "$1")/bin/gnomon
 shift
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
 out="$PWD/out/vtk_releases"
 size=400x400
 pixels=160000
@@ -40,6 +40,10 @@ renderBy() {
         echo "$name: $scene by $technique: $(grep error "$out/log" | head -1)" >&2
     done
   done
+  if ! compgen -G "$out/$name.*.exr" > /dev/null; then
+    echo "$name draws nothing: $(tail -1 "$out/log")" >&2
+    exit 1
+  fi
 }
 
 techniques=$("$program" techniques | sed -nE 's/^([a-z]+) .*/\1/p')
@@ -63,8 +67,10 @@ done
 off() {
   local here="$out/here.$1.$2.exr" there="$out/$3.$1.$2.exr"
   if [ -e "$here" ] && [ -e "$there" ]; then
-    { "$program" diff "$here" "$there" --max-difference 0.5 2> /dev/null || true; } |
-      sed -nE 's/^([0-9]+) of .*/\1/p'
+    local count
+    count=$({ "$program" diff "$here" "$there" --max-difference 0.5 2> /dev/null || true; } |
+      sed -nE 's/^([0-9]+) of .*/\1/p')
+    echo "${count:-not comparable}"
   else
     echo "?"
   fi

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <variant>
 
@@ -127,7 +128,8 @@ void vtkGnomonLightKeys::SetMapSize(vtkLight* light, int mapSizeTexels)
 int vtkGnomonLightKeys::GetMapSize(vtkLight* light)
 {
   const char* const text = GetSetting(light, "map_size");
-  return text ? std::stoi(text) : 0; // SetSetting takes numbers only
+  // A program may have filled SETTINGS() by itself, with any text.
+  return text ? static_cast<int>(std::clamp(std::strtol(text, nullptr, 10), 0L, 16384L)) : 0;
 }
 
 //------------------------------------------------------------------------------

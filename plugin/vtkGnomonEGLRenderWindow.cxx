@@ -200,8 +200,9 @@ void vtkGnomonEGLRenderWindow::OpenGLInitContext()
   }
   if (!GNOMON_HAS_GL(VERSION_3_2))
   {
+    const auto* const version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
     this->TellOfContext("VTK needs OpenGL 3.2; " + this->Context->platform() + " gives " +
-      reinterpret_cast<const char*>(glGetString(GL_VERSION)) + ".");
+      (version ? version : "none") + ".");
     return;
   }
   this->TellOfContext("");

@@ -244,6 +244,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   bool marked = false;
   bool drawn = false;
   bool failed = false;
+  bool again = false;
   bool outOfTextureMemory = false;
   try
   {
@@ -294,6 +295,10 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     }
     manager.endFrame();
     this->Internal->tellError(this, renderer, gnomon::Topic::Frame, "");
+    this->Internal->tellError(this, renderer, gnomon::Topic::Numbers,
+      goesOn && manager.wrongNumbers() > 0
+        ? "The driver numbers triangles wrongly, even for geometry shaders: shadows may be wrong."
+        : "");
     this->Internal->shadowed = true;
     this->Internal->progress = leastProgress(manager.report());
     if (goesOn)
@@ -302,6 +307,11 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
         this->Interactive == INTERACTIVE_AUTO && !manager.report().choice.empty();
       this->Internal->restingFrame.drawn(window, moves && mayFollow, this->Internal->progress);
     }
+  }
+  catch (const gnomon::FrameMustBeDrawnAgain&)
+  {
+    manager.abandonFrame();
+    again = true;
   }
   catch (const std::exception& error)
   {
@@ -314,6 +324,11 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   if (marked)
   {
     this->PostRender(s);
+  }
+  if (again)
+  {
+    this->Render(s);
+    return;
   }
   if (failed)
   {

@@ -332,6 +332,9 @@ void renderSettings(const RenderOptions& options)
   requireWritableFile(options.picture, "--output", { ".png", ".exr" });
   Progress progress("reading " + options.viewFile);
   auto [state, scene] = readView(options.viewFile);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(1, 1);
+  requireDrawable(state.size, window);
   progress.begin("rendering");
   writePicture(drawWithoutScreen(state, std::move(scene)), options.picture);
 }

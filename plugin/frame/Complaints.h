@@ -23,6 +23,7 @@ enum class Topic
   Headlight,
   LeftOut,
   Route,
+  Numbers,
   Resolution,
   Frame
 };

@@ -104,24 +104,6 @@ bool mayHaveOwnShaders(vtkMapper* mapper)
     [mapper](const char* name) { return std::strcmp(name, mapper->GetClassName()) == 0; });
 }
 
-/// True for annotations in the window's plane and volumes, which receive nothing and leave no
-/// depths.
-bool isFlatOrVolume(vtkProp* prop)
-{
-  return vtkActor2D::SafeDownCast(prop) || vtkVolume::SafeDownCast(prop);
-}
-
-/// Enable or disable writes to the target's images; depths are always written. A shader that does
-/// not write an output leaves it undefined.
-void writeReceivers(bool write)
-{
-  const GLboolean mask = write ? GL_TRUE : GL_FALSE;
-  for (const GLuint output : { 1u, 2u })
-  {
-    glColorMaski(output, mask, mask, mask, mask);
-  }
-}
-
 /// True if render passes can add to the shaders of a prop without parts.
 bool isLeafDrawnByPasses(vtkProp* leaf)
 {
@@ -162,7 +144,7 @@ std::size_t hashOfShownProps(const vtkRenderState* s)
   {
     vtkProp* prop = s->GetPropArray()[i];
     // Annotations, such as a text with the frame's time, do not change the receivers.
-    if (!isFlatOrVolume(prop))
+    if (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop))
     {
       hashCombine(seed, prop);
       hashCombine(seed, prop->GetRedrawMTime());
@@ -210,10 +192,10 @@ ByPasses drawnByPasses(vtkProp* prop)
 }
 
 //------------------------------------------------------------------------------
-bool drawnByPassesAlone(const vtkRenderState* s)
+bool hasPartsOfBothKinds(const vtkRenderState* s)
 {
-  return std::all_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
-    [](vtkProp* prop) { return isFlatOrVolume(prop) || drawnByPasses(prop) == ByPasses::All; });
+  return std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
+    [](vtkProp* prop) { return drawnByPasses(prop) == ByPasses::Some; });
 }
 
 //------------------------------------------------------------------------------
@@ -243,26 +225,16 @@ void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* const prop = s->GetPropArray()[i];
-    const WithoutOtherPasses alone(prop, pass);
-    const bool says = drawnByPasses(prop) != ByPasses::Nothing;
-    writeReceivers(says);
-    prop->RenderOpaqueGeometry(renderer);
-  }
-  writeReceivers(true);
-  target.end(state->GetEnumState(GL_BLEND));
-  state->PopFramebufferBindings();
-}
-
-//------------------------------------------------------------------------------
-void drawOpaque(const vtkRenderState* s)
-{
-  for (int i = 0; i < s->GetPropArrayCount(); ++i)
-  {
-    if (drawnByPasses(s->GetPropArray()[i]) == ByPasses::All)
+    // Shaders that passes do not reach would leave anything in the images. What they hide receives
+    // in vain.
+    if (drawnByPasses(prop) != ByPasses::Nothing)
     {
-      s->GetPropArray()[i]->RenderOpaqueGeometry(s->GetRenderer());
+      const WithoutOtherPasses alone(prop, pass);
+      prop->RenderOpaqueGeometry(renderer);
     }
   }
+  target.end(state->GetEnumState(GL_BLEND));
+  state->PopFramebufferBindings();
 }
 
 } // namespace gnomon

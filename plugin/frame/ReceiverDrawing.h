@@ -37,8 +37,8 @@ enum class ByPasses
   Some     ///< an assembly of both
 };
 ByPasses drawnByPasses(vtkProp* prop);
-/// True if passes reach all parts of all props of a picture.
-bool drawnByPassesAlone(const vtkRenderState* s);
+/// True if an assembly of a picture has parts of both kinds.
+bool hasPartsOfBothKinds(const vtkRenderState* s);
 
 /// Draw the opaque props by VTK into the target, whose size is set, each with the shaders of one
 /// pass alone.
@@ -47,8 +47,5 @@ bool drawnByPassesAlone(const vtkRenderState* s);
 /// @throws TextureMemoryError
 void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec2& size,
   bool withPoints, ReceiverTarget& target);
-
-/// Draw by VTK the opaque props whose shaders render passes reach (ByPasses::All).
-void drawOpaque(const vtkRenderState* s);
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/exact/CellTarget.h"
 
+#include <vtkMapper.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
@@ -36,6 +37,8 @@ RenderManager::RenderManager(PassPrograms& programs)
 void RenderManager::beginFrame(const FrameWishes& wishes)
 {
   this->frame_.report = FrameReport{};
+  std::tie(this->frame_.report.numbersChecked, this->frame_.report.numbersWrong) =
+    std::exchange(this->numbersBefore_, {});
   this->frame_.wishes = wishes;
   if (!wishes.keepVisibility)
   {
@@ -141,8 +144,7 @@ std::string RenderManager::whyNotDeferred(const vtkRenderState* s, bool drawnPla
   {
     return "a prop may have shaders of its own, which need not light twice";
   }
-  if (std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
-        [](vtkProp* prop) { return drawnByPasses(prop) == ByPasses::Some; }))
+  if (hasPartsOfBothKinds(s))
   {
     return "an assembly has parts that passes cannot reach";
   }
@@ -326,55 +328,60 @@ void RenderManager::beginReceivers(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-/// Checks the numbers of receivers that new programs have drawn.
+/// Compare the triangle numbers that new programs have drawn with the depths.
 NumberCheck RenderManager::checkNumbers(const vtkRenderState* s)
 {
   const ReceiversValue& receivers = this->frame_.view->receivers;
+  const Occluders& occluders = this->collector_.occluders();
   ReceiverImages images;
-  std::vector<float> depths;
-  if (this->frame_.route == Route::Deferred)
+  NumberTruth truth;
+  // What numbers no triangles may be nearer, and VTK may offset depths.
+  const bool comparesDepths =
+    !hasPartsOfBothKinds(s) && vtkMapper::GetResolveCoincidentTopology() == VTK_RESOLVE_OFF;
+  const auto read = [&](const auto& from)
   {
-    receivers.deferred.read(images);
-    receivers.deferred.readDepths(depths);
-  }
-  else
-  {
-    receivers.target.read(images);
-    if (drawnByPassesAlone(s))
+    from.read(images);
+    if (comparesDepths)
     {
-      receivers.target.readDepths(depths);
+      from.readDepths(truth.windowDepths);
     }
-  }
+  };
+  this->frame_.route == Route::Deferred ? read(receivers.deferred) : read(receivers.target);
   images.rays = pixelRays(this->frame_.camera.clipFromView, this->frame_.space.centredFromView,
     images.width, images.height);
-  return this->programs_.numbers.check(images, depths, this->collector_.drawnSurfaces(),
-    this->collector_.occluders(), this->frame_.camera.clipFromCentred());
+  truth.clipFromCentred = this->frame_.camera.clipFromCentred();
+  // VTK multiplies vertices in float. It shifts those that are farther off than 1,000 extents.
+  const double extent = 2.0 * occluders.allCentred.radius();
+  const double farthest = glm::length(occluders.centreWorld) + extent;
+  truth.vertexNoise = 8.0 / 16777216.0 *
+    (std::min(farthest, 1000.0 * extent) + glm::length(this->frame_.camera.eyeCentred()));
+  return this->programs_.numbers.check(images, truth, this->collector_.drawnSurfaces(), occluders);
 }
 
 //------------------------------------------------------------------------------
-/// Makes sure that receivers which were just drawn have the right numbers. The first wrong one has
-/// all programs of the pass take theirs from geometry shaders.
-void RenderManager::ensureNumbers(const vtkRenderState* s, const std::function<void()>& drawAgain)
+/// Check the numbers of receivers that were just drawn. The first wrong one has geometry shaders
+/// number the triangles in all programs of the pass.
+/// @return false if the receivers must be drawn again
+bool RenderManager::numbersAreRight(const vtkRenderState* s)
 {
   FrameReport& report = this->frame_.report;
-  if (this->programs_.numbers.isDue())
+  ReceiversValue& receivers = this->frame_.view->receivers;
+  receivers.wrongNumbers = 0;
+  if (!this->programs_.numbers.isDue())
   {
-    NumberCheck check = this->checkNumbers(s);
-    report.numbersChecked = check.pixels;
-    report.numbersWrong = check.wrong;
-    if (check.wrong > 0 && !this->programs_.shaders.numbersByGeometryShaders())
-    {
-      this->programs_.shaders.numberByGeometryShaders();
-      drawAgain();
-      check = this->checkNumbers(s);
-    }
-    if (check.wrong > 0)
-    {
-      report.notes.push_back(std::to_string(check.wrong) + " of " + std::to_string(check.pixels) +
-        " pixels show other triangles than the driver's numbers say; their shadows may be wrong.");
-    }
-    this->frame_.endStage("receivers: check numbers");
+    return true;
   }
+  const NumberCheck check = this->checkNumbers(s);
+  this->frame_.endStage("receivers: check numbers");
+  report.numbersChecked += check.allPixels();
+  report.numbersWrong += check.allWrong();
+  if (check.allWrong() > 0 && !this->programs_.shaders.numbersByGeometryShaders())
+  {
+    this->programs_.shaders.numberByGeometryShaders();
+    return false;
+  }
+  receivers.wrongNumbers = check.allWrong();
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -392,7 +399,12 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
       this->programs_.shaders.endStage();
     };
     draw();
-    this->ensureNumbers(s, draw);
+    this->frame_.endStage("receivers");
+    if (!this->numbersAreRight(s))
+    {
+      draw();
+      this->numbersAreRight(s);
+    }
   }
   this->takeReceivers();
   this->stageValues_.depths = { GL_TEXTURE_2D, this->frame_.view->receivers.target.depths() };
@@ -443,7 +455,7 @@ void RenderManager::beginOpaque(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::finishOpaque()
+void RenderManager::endOpaque(const vtkRenderState* s)
 {
   this->programs_.shaders.endStage();
   this->frame_.view->receivers.deferred.detach();
@@ -451,22 +463,12 @@ void RenderManager::finishOpaque()
   {
     throw std::runtime_error("it is drawn at another size than its viewport has");
   }
-}
-
-//------------------------------------------------------------------------------
-void RenderManager::endOpaque(const vtkRenderState* s)
-{
-  this->finishOpaque();
   this->frame_.endStage("shading: lit and in shadow");
-  if (this->receiversDue_)
+  if (this->receiversDue_ && !this->numbersAreRight(s))
   {
-    this->ensureNumbers(s,
-      [&]
-      {
-        this->beginOpaque(s);
-        drawOpaque(s); // once more, into the same depths
-        this->finishOpaque();
-      });
+    // The report of the frame that follows says so.
+    this->numbersBefore_ = { this->frame_.report.numbersChecked, this->frame_.report.numbersWrong };
+    throw FrameMustBeDrawnAgain();
   }
   this->takeReceivers();
 }
@@ -499,6 +501,12 @@ void RenderManager::endFrame()
   FrameReport& report = this->frame_.report;
   const PassPrograms& programs = this->programs_;
   report.numbersByGeometryShaders = programs.shaders.numbersByGeometryShaders();
+  if (const std::int64_t wrong = this->frame_.view->receivers.wrongNumbers; wrong > 0)
+  {
+    report.notes.push_back(std::to_string(wrong) +
+      " pixels show other triangles than the driver's numbers say, even by geometry shaders: their "
+      "shadows may be wrong.");
+  }
   report.programCompiles =
     programs.library.compiles() + programs.shaders.rebuilds() - this->compilesBefore_;
   report.newPrograms =
@@ -533,10 +541,17 @@ void RenderManager::setShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
 {
   Drawn drawn = this->collector_.drawn(mapper, prop);
-  TriangleNumbers& numbers = this->programs_.numbers;
-  if (this->stageValues_.receiversStage && drawn.index >= 0 && numbers.isNew(program))
+  if (this->stageValues_.receiversStage && drawn.index >= 0)
   {
-    numbers.add(program, drawn.index, hasOwnShaders(prop));
+    TriangleNumbers& numbers = this->programs_.numbers;
+    const DrawnSurface::Block& last =
+      this->collector_.drawnSurfaces()[static_cast<std::size_t>(drawn.index)].blocks.back();
+    const std::uint32_t primitives = last.firstPrimitive + last.primitiveCount;
+    // The snapshot need not hold what shaders of a user's own draw.
+    if (numbers.isNew(program, primitives) && !hasOwnShaders(prop))
+    {
+      numbers.add(program, primitives, drawn.index);
+    }
   }
   drawn.receives = drawn.receives && (!drawn.translucent || this->shadesTranslucent_);
   this->programs_.shaders.setParameters(program, drawn);

@@ -15,9 +15,10 @@
 
 #include <glm/glm.hpp>
 
-#include <functional>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -36,6 +37,11 @@ struct PassPrograms
   ShaderManager shaders;
   ShaderLibrary library;
   TriangleNumbers numbers;
+};
+
+/// Thrown where a frame has begun that other shaders must draw.
+struct FrameMustBeDrawnAgain
+{
 };
 
 /// The stages of one renderer's frame, in the order in which the pass calls them. Each takes values
@@ -88,6 +94,7 @@ public:
   /// and in shadow. Afterwards it is known which lights' visibility is another one than the view
   /// has.
   void beginOpaque(const vtkRenderState* s);
+  /// @throws FrameMustBeDrawnAgain
   void endOpaque(const vtkRenderState* s);
 
   /// shading (deferred route): gives what is in shadow its colour.
@@ -109,6 +116,8 @@ public:
   /// For the hook: sets a program's parameters for the prop that is about to be drawn.
   void setShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop);
   const FrameReport& report() const { return this->frame_.report; }
+  /// Pixels of the last frame whose triangle numbers are wrong, even by geometry shaders.
+  std::int64_t wrongNumbers() const { return this->frame_.view->receivers.wrongNumbers; }
   const VisibilityImages& visibility() const { return this->visibility_.images(); }
 
 private:
@@ -120,9 +129,8 @@ private:
   bool namesTriangles();
   void findStaleReceivers(const vtkRenderState* s);
   void beginReceivers(const vtkRenderState* s);
-  void finishOpaque();
   NumberCheck checkNumbers(const vtkRenderState* s);
-  void ensureNumbers(const vtkRenderState* s, const std::function<void()>& drawAgain);
+  bool numbersAreRight(const vtkRenderState* s);
   void takeReceivers();
 
   Frame frame_;
@@ -137,7 +145,9 @@ private:
   bool shadesTranslucent_ = false;    ///< whether translucent surfaces show shadows in this frame
   std::size_t receiversNumbered_ = 0; ///< how many images of receivers were drawn
   std::optional<ValueKey> receiversDue_; ///< the key of receivers that this frame draws
-  int restingFrames_ = 0;                ///< deferred route: in a row that kept their receivers
+  /// Checked and wrong ones of a frame that is drawn again.
+  std::pair<std::int64_t, std::int64_t> numbersBefore_{ 0, 0 };
+  int restingFrames_ = 0; ///< deferred route: in a row that kept their receivers
   ///@{
   /// Before the frame.
   int compilesBefore_ = 0;

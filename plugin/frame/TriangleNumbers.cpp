@@ -3,7 +3,9 @@
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <map>
 #include <regex>
 
@@ -24,40 +26,66 @@ bool hasGeometryShaderOfVtk(vtkShaderProgram* program)
   return !source.empty() && source.find(numberOutput) == std::string::npos;
 }
 
+int bitsOf(std::uint32_t number)
+{
+  int bits = 0;
+  for (; number != 0; number >>= 1)
+  {
+    ++bits;
+  }
+  return bits;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
-void TriangleNumbers::beginStage()
+bool TriangleNumbers::isNew(vtkShaderProgram* program, std::uint32_t primitives) const
 {
-  this->added_.clear();
-  this->compared_.clear();
+  return this->known_.count({ program, bitsOf(primitives) }) == 0;
 }
 
 //------------------------------------------------------------------------------
-void TriangleNumbers::add(vtkShaderProgram* program, int drawnSurface, bool movesVertices)
+void TriangleNumbers::add(vtkShaderProgram* program, std::uint32_t primitives, int drawnSurface)
 {
-  if (movesVertices || hasGeometryShaderOfVtk(program))
+  const Draw draw(program, bitsOf(primitives));
+  if (hasGeometryShaderOfVtk(program))
   {
-    this->known_.insert(program);
+    this->known_.insert(draw);
     return;
   }
-  this->added_.insert(program);
-  const auto index = static_cast<std::size_t>(drawnSurface);
-  if (this->compared_.size() <= index)
-  {
-    this->compared_.resize(index + 1, 0);
-  }
-  this->compared_[index] = 1;
+  this->added_[draw].push_back(drawnSurface);
 }
 
 //------------------------------------------------------------------------------
-NumberCheck TriangleNumbers::check(const ReceiverImages& images,
-  const std::vector<float>& windowDepths, const std::vector<DrawnSurface>& drawnSurfaces,
-  const Occluders& occluders, const glm::dmat4& clipFromCentred)
+bool TriangleNumbers::isDue()
 {
-  const NumberCheck found =
-    checkNumbers(images, windowDepths, drawnSurfaces, this->compared_, occluders, clipFromCentred);
-  this->known_.insert(this->added_.begin(), this->added_.end());
+  const bool anyFirst = std::any_of(this->added_.begin(), this->added_.end(),
+    [this](const auto& added) { return this->waiting_.count(added.first) == 0; });
+  this->stagesWaited_ = anyFirst ? 0 : this->stagesWaited_ + 1;
+  const bool isPowerOfTwo = (this->stagesWaited_ & (this->stagesWaited_ - 1)) == 0;
+  return !this->added_.empty() && isPowerOfTwo;
+}
+
+//------------------------------------------------------------------------------
+NumberCheck TriangleNumbers::check(const ReceiverImages& images, const NumberTruth& truth,
+  const std::vector<DrawnSurface>& drawnSurfaces, const Occluders& occluders)
+{
+  std::vector<std::uint8_t> compared(drawnSurfaces.size(), 0);
+  for (const auto& added : this->added_)
+  {
+    for (const int surface : added.second)
+    {
+      compared[static_cast<std::size_t>(surface)] = 1;
+    }
+  }
+  const NumberCheck found = checkNumbers(images, truth, drawnSurfaces, compared, occluders);
+  this->waiting_.clear();
+  for (const auto& added : this->added_)
+  {
+    const bool isSeen = std::any_of(added.second.begin(), added.second.end(),
+      [&](int surface) { return found.pixels[static_cast<std::size_t>(surface)] > 0; });
+    (isSeen ? this->known_ : this->waiting_).insert(added.first);
+  }
   this->beginStage();
   return found;
 }

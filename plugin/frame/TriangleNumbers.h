@@ -4,11 +4,11 @@
 
 #include "shadowtech/base/NumberCheck.h"
 
-#include <glm/glm.hpp>
-
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -18,31 +18,34 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// Which programs of a pass write triangle numbers, and whether these are right. Each program is
-/// checked once, in the first frame in which it draws receivers.
+/// Which programs of a pass write triangle numbers, and whether these are right. A program is
+/// checked in the first frame that shows its receivers, and again with meshes of twice as many
+/// triangles: numbers may be wrong in long draws alone.
 class TriangleNumbers
 {
 public:
   /// Begin a stage that draws receivers.
-  void beginStage();
-  /// Add a program that is about to draw one of the drawn surfaces.
-  /// @param movesVertices true if it has shaders of a user's own. The snapshot need not hold their
-  /// triangles, so their numbers are trusted. So are those of VTK's geometry shaders, which enlarge
-  /// triangles to draw edges.
-  void add(vtkShaderProgram* program, int drawnSurface, bool movesVertices);
-  bool isNew(const vtkShaderProgram* program) const { return this->known_.count(program) == 0; }
+  void beginStage() { this->added_.clear(); }
+  /// True if a program is not checked yet with a surface of so many primitives.
+  bool isNew(vtkShaderProgram* program, std::uint32_t primitives) const;
+  /// Add a new program that is about to draw one of the drawn surfaces. Geometry shaders of VTK
+  /// enlarge triangles to draw edges, so their numbers are trusted.
+  void add(vtkShaderProgram* program, std::uint32_t primitives, int drawnSurface);
 
-  /// True if a program of this stage must be checked.
-  bool isDue() const { return !this->compared_.empty(); }
-  /// Compare the pixels of these programs with the snapshot, and count the programs as checked.
-  NumberCheck check(const ReceiverImages& images, const std::vector<float>& windowDepths,
-    const std::vector<DrawnSurface>& drawnSurfaces, const Occluders& occluders,
-    const glm::dmat4& clipFromCentred);
+  /// True if programs of this stage must be checked. Surfaces that no pixel shows are looked for
+  /// after 1, 2, 4... stages.
+  bool isDue();
+  /// Compare the pixels of these programs with the snapshot. Programs with pixels count as checked.
+  NumberCheck check(const ReceiverImages& images, const NumberTruth& truth,
+    const std::vector<DrawnSurface>& drawnSurfaces, const Occluders& occluders);
 
 private:
-  std::set<const vtkShaderProgram*> known_; ///< checked, or trusted
-  std::set<const vtkShaderProgram*> added_; ///< in this stage, to be checked
-  std::vector<std::uint8_t> compared_;      ///< by drawn surface, 1 for those of `added_`
+  /// A program, and the bits of the number of primitives.
+  using Draw = std::pair<const vtkShaderProgram*, int>;
+  std::set<Draw> known_;                   ///< checked, or trusted
+  std::map<Draw, std::vector<int>> added_; ///< in this stage, with their drawn surfaces
+  std::set<Draw> waiting_;                 ///< whose surfaces no pixel showed at the last check
+  int stagesWaited_ = 0;
 };
 
 /// Return a geometry shader that draws a vertex shader's primitives unchanged and hands the

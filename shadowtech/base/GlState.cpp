@@ -55,6 +55,11 @@ GlStateGuard::GlStateGuard()
   glGetIntegerv(GL_POLYGON_MODE, this->polygonMode_);
   glGetIntegerv(GL_PACK_ALIGNMENT, &this->packAlignment_);
   glGetIntegerv(GL_UNPACK_ALIGNMENT, &this->unpackAlignment_);
+  for (std::size_t i = 0; i < pixelStores_.size(); ++i)
+  {
+    glGetIntegerv(pixelStores_[i], &this->pixelStore_[i]);
+    glPixelStorei(pixelStores_[i], 0);
+  }
   glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &this->offsetFactor_);
   glGetFloatv(GL_POLYGON_OFFSET_UNITS, &this->offsetUnits_);
   glGetBooleanv(GL_DEPTH_WRITEMASK, &this->depthMask_);
@@ -84,6 +89,10 @@ GlStateGuard::~GlStateGuard()
   glPolygonOffset(this->offsetFactor_, this->offsetUnits_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, this->unpackAlignment_);
   glPixelStorei(GL_PACK_ALIGNMENT, this->packAlignment_);
+  for (std::size_t i = 0; i < pixelStores_.size(); ++i)
+  {
+    glPixelStorei(pixelStores_[i], this->pixelStore_[i]);
+  }
   glPolygonMode(GL_FRONT_AND_BACK, static_cast<GLenum>(this->polygonMode_[0]));
   glFrontFace(static_cast<GLenum>(this->frontFace_));
   glCullFace(static_cast<GLenum>(this->cullFace_));

@@ -37,6 +37,10 @@ private:
   GLint blendSourceRgb_, blendDestinationRgb_, blendSourceAlpha_, blendDestinationAlpha_;
   GLint depthFunction_, logicOperation_, cullFace_, frontFace_, polygonMode_[2];
   GLint packAlignment_, unpackAlignment_;
+  /// Where pixels lie in memory. While the guard lives, they lie side by side.
+  static constexpr std::array<GLenum, 6> pixelStores_ = { GL_PACK_ROW_LENGTH, GL_PACK_SKIP_PIXELS,
+    GL_PACK_SKIP_ROWS, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS };
+  std::array<GLint, pixelStores_.size()> pixelStore_;
   GLfloat offsetFactor_, offsetUnits_;
   GLboolean depthMask_, colorMask_[4];
   std::array<GLint, textureUnits> texture2D_, texture2DArray_;

@@ -10,31 +10,36 @@
 namespace gnomon
 {
 
-/// The result of a check of primitive numbers against the depth buffer.
-struct NumberCheck
+/// What a picture is compared with.
+struct NumberTruth
 {
-  std::int64_t pixels = 0; ///< that were compared
-  std::int64_t wrong = 0;  ///< those whose number contradicts the depth buffer
+  glm::dmat4 clipFromCentred{ 1.0 }; ///< of the camera that drew the picture
+  std::vector<float> windowDepths;   ///< in [0, 1], one a pixel; empty: they are not compared
+  double vertexNoise = 0.0; ///< how far the driver's floats may move a vertex, in world units
 };
 
-/// Compare the primitives that a picture's pixels name with the drawn depths. Drivers count
-/// primitives for fragment shaders, and Mesa has counted them wrongly (work item 15660).
+/// How many pixels name a primitive that was not drawn there, by drawn surface.
+struct NumberCheck
+{
+  std::vector<std::int64_t> pixels; ///< that were compared
+  std::vector<std::int64_t> wrong;  ///< of these
+
+  std::int64_t allPixels() const;
+  std::int64_t allWrong() const;
+};
+
+/// Compare the primitives that a picture's pixels name with the depths that were drawn. Drivers
+/// count primitives for fragment shaders, and Mesa has counted them wrongly (work item 15660).
 ///
-/// A pixel's number is wrong in three cases:
-/// - its drawn surface has no primitive of that number;
-/// - the pixel's ray misses the triangle by more than 1/64 pixel;
-/// - the ray meets it at another depth than was drawn.
+/// A pixel's number is wrong if its drawn surface has no primitive of that number, if the pixel's
+/// ray misses the triangle by more than 1/64 pixel, or if it meets it at another depth. Rasterisers
+/// move corners by up to 1/256 pixel; the depth may differ by as much as 1/64 pixel changes it.
+/// VTK's shaders compute solids in float: their rays may miss by a pixel, and their depths are not
+/// compared.
 ///
-/// Rasterisers move corners by up to 1/256 pixel. The depth may differ by as much as 1/64 pixel
-/// changes it. VTK computes the picture of a solid in float: its ray may miss by a pixel, and its
-/// depth is not compared.
-///
-/// @param windowDepths in [0, 1], one per pixel of the images; a polygon offset of the usual size
-/// is tolerated. Empty: compare no depths, because they may belong to other surfaces.
 /// @param compared by drawn surface, 1 for those whose pixels are compared
-/// @param clipFromCentred of the camera that drew them
-NumberCheck checkNumbers(const ReceiverImages& images, const std::vector<float>& windowDepths,
+NumberCheck checkNumbers(const ReceiverImages& images, const NumberTruth& truth,
   const std::vector<DrawnSurface>& drawnSurfaces, const std::vector<std::uint8_t>& compared,
-  const Occluders& occluders, const glm::dmat4& clipFromCentred);
+  const Occluders& occluders);
 
 } // namespace gnomon

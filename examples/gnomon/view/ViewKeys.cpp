@@ -152,7 +152,7 @@ std::vector<ViewKey> makeKeys()
     ofVtk('j', "joystick: the camera moves on"),
     ofVtk('t', "trackball: the camera follows the mouse"),
     ofVtk('c', "the mouse moves the camera"),
-    ofVtk('a', "the mouse moves props"),
+    ofVtk('a', "the mouse moves props, which is not saved"),
     ofVtk('e', "end, as q"),
   };
 }
@@ -234,17 +234,26 @@ void resizeLight(ViewState& state, const Scene& scene, int steps)
 }
 
 //------------------------------------------------------------------------------
-void placeSun(ViewState& state, const Scene& scene, const SunTime& sun)
+std::optional<std::size_t> sunOf(const Scene& scene)
 {
   const auto found = std::find_if(scene.lights.begin(), scene.lights.end(),
     [](const SceneLight& light)
     { return light.type == SceneLight::Type::Directional && !light.box; });
-  if (found == scene.lights.end())
+  return found == scene.lights.end()
+    ? std::nullopt
+    : std::optional(static_cast<std::size_t>(found - scene.lights.begin()));
+}
+
+//------------------------------------------------------------------------------
+void placeSun(ViewState& state, const Scene& scene, const SunTime& sun)
+{
+  const std::optional<std::size_t> found = sunOf(scene);
+  if (!found)
   {
     throw BadInput("--sun: " + scene.name + " has no directional light, expected one");
   }
   state.sun = sun;
-  LightPlace& light = state.lights[static_cast<std::size_t>(found - scene.lights.begin())];
+  LightPlace& light = state.lights[*found];
   light.position = light.target + placeOf(sun).towards;
 }
 

@@ -2,7 +2,9 @@
 
 #include "view/ViewState.h"
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,9 @@ inline constexpr char saveKey = 'g';
 std::string helpText(const ViewState& state);
 /// The keys as a table for the documentation.
 std::string keysAsMarkdown();
+
+/// Return the number of the scene's sun, its first directional light without a box.
+std::optional<std::size_t> sunOf(const Scene& scene);
 
 ///@{
 /// Changes that have no key: the wheel, and the sun.

@@ -6,6 +6,7 @@
 #include <vtkCommand.h>
 #include <vtkInteractorStyle.h>
 
+#include <exception>
 #include <filesystem>
 #include <iostream>
 
@@ -79,7 +80,14 @@ void Viewer::onChar()
   const char code = this->interactor_->GetKeyCode();
   if (code == saveKey)
   {
-    std::cout << this->save() << ".png" << std::endl;
+    try
+    {
+      std::cout << this->save() << ".png" << std::endl;
+    }
+    catch (const std::exception& error) // VTK's events do not let it through
+    {
+      std::cerr << "gnomon: error: " << error.what() << std::endl;
+    }
     return;
   }
   const ViewKey* const key = findKey(code);
@@ -131,7 +139,10 @@ void Viewer::onDrag()
 {
   ViewState state = this->view_.state();
   state.lights[state.light] = this->view_.handle().placeOfBall(*this->view_.selectedLight());
-  state.sun.reset();
+  if (sunOf(this->view_.scene()) == state.light)
+  {
+    state.sun.reset();
+  }
   this->view_.apply(state);
 }
 

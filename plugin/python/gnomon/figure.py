@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
 from .data import _array, _polydata
+from .errors import collect_errors
 from .GnomonPlugin import vtkGnomonEGLRenderWindow
 from .images import _pixels, _write
 
@@ -62,7 +63,10 @@ def draw(
         actor.GetProperty().SetDiffuse(0.75)
         renderer.AddActor(actor)
     sun = vtkLight()
-    sun.SetPosition(_array("direction", direction, (3,), float))
+    towards = _array("direction", direction, (3,), float)
+    if not towards.any():
+        raise ValueError("direction: expected a vector with a length")
+    sun.SetPosition(towards)
     renderer.AddLight(sun)
 
     camera = renderer.GetActiveCamera()
@@ -73,5 +77,10 @@ def draw(
     window = vtkGnomonEGLRenderWindow()
     window.SetSize(*size)
     window.AddRenderer(renderer)
-    add_shadows(renderer, None if technique is None else str(technique), **settings)
-    _write(_pixels(window), str(path))
+    shadows = add_shadows(renderer, None if technique is None else str(technique), **settings)
+    errors, _ = collect_errors(shadows)
+    errors_of_window, _ = collect_errors(window)
+    picture = _pixels(window)
+    if errors or errors_of_window:
+        raise ValueError((errors_of_window + errors)[0])
+    _write(picture, str(path))

@@ -4,9 +4,11 @@
 #include "MatrixScene.h"
 #include "PassScene.h"
 
+#include <vtkAxesActor.h>
 #include <vtkCellArray.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPoints.h>
+#include <vtkProperty.h>
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
 
@@ -129,7 +131,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Kinds, TriangleNumbers,
   testing::Values(Garbling{ "neighbours", "gl_PrimitiveID ^ 1" },
     Garbling{ "behind", "(gl_PrimitiveID + 2) % 4" }, Garbling{ "beyond", "gl_PrimitiveID + 1000" },
-    Garbling{ "negative", "-1 - gl_PrimitiveID" }),
+    Garbling{ "negative", "-1 - gl_PrimitiveID" }, Garbling{ "huge", "gl_PrimitiveID + 20000000" }),
   [](const testing::TestParamInfo<Garbling>& garbling) { return garbling.param.name; });
 
 TEST_P(TriangleNumbers, areReplacedWhereReceiversAreDrawnAlone)
@@ -140,6 +142,105 @@ TEST_P(TriangleNumbers, areReplacedWhereReceiversAreDrawnAlone)
 TEST_P(TriangleNumbers, areReplacedWhereReceiversAreDrawnWithThePicture)
 {
   this->expectSamePictures(vtkGnomonShadowPass::ROUTE_DEFERRED);
+}
+
+/// A prop that blends over others, on the deferred route.
+TEST_P(TriangleNumbers, areReplacedWherePropsBlend)
+{
+  for (PassScene* scene : { &this->right, &this->garbled })
+  {
+    vtkActor* const veil = scene->addFloor(0.5, 2.0); // over a part of the squares
+    veil->GetProperty()->SetOpacity(0.5);
+    veil->ForceOpaqueOn();
+  }
+  this->expectSamePictures(vtkGnomonShadowPass::ROUTE_DEFERRED);
+}
+
+/// Squares whose mapper's numbers are wrong.
+class LateNumbers : public PassTest
+{
+protected:
+  LateNumbers()
+  {
+    this->mapper->number = "(gl_PrimitiveID + 2) % 4";
+    this->mapper->SetInputDataObject(makeSquares());
+    this->squares->SetMapper(this->mapper);
+    this->scene.addFloor(3.0);
+    this->scene.addSun({ 1.0, 0.2, -1.0 });
+    this->scene.lookDown(3.0);
+    this->scene.choose({ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+  }
+
+  PassScene scene{ 120, 90 };
+  vtkNew<GarblingMapper> mapper;
+  vtkNew<vtkActor> squares;
+};
+
+TEST_F(LateNumbers, areFoundOnceTheirSurfaceIsSeen)
+{
+  this->squares->SetPosition(0.0, 0.0, -5.0); // below the floor
+  this->scene.renderer->AddActor(this->squares);
+  this->scene.renderer->GetActiveCamera()->SetClippingRange(1.0, 100.0);
+  this->scene.render();
+  EXPECT_FALSE(this->scene.report().numbersByGeometryShaders);
+  this->squares->SetPosition(0.0, 0.0, 0.0);
+  this->scene.numbersAreWrong = true;
+  this->scene.render();
+  EXPECT_TRUE(this->scene.report().numbersByGeometryShaders);
+}
+
+TEST_F(LateNumbers, areFoundBesideAnnotations)
+{
+  vtkNew<vtkAxesActor> axes;
+  this->scene.renderer->AddActor(axes);
+  this->scene.renderer->AddActor(this->squares);
+  this->scene.numbersAreWrong = true;
+  this->scene.render();
+  EXPECT_TRUE(this->scene.report().numbersByGeometryShaders);
+}
+
+/// Right numbers count as right where VTK's floats are coarse, and where depths are offset.
+class RightNumbers : public PassTest
+{
+};
+
+TEST_F(RightNumbers, areBelievedAwayFromTheOrigin)
+{
+  for (const double away : { 0.0, 300.0, 900.0 })
+  {
+    PassScene scene(300, 200);
+    for (vtkActor* actor : { scene.addFloor(0.5), scene.addSphere({ 0.0, 0.0, 0.6 }, 0.2) })
+    {
+      actor->SetPosition(away, 0.7 * away, 0.0);
+    }
+    scene.addSun({ 1.0, 0.3, -1.5 });
+    const glm::dvec3 middle(away, 0.7 * away, 0.2);
+    for (const glm::dvec3& from : { glm::dvec3(0.0, -0.1, 2.0), glm::dvec3(0.3, -2.0, 0.5) })
+    {
+      scene.lookFrom(middle + from, middle);
+      scene.renderer->ResetCameraClippingRange();
+      for (const int route :
+        { vtkGnomonShadowPass::ROUTE_IMAGE, vtkGnomonShadowPass::ROUTE_DEFERRED })
+      {
+        scene.choose({ "raytraced", route });
+        scene.render(); // expects no wrong number
+      }
+    }
+  }
+}
+
+TEST_F(RightNumbers, areBelievedWhereVtkOffsetsPolygons)
+{
+  vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
+  PassScene scene(120, 90);
+  scene.addFloor(3.0);
+  scene.addBox({ -1.0, -1.0, 0.5 }, { 1.0, 1.0, 1.0 });
+  scene.addSun({ 1.0, 0.2, -1.0 });
+  scene.lookDown(3.0);
+  scene.choose({ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+  scene.render();
+  EXPECT_GT(scene.report().numbersChecked, 0);
+  vtkMapper::SetResolveCoincidentTopologyToDefault();
 }
 
 /// All ways to draw receivers, in turn with all looks, with wrong numbers from one mapper.
