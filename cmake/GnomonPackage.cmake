@@ -22,8 +22,10 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
 # The pages and what they link to, in the same folders as here.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.csv" PATTERN "*.svg")
-foreach(page README.md CHANGELOG.md LICENSE cmake/debian-packages.txt examples/shadows.cxx
-    examples/shadows.py examples/headless_figure.cxx)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+  FILES_MATCHING PATTERN "*.cxx" PATTERN "*.py" PATTERN "CMakeLists.txt" PATTERN "cone_*.png"
+  PATTERN gnomon EXCLUDE)
+foreach(page README.md CHANGELOG.md LICENSE cmake/debian-packages.txt)
   get_filename_component(folder "${page}" DIRECTORY)
   install(FILES "${PROJECT_SOURCE_DIR}/${page}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}")
 endforeach()
