@@ -21,3 +21,6 @@ done
 env -u DISPLAY /usr/bin/python3 examples/terrain_sun_hours.py $figures/terrain_sun_hours.png 500 375
 env -u DISPLAY /usr/bin/python3 examples/moving_light.py $figures/moving_light.png 640 480 1
 env -u DISPLAY GNOMON_REFRESH_BASELINES=1 /usr/bin/python3 examples/image_test.py
+if [ -x build/release/bin/qt_shadows ]; then # where libvtk9-qt-dev is installed
+  xvfb-run -a build/release/bin/qt_shadows $figures/qt_shadows.png
+fi

@@ -72,7 +72,7 @@ class Pictures(unittest.TestCase):
         """A test that cannot fail is worth nothing."""
         if "GNOMON_REFRESH_BASELINES" in os.environ:
             self.skipTest("it would write a wrong baseline")
-        with tempfile.TemporaryDirectory() as folder:  # a failing comparison leaves its picture there
+        with tempfile.TemporaryDirectory() as folder:  # it leaves the new picture there
             path = shutil.copy(os.path.join(BASELINES, "cone_on_the_ground.png"), folder)
             with self.assertRaises(AssertionError):
                 gnomon.assert_images_equal(make_window(0.6), path, MAX_DIFFERENCE, MAX_PIXELS)

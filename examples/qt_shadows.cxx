@@ -6,7 +6,6 @@
 //
 //   qt_shadows [picture.png]    with a path: writes what the window shows, and ends
 
-#include <vtkGnomonLightPlacement.h>
 #include <vtkGnomonShadowPass.h>
 
 #include <vtkActor.h>
@@ -54,17 +53,17 @@ int main(int argc, char* argv[])
   cone->SetResolution(64);
   add(renderer, cone, 0.85, 0.45, 0.25);
   vtkNew<vtkPlaneSource> ground;
-  ground->SetOrigin(-3, -3, 0);
-  ground->SetPoint1(3, -3, 0);
-  ground->SetPoint2(-3, 3, 0);
-  add(renderer, ground, 0.85, 0.87, 0.90);
+  ground->SetOrigin(-1.5, -1.5, 0);
+  ground->SetPoint1(1.5, -1.5, 0);
+  ground->SetPoint2(-1.5, 1.5, 0);
+  add(renderer, ground, 0.70, 0.72, 0.76);
   renderer->GetActiveCamera()->SetPosition(1, -6, 4);
   renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
   renderer->ResetCamera();
-  vtkNew<vtkLight> key;
-  vtkGnomonLightPlacement::MakeKeyLight(
-    key, renderer->GetActiveCamera(), renderer->ComputeVisiblePropBounds());
-  renderer->AddLight(key);
+  renderer->GetActiveCamera()->Zoom(1.4);
+  vtkNew<vtkLight> sun; // directional: it shines towards the origin
+  sun->SetPosition(-1, -0.3, 1);
+  renderer->AddLight(sun);
   vtkNew<vtkGnomonShadowPass> shadows;
   renderer->SetPass(shadows);
 
