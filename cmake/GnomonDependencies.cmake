@@ -21,10 +21,12 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   IOXMLParser
   ImagingCore
   InteractionStyle
+  InteractionWidgets
   RenderingAnnotation
   RenderingCore
   RenderingLOD
   RenderingOpenGL2
+  RenderingUI
   ChartsCore
   RenderingContext2D
   RenderingContextOpenGL2

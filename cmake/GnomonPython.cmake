@@ -16,11 +16,32 @@ vtk_module_wrap_python(
   DEPENDS VTK::RenderingOpenGL2)
 
 set(gnomon_python_folder "${PROJECT_SOURCE_DIR}/plugin/python/gnomon")
-foreach(source __init__.py data.py images.py)
+foreach(source __init__.py data.py errors.py figure.py images.py)
   configure_file("${gnomon_python_folder}/${source}"
     "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}/gnomon/${source}" COPYONLY)
 endforeach()
+
+# Types for editors and type checkers (PEP 561): the wrapped classes' in stubs, which a built package
+# is asked for; those of the functions are in their sources.
+set(gnomon_built_package "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}")
+set(gnomon_stubs
+  "${gnomon_built_package}/gnomon/GnomonLights.pyi"
+  "${gnomon_built_package}/gnomon/GnomonPlugin.pyi")
+add_custom_command(
+  OUTPUT ${gnomon_stubs}
+  COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${gnomon_built_package}"
+    "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/python_stubs.py"
+    "${gnomon_built_package}/gnomon" GnomonLights GnomonPlugin
+  DEPENDS "${CMAKE_CURRENT_LIST_DIR}/python_stubs.py" GnomonLightsPython GnomonPluginPython
+  COMMENT "Writing the type stubs of the Python package"
+  VERBATIM)
+add_custom_target(GnomonPythonStubs ALL DEPENDS ${gnomon_stubs})
+file(TOUCH "${gnomon_built_package}/gnomon/py.typed")
+install(FILES ${gnomon_stubs} "${gnomon_built_package}/gnomon/py.typed"
+  DESTINATION "${GNOMON_PYTHON_DESTINATION}/gnomon"
+  COMPONENT python)
 install(DIRECTORY "${gnomon_python_folder}" DESTINATION "${GNOMON_PYTHON_DESTINATION}"
+  COMPONENT python
   FILES_MATCHING PATTERN "*.py")
 
 # The installed wrappers find the libraries wherever the installation is moved to.

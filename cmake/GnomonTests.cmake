@@ -2,16 +2,17 @@
 # gnomon_quick_tests builds, and all of them. tests/main/QuickTier.h says which cases of GoogleTest
 # programs are quick; tests/slow_cases.txt names those that are slow in any case.
 
-# gnomon_run_test_program(<program> [NAME <name>] [SLOW] [SHARDS <number>] [SLOW_SHARDS <number>]
-#   [CASES <pattern>... | BUT <pattern>...] [ENVIRONMENT <name=value>...])
+# gnomon_run_test_program(<program> [NAME <name>] [SLOW] [ON_X_SERVER] [SHARDS <number>]
+#   [SLOW_SHARDS <number>] [CASES <pattern>... | BUT <pattern>...] [ENVIRONMENT <name=value>...])
 #
 # Registers a GoogleTest program with CTest as <name>.1, <name>.2 and so on, each a process with a
 # share of the cases, and <name>.slow.1 and so on with the cases outside of the quick tier, if
 # SLOW_SHARDS is given. A process per case would cost more than most cases do. SLOW leaves the whole
 # program out of the quick tier. CASES and BUT are patterns of --gtest_filter, for cases that need
-# processes of their own.
+# processes of their own. ON_X_SERVER gives each process a display of its own.
 function(gnomon_run_test_program program)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "SLOW" "NAME;SHARDS;SLOW_SHARDS" "CASES;BUT;ENVIRONMENT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg
+    "SLOW;ON_X_SERVER" "NAME;SHARDS;SLOW_SHARDS" "CASES;BUT;ENVIRONMENT")
   if(NOT DEFINED arg_NAME)
     set(arg_NAME ${program})
   endif()
@@ -42,10 +43,15 @@ endfunction()
 # saves: GALLIVM_PERF=nopt leaves it out. All other tests, and what users run, optimise.
 function(gnomon_add_shards names program name shards filter)
   set(added "")
+  set(launcher "")
+  if(arg_ON_X_SERVER)
+    set(launcher "${GNOMON_XVFB_RUN}" -a)
+  endif()
   foreach(shard RANGE 1 ${shards})
     set(test ${name}.${shard})
     math(EXPR index "${shard} - 1")
-    add_test(NAME ${test} COMMAND ${program} --gtest_brief=1 "--gtest_filter=${filter}")
+    add_test(NAME ${test}
+      COMMAND ${launcher} $<TARGET_FILE:${program}> --gtest_brief=1 "--gtest_filter=${filter}")
     set_tests_properties(${test} PROPERTIES
       ENVIRONMENT
         "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};GALLIVM_PERF=nopt;${ARGN}"

@@ -108,6 +108,12 @@ void vtkGnomonLightKeys::SetTechnique(vtkLight* light, const char* technique)
 }
 
 //------------------------------------------------------------------------------
+const char* vtkGnomonLightKeys::GetTechnique(vtkLight* light)
+{
+  return GetSetting(light, "technique");
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetMapSize(vtkLight* light, int mapSizeTexels)
 {
   const auto& range = std::get<gnomon::IntegerSetting>(gnomon::findSetting("map_size")->values);
@@ -115,6 +121,13 @@ void vtkGnomonLightKeys::SetMapSize(vtkLight* light, int mapSizeTexels)
     ? std::to_string(std::clamp(mapSizeTexels, range.smallest, range.largest))
     : "";
   SetSetting(light, "map_size", text.c_str());
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonLightKeys::GetMapSize(vtkLight* light)
+{
+  const char* const text = GetSetting(light, "map_size");
+  return text ? std::stoi(text) : 0; // SetSetting takes numbers only
 }
 
 //------------------------------------------------------------------------------
@@ -138,6 +151,20 @@ void vtkGnomonLightKeys::SetBox(
   }
   const double numbers[6] = { width, height, depth, up[0], up[1], up[2] };
   light->GetInformation()->Set(BOX(), numbers, 6);
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonLightKeys::GetBox(vtkLight* light, double size[3], double up[3])
+{
+  vtkInformation* keys = light->GetInformation();
+  if (keys->Length(BOX()) != 6)
+  {
+    return false;
+  }
+  const double* const numbers = keys->Get(BOX());
+  std::copy_n(numbers, 3, size);
+  std::copy_n(numbers + 3, 3, up);
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -99,10 +99,13 @@ public:
   ///@{
   /**
    * Set the setting "technique" or "map_size", as SetSetting() does. A map's size, in texels, is
-   * clamped to [16, 16384]; 0 or less removes the setting.
+   * clamped to [16, 16384]; 0 or less removes the setting. If the light does not set them,
+   * GetTechnique returns null and GetMapSize 0.
    */
   static void SetTechnique(vtkLight* light, const char* technique);
+  static const char* GetTechnique(vtkLight* light);
   static void SetMapSize(vtkLight* light, int mapSizeTexels);
+  static int GetMapSize(vtkLight* light);
   ///@}
 
   ///@{
@@ -110,14 +113,17 @@ public:
    * Limit a directional light to a box, see above, or remove the limit. Sizes that are not positive
    * and finite, or an up direction without length, are an error and change nothing. With an up
    * direction along the light, the light casts no shadow, and the frame's report gives the reason.
+   * GetBox returns the sizes and the up direction; without a box it returns false and changes
+   * nothing.
    *
-   * @param width size across the light and across `up`, in world units
-   * @param height size across the light and along `up`, in world units
-   * @param depth size along the light, in world units
-   * @param up the near face's up direction, of any length, in the light's own coordinates
+   * - `width`: size across the light and across `up`, in world units
+   * - `height`: size across the light and along `up`, in world units
+   * - `depth`: size along the light, in world units
+   * - `up`: the near face's up direction, of any length, in the light's own coordinates
    */
   static void SetBox(
     vtkLight* light, double width, double height, double depth, const double up[3]);
+  static bool GetBox(vtkLight* light, double size[3], double up[3]);
   static void RemoveBox(vtkLight* light);
   ///@}
 

@@ -180,3 +180,13 @@ void vtkGnomonLightPlacement::SetPitchAndYaw(
   light->GetPositional() ? place(light, position, position + arm)
                          : place(light, focalPoint - arm, focalPoint);
 }
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightPlacement::GetPitchAndYaw(vtkLight* light, double degrees[2])
+{
+  const glm::dvec3 travel = travelOf(light).value_or(glm::dvec3(0.0));
+  const double level = std::hypot(travel.x, travel.z);
+  degrees[0] = glm::degrees(std::atan2(travel.y, level));
+  // Straight up and down, what rounding leaves of the level direction turns anywhere.
+  degrees[1] = level > 1e-12 ? glm::degrees(std::atan2(-travel.x, -travel.z)) : 0.0;
+}

@@ -53,6 +53,7 @@ public:
    * Make a light shine on the sphere around a box, as ShineOnSphere() does. An empty box is an
    * error.
    *
+   * @param light as in ShineOnSphere()
    * @param bounds xmin, xmax, ymin, ymax, zmin, zmax (vtkProp's GetBounds, vtkRenderer's
    * ComputeVisiblePropBounds)
    */
@@ -80,16 +81,23 @@ public:
    */
   static void MakeKeyLight(vtkLight* light, vtkCamera* camera, const double bounds[6]);
 
+  ///@{
   /**
    * Turn a light to a direction, given in degrees. With pitch and yaw 0, it shines along -z. Yaw
    * turns it to the left, around +y. Pitch then raises it; at -90 it shines straight down. A
    * positional light turns about its position, a directional light about its focal point. The
    * distance between both is kept.
    *
+   * GetPitchAndYaw returns both, in this order, of any light: a pitch in [-90, 90] and a yaw in
+   * [-180, 180], which is 0 straight up and down. A light without a direction is an error of the
+   * light, and gives zeros.
+   *
    * vtkLight's SetDirectionAngle takes -pitch and yaw, but moves the focal point to the origin and
    * makes the light directional.
    */
   static void SetPitchAndYaw(vtkLight* light, double pitchDegrees, double yawDegrees);
+  static void GetPitchAndYaw(vtkLight* light, double degrees[2]);
+  ///@}
 
 protected:
   vtkGnomonLightPlacement() = default;

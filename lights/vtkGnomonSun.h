@@ -158,6 +158,8 @@ public:
    *
    * @param dayStep in [1, 366]; so many days share the suns of their middle day, and 1 gives every
    * day its own suns
+   * @param stepMinutes, directions, hours, times as in MakeDayPath()
+   * @return false as MakeDayPath()
    */
   bool MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
     vtkDoubleArray* hours, vtkDoubleArray* times = nullptr);

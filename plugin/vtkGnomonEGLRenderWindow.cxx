@@ -1,5 +1,6 @@
 #include "vtkGnomonEGLRenderWindow.h"
 
+#include "plugin/frame/Complaints.h"
 #include "plugin/vtk_versions/OpenGlLoading.h"
 #include "plugin/window/EglContext.h"
 
@@ -21,6 +22,7 @@ vtkStandardNewMacro(vtkGnomonEGLRenderWindow);
 //------------------------------------------------------------------------------
 vtkGnomonEGLRenderWindow::vtkGnomonEGLRenderWindow()
   : ContextVersion{ 4, 5 }
+  , Complaints(std::make_unique<gnomon::Complaints>())
 {
   this->DeviceIndex = -1;
   if (const char* text = std::getenv("VTK_DEFAULT_EGL_DEVICE_INDEX"))
@@ -88,7 +90,19 @@ void vtkGnomonEGLRenderWindow::CreateAWindow()
   }
   catch (const std::runtime_error& error)
   {
-    vtkErrorMacro("No OpenGL context without a display could be made. " << error.what() << ".");
+    this->TellOfContext(
+      std::string("No OpenGL context without a display could be made. ") + error.what() + ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+/// @param error empty: there is none
+void vtkGnomonEGLRenderWindow::TellOfContext(const std::string& error)
+{
+  const std::string news = this->Complaints->news(nullptr, gnomon::Topic::Context, error);
+  if (!news.empty())
+  {
+    vtkErrorMacro(<< news);
   }
 }
 
@@ -137,8 +151,8 @@ void vtkGnomonEGLRenderWindow::MakeCurrent()
 {
   if (this->Context && !this->Context->makeCurrent())
   {
-    vtkErrorMacro(
-      "The context cannot be made current (" << gnomon::EglContext::lastError() << ").");
+    this->TellOfContext(
+      std::string("The context cannot be made current (") + gnomon::EglContext::lastError() + ").");
   }
 }
 
@@ -181,16 +195,16 @@ void vtkGnomonEGLRenderWindow::OpenGLInitContext()
   const std::string problem = gnomon::loadOpenGl(this);
   if (!problem.empty())
   {
-    vtkErrorMacro("OpenGL's functions could not be loaded: " << problem << ".");
+    this->TellOfContext("OpenGL's functions could not be loaded: " + problem + ".");
     return;
   }
   if (!GNOMON_HAS_GL(VERSION_3_2))
   {
-    vtkErrorMacro("VTK needs OpenGL 3.2; " << this->Context->platform() << " gives "
-                                           << reinterpret_cast<const char*>(glGetString(GL_VERSION))
-                                           << ".");
+    this->TellOfContext("VTK needs OpenGL 3.2; " + this->Context->platform() + " gives " +
+      reinterpret_cast<const char*>(glGetString(GL_VERSION)) + ".");
     return;
   }
+  this->TellOfContext("");
   this->Initialized = true;
 
   GLfloat lineWidths[2] = { 1.0f, 1.0f };

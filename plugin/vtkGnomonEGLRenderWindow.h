@@ -18,9 +18,9 @@
  * works of: hardware devices, the surfaceless platform, software devices, the default display.
  *
  * Multisampling is off by default (SetMultiSamples). If no context can be made, Initialize() and
- * everything that needs one is an error (vtkErrorMacro) that says what was tried, and nothing is
- * drawn. The window's calls belong on one thread; on a thread where another window system's context
- * (GLX) is current, release that one first.
+ * everything that needs one is an error (vtkErrorMacro), said once, that says what was tried, and
+ * nothing is drawn. The window's calls belong on one thread; on a thread where another window
+ * system's context (GLX) is current, release that one first.
  */
 
 #ifndef vtkGnomonEGLRenderWindow_h
@@ -30,10 +30,12 @@
 #include "vtkOpenGLRenderWindow.h"
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 #include <vector> // For std::vector
 
 namespace gnomon
 {
+class Complaints;
 class EglContext;
 class EglCurrentContext;
 }
@@ -161,9 +163,11 @@ private:
   void operator=(const vtkGnomonEGLRenderWindow&) = delete;
 
   bool HasFrame();
+  void TellOfContext(const std::string& error);
 
   std::unique_ptr<gnomon::EglContext> Context;
   std::vector<std::unique_ptr<gnomon::EglCurrentContext>> ContextStack;
+  std::unique_ptr<gnomon::Complaints> Complaints;
 };
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "lights/LightManager.h"
 #include "lights/LightSamples.h"
+#include "plugin/frame/Complaints.h"
 #include "plugin/frame/PointLights.h"
 #include "plugin/frame/Progress.h"
 #include "plugin/scene/Hash.h"
@@ -26,6 +27,7 @@
 
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 vtkStandardNewMacro(vtkGnomonLightSamplingPass);
 
@@ -91,6 +93,18 @@ struct vtkGnomonLightSamplingPass::Internals
   gnomon::ShownScene scene;
   gnomon::ViewCount viewCount;
   double progress = 1.0; ///< of the last frame that was no selection's
+  gnomon::Complaints complaints;
+
+  /// @param error empty: there is none
+  void tellError(vtkGnomonLightSamplingPass* self, vtkRenderer* renderer, gnomon::Topic topic,
+    const std::string& error)
+  {
+    const std::string news = this->complaints.news(renderer, topic, error);
+    if (!news.empty())
+    {
+      vtkErrorWithObjectMacro(self, << news);
+    }
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -153,17 +167,22 @@ double vtkGnomonLightSamplingPass::DrawMeanOrAlone(const vtkRenderState* s)
   vtkRenderer* renderer = s->GetRenderer();
   try
   {
-    if (internal.context.enter(this, renderer, { 4, 3 }))
+    const std::string whyNot = internal.context.enter(this, renderer, { 4, 3 });
+    internal.tellError(this, renderer, gnomon::Topic::Context, whyNot);
+    if (whyNot.empty())
     {
       this->UpdateLightGeometry(renderer); // head lights follow the camera
       internal.lights =
         pointedLights(internal.lightManager.collectAreas(renderer, {}), this->Samples);
-      return this->DrawMean(s);
+      const double shown = this->DrawMean(s);
+      internal.tellError(this, renderer, gnomon::Topic::Frame, "");
+      return shown;
     }
   }
   catch (const std::exception& error)
   {
-    vtkErrorMacro("The delegate draws alone: " << error.what() << ".");
+    internal.tellError(this, renderer, gnomon::Topic::Frame,
+      std::string("The delegate draws alone: ") + error.what() + ".");
   }
   internal.shown.reset();
   this->DrawByDelegate(s);

@@ -1,9 +1,9 @@
 /**
  * @class   vtkGnomonPropKeys
- * @brief   what one vtkProp does in vtkGnomonShadowPass: casts, receives, one-sided
+ * @brief   the role of a vtkProp in vtkGnomonShadowPass: casts, receives, one-sided
  *
  * The keys live in a prop's property keys. VTK hands an assembly's property keys down to its parts
- * when it draws, so set them on the assembly, where they count for all of its parts.
+ * when it draws. So set them on the assembly, where they count for all of its parts.
  *
  * @code
  * vtkGnomonPropKeys::SetCasts(ground, false);
@@ -30,10 +30,13 @@ public:
 
   ///@{
   /**
-   * The keys themselves. CASTS: the prop blocks light (0 or 1, default 1 for what is opaque and 0
-   * for what is translucent, which blocks all light if asked to). RECEIVES: it shows shadows
-   * (default 1). ONE_SIDED: it blocks light only with triangles whose front side, the one that they
-   * show counter-clockwise, faces the light (default 0: both sides block).
+   * Return the keys. Each is 0 or 1.
+   *
+   * - CASTS: the prop blocks light. Default: 1 for opaque props, 0 for translucent ones. A
+   *   translucent prop that casts blocks all light.
+   * - RECEIVES: the prop shows shadows. Default: 1.
+   * - ONE_SIDED: the prop blocks light only with triangles whose front faces the light. The front
+   *   shows the corners counter-clockwise. Default: 0, both sides block.
    */
   static vtkInformationIntegerKey* CASTS();
   static vtkInformationIntegerKey* RECEIVES();
@@ -42,7 +45,7 @@ public:
 
   ///@{
   /**
-   * Set a key on a prop, giving it property keys if it has none.
+   * Set a key on a prop. Gives the prop property keys if it has none.
    */
   static void SetCasts(vtkProp* prop, bool casts);
   static void SetReceives(vtkProp* prop, bool receives);
@@ -51,7 +54,7 @@ public:
 
   ///@{
   /**
-   * Read a key, or where the prop does not have it, its default for opaque props.
+   * Return a key's value. If the prop does not have the key, return its default for opaque props.
    */
   static bool GetCasts(vtkProp* prop);
   static bool GetReceives(vtkProp* prop);

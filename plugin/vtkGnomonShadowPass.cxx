@@ -1,5 +1,6 @@
 #include "vtkGnomonShadowPass.h"
 
+#include "plugin/frame/Complaints.h"
 #include "plugin/frame/FrameWishes.h"
 #include "plugin/frame/Motion.h"
 #include "plugin/frame/Progress.h"
@@ -35,7 +36,6 @@
 #include <cstdlib>
 #include <list>
 #include <optional>
-#include <set>
 #include <string>
 
 vtkStandardNewMacro(vtkGnomonShadowPass);
@@ -105,7 +105,7 @@ struct vtkGnomonShadowPass::Internals
   gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
   bool shadowed = false;            ///< whether the last frame was the manager's
   double progress = 1.0;            ///< of the last frame that was no selection's
-  std::set<std::string> told;       ///< what was told already, and is not told again
+  gnomon::Complaints complaints;
 
   std::optional<gnomon::CostFactors> factors; ///< none: the default ones
   gnomon::RestingFrame restingFrame;          ///< that follows those that move
@@ -114,6 +114,17 @@ struct vtkGnomonShadowPass::Internals
 
   gnomon::RenderManager& managerOf(vtkRenderer* renderer);
   gnomon::RenderManager& manager() { return *this->renderers.front().manager; }
+
+  /// @param error empty: there is none
+  void tellError(
+    vtkGnomonShadowPass* self, vtkRenderer* renderer, gnomon::Topic topic, const std::string& error)
+  {
+    const std::string news = this->complaints.news(renderer, topic, error);
+    if (!news.empty())
+    {
+      vtkErrorWithObjectMacro(self, << news);
+    }
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -219,7 +230,9 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->RenderPlain(s, "the renderer's UseShadows is off");
     return;
   }
-  if (!this->Internal->context.enter(this, renderer, { 3, 2 }))
+  const std::string whyNot = this->Internal->context.enter(this, renderer, { 3, 2 });
+  this->Internal->tellError(this, renderer, gnomon::Topic::Context, whyNot);
+  if (!whyNot.empty())
   {
     this->RenderPlain(s, "OpenGL 3.2 is not available");
     return;
@@ -244,24 +257,20 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->BeginView(s);
     const bool goesOn = manager.collectLights(renderer, this->Internal->settings->GetValues(),
       this->Internal->viewCount.areSeveral(renderer));
-    this->TellOfLights();
+    this->TellOfLights(renderer);
     if (goesOn)
     {
       // occluders
       manager.collectOccluders(s);
-      this->TellWhatIsLeftOut();
+      this->TellWhatIsLeftOut(renderer);
 
       // choice
       manager.chooseTechniques();
 
       // From here on, mappers call the hook.
       const vtkRenderPass* delegate = this->FindDelegate(s);
-      if (!manager.chooseRoute(s, !delegate || delegate == this->Internal->steps))
-      {
-        vtkErrorMacro("The " << (this->Route == ROUTE_INLINE ? "inline" : "deferred")
-                             << " route was asked for, but " << manager.report().routeReason
-                             << "; this frame takes the image route.");
-      }
+      const bool isTaken = manager.chooseRoute(s, !delegate || delegate == this->Internal->steps);
+      this->TellOfRoute(renderer, isTaken);
       nameInKeys(s, this);
       marked = true;
     }
@@ -279,16 +288,12 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       drawn = true;
       this->DrawScene(s);
     }
-    if (goesOn && !manager.endShading())
+    if (goesOn)
     {
-      const vtkRenderPass* delegate = this->FindDelegate(s);
-      vtkErrorMacro("Props were drawn without shadows: "
-        << (delegate ? delegate->GetClassName() : "the renderer")
-        << " shades at another resolution than the receivers were drawn, and "
-        << manager.report().routeReason
-        << ". Let such a pass have this one as its delegate instead.");
+      this->TellOfResolution(s, manager.endShading());
     }
     manager.endFrame();
+    this->Internal->tellError(this, renderer, gnomon::Topic::Frame, "");
     this->Internal->shadowed = true;
     this->Internal->progress = leastProgress(manager.report());
     if (goesOn)
@@ -300,7 +305,8 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   }
   catch (const std::exception& error)
   {
-    vtkErrorMacro("The scene is drawn without shadows: " << error.what());
+    this->Internal->tellError(this, renderer, gnomon::Topic::Frame,
+      std::string("The scene is drawn without shadows: ") + error.what());
     manager.abandonFrame();
     failed = true;
     outOfTextureMemory = dynamic_cast<const gnomon::TextureMemoryError*>(&error) != nullptr;
@@ -378,41 +384,69 @@ void vtkGnomonShadowPass::DrawDeferred(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::TellOfLights()
+void vtkGnomonShadowPass::TellOfLights(vtkRenderer* renderer)
 {
+  gnomon::Complaints& complaints = this->Internal->complaints;
   const gnomon::FrameReport& report = this->Internal->manager().report();
-  for (const std::string& misfit : report.misfits)
+  for (const std::string& misfit : complaints.news(renderer, gnomon::Topic::Lights, report.misfits))
   {
-    if (this->Internal->told.insert(misfit).second)
-    {
-      vtkErrorMacro(<< misfit << ".");
-    }
+    vtkErrorMacro(<< misfit << ".");
   }
-  if (report.headlightIsAlone && this->Internal->told.insert("a headlight alone").second)
+  const std::string warning = complaints.news(renderer, gnomon::Topic::Headlight,
+    report.headlightIsAlone
+      ? "The only light is a headlight, which casts no shadow that could be seen. Add a "
+        "light, as vtkGnomonLightPlacement::MakeKeyLight() makes it, or have the "
+        "headlight cast by vtkGnomonLightKeys::SetCasts()."
+      : "");
+  if (!warning.empty())
   {
-    vtkWarningMacro(
-      "The only light is a headlight, which casts no shadow that could be seen. Add a "
-      "light, as vtkGnomonLightPlacement::MakeKeyLight() makes it, or have the "
-      "headlight cast by vtkGnomonLightKeys::SetCasts().");
+    vtkWarningMacro(<< warning);
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::TellWhatIsLeftOut()
+void vtkGnomonShadowPass::TellWhatIsLeftOut(vtkRenderer* renderer)
 {
   std::string kinds;
-  for (const std::string& kind : this->Internal->manager().report().leftOut)
+  for (const std::string& kind : this->Internal->complaints.news(
+         renderer, gnomon::Topic::LeftOut, this->Internal->manager().report().leftOut))
   {
-    if (this->Internal->told.insert(kind).second)
-    {
-      kinds += (kinds.empty() ? "" : ", ") + kind;
-    }
+    kinds += (kinds.empty() ? "" : ", ") + kind;
   }
   if (!kinds.empty())
   {
     vtkWarningMacro("Visible and lit, but without shadows: "
       << kinds << ". See docs/guide/what_casts.md for what casts and receives.");
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::TellOfRoute(vtkRenderer* renderer, bool isTaken)
+{
+  std::string error;
+  if (!isTaken)
+  {
+    error = std::string("The ") + (this->Route == ROUTE_INLINE ? "inline" : "deferred") +
+      " route was asked for, but " + this->Internal->manager().report().routeReason +
+      "; this frame takes the image route.";
+  }
+  this->Internal->tellError(this, renderer, gnomon::Topic::Route, error);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::TellOfResolution(const vtkRenderState* s, bool isReceivers)
+{
+  std::string error;
+  if (!isReceivers)
+  {
+    const vtkRenderPass* delegate = this->FindDelegate(s);
+    error = std::string("Props were drawn without shadows: ") +
+      (delegate ? delegate->GetClassName() : "the renderer") +
+      " shades at another resolution than the receivers were drawn, and " +
+      this->Internal->manager().report().routeReason +
+      ". Let such a pass have this one as its delegate instead.";
+  }
+  this->Internal->tellError(this, s->GetRenderer(), gnomon::Topic::Resolution, error);
 }
 
 //------------------------------------------------------------------------------

@@ -15,13 +15,16 @@
  * what one prop does (casts, receives, one-sided) with vtkGnomonPropKeys. Opaque surfaces cast and
  * receive, by mappers of polydata, data sets, composite data and glyphs, under actors, assemblies,
  * followers and props with levels of detail (docs/guide/what_casts.md). Translucent surfaces
- * receive, and cast only if asked. Everything else is drawn as VTK draws it; a warning names, once,
- * what is lit and left out. A headlight that is the only light casts only if asked.
+ * receive, and cast only if asked. Everything else is drawn as VTK draws it; a warning names what
+ * is lit and left out. A headlight that is the only light casts only if asked.
  *
  * Other passes may stand around it, or inside it as its delegate (docs/guide/passes.md).
  *
  * The pass steps aside for hardware selection, and draws the scene as plain VTK does, without a map
  * or a ray, when no light casts. It leaves the OpenGL state as it found it.
+ *
+ * The pass says once what is wrong with a frame, by an error or a warning. It says so again if the
+ * text changes, or if the mistake returns after a frame without it.
  *
  * Techniques take OpenGL 4.3. Those that trace from the CPU (raytraced, silhouette, crsm, crsma,
  * penumbra) take 3.2; below 4.3 lights with others have raytraced instead, after an error
@@ -373,7 +376,11 @@ public:
    * point data: "light N" for each light that casts, by its number in the renderer's collection, 1
    * lit, 0 in shadow (three components of a light with a texture); "position", in world
    * coordinates; "normal", geometric, of unit length, on the camera's side; "coverage", 1 where a
-   * surface was drawn, else 0, and the other numbers mean nothing.
+   * surface was drawn, else 0, and the numbers so far mean nothing; "prop", an integer, the number
+   * in vtkRenderer::GetViewProps() of what was drawn, -1 for nothing; "cell", an integer, the cell
+   * of the mapper's input where that is a vtkPolyData, as for picking. It is -1 for other input
+   * (composite data, other data sets, glyphs, molecules), parts of assemblies, levels of detail,
+   * and spheres and tubes in place of points and lines.
    */
   void GetVisibilityImage(vtkImageData* image) const;
 
@@ -422,8 +429,10 @@ private:
   void TellPlain(const char* reason);
   void DrawPlain(const vtkRenderState* s);
   void RenderPlain(const vtkRenderState* s, const char* reason);
-  void TellOfLights();
-  void TellWhatIsLeftOut();
+  void TellOfLights(vtkRenderer* renderer);
+  void TellWhatIsLeftOut(vtkRenderer* renderer);
+  void TellOfRoute(vtkRenderer* renderer, bool isTaken);
+  void TellOfResolution(const vtkRenderState* s, bool isReceivers);
 
   vtkGnomonShadowPass(const vtkGnomonShadowPass&) = delete;
   void operator=(const vtkGnomonShadowPass&) = delete;

@@ -39,7 +39,7 @@
 namespace
 {
 
-/// A light as it was added.
+/// A light as the user added it.
 struct AddedLight
 {
   glm::dvec3 towards{ 0.0 }; ///< of a direction: unit
@@ -47,8 +47,8 @@ struct AddedLight
   vtkSmartPointer<vtkLight> light; ///< null for a direction
 };
 
-/// What results depend on. Times tell changes of objects; of settings the values do, since a
-/// filter's own time changes with an abort as well.
+/// The inputs that determine the results. Objects count by their times of change, settings by their
+/// values, since an abort also changes the filter's own time.
 struct Key
 {
   std::vector<std::pair<const void*, vtkMTimeType>> objects;
@@ -71,7 +71,7 @@ bool areHours(double hours)
   return hours >= 0.0 && std::isfinite(hours);
 }
 
-/// Two unit vectors across a unit vector (Duff et al., JCGT 6(1), 2017).
+/// Return two unit vectors across a unit vector (Duff et al., JCGT 6(1), 2017).
 std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& n)
 {
   const double sign = std::copysign(1.0, n.z);
@@ -81,7 +81,7 @@ std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& n)
     { b, sign + n.y * n.y * a, -n.y } };
 }
 
-/// An array of one number for each element, all alike at first.
+/// Return an array of one number for each element, all equal at first.
 template <typename Array, typename Value>
 vtkSmartPointer<Array> arrayOf(const char* name, vtkIdType count, int components, Value value)
 {
@@ -165,6 +165,13 @@ struct vtkGnomonVisibilityFilter::Internals
   void add(const glm::dvec3& towards, double hours)
   {
     this->lights.push_back({ glm::normalize(towards), hours, nullptr });
+  }
+  /// @return null for a number that does not exist
+  const AddedLight* find(int index) const
+  {
+    return index >= 0 && index < static_cast<int>(this->lights.size())
+      ? &this->lights[static_cast<std::size_t>(index)]
+      : nullptr;
   }
 };
 
@@ -330,6 +337,28 @@ int vtkGnomonVisibilityFilter::GetNumberOfLights()
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonVisibilityFilter::GetDirection(int index, double towards[3])
+{
+  const AddedLight* const added = this->Internal->find(index);
+  const glm::dvec3 direction = added ? added->towards : glm::dvec3(0.0);
+  std::copy_n(&direction.x, 3, towards);
+}
+
+//------------------------------------------------------------------------------
+vtkLight* vtkGnomonVisibilityFilter::GetLight(int index)
+{
+  const AddedLight* const added = this->Internal->find(index);
+  return added ? added->light : nullptr;
+}
+
+//------------------------------------------------------------------------------
+double vtkGnomonVisibilityFilter::GetHours(int index)
+{
+  const AddedLight* const added = this->Internal->find(index);
+  return added ? added->hours : 0.0;
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkGnomonVisibilityFilter::GetNumberOfRays()
 {
   return static_cast<vtkTypeInt64>(this->Internal->rays);
@@ -355,7 +384,7 @@ void vtkGnomonVisibilityFilter::SetUp(double x, double y, double z)
 namespace
 {
 
-/// The inputs that are there: the receivers, then the casters.
+/// Return the present inputs: the receivers, then the casters.
 std::vector<gnomon::DataScene::Input> inputsOf(vtkInformationVector** input, bool receiversCast)
 {
   std::vector<gnomon::DataScene::Input> inputs = { { vtkPolyData::GetData(input[0]),
@@ -379,15 +408,15 @@ Key sceneKeyOf(const std::vector<gnomon::DataScene::Input>& inputs)
         input.data, hasPoints ? gnomon::shapeTime(input.data, kind) : input.data->GetMTime());
     }
     key.settings.push_back(input.casts ? 1.0 : 0.0);
-    // Cells of other kinds count in the numbers of cells.
+    // Cells of other kinds also count in the numbers of cells.
     key.settings.push_back(
       static_cast<double>(input.data->GetNumberOfVerts() + input.data->GetNumberOfLines()));
   }
   return key;
 }
 
-/// The lights as rays see them.
-/// @param reason filled where one of them cannot shine
+/// Return the lights as rays see them.
+/// @param reason receives why one of them cannot shine
 std::vector<gnomon::WeightedLight> weightedLights(const std::vector<AddedLight>& added,
   const glm::dvec3& centreWorld, double diameterDegrees, std::string& reason)
 {
@@ -422,6 +451,15 @@ std::vector<gnomon::WeightedLight> weightedLights(const std::vector<AddedLight>&
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+int vtkGnomonVisibilityFilter::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  // An abort is of one execution. Older releases of VTK clear it by themselves, newer ones do not.
+  this->AbortExecute = 0;
+  return this->Superclass::RequestUpdateExtent(request, input, output);
+}
 
 //------------------------------------------------------------------------------
 int vtkGnomonVisibilityFilter::RequestData(

@@ -108,6 +108,17 @@ public:
 
   ///@{
   /**
+   * What was added, by number. GetDirection gives a unit vector towards the light, and zeros for a
+   * vtkLight; GetLight returns null for a direction. For a number that does not exist they give
+   * zeros and null, and GetHours 0.
+   */
+  void GetDirection(int index, double towards[3]);
+  vtkLight* GetLight(int index);
+  double GetHours(int index);
+  ///@}
+
+  ///@{
+  /**
    * The angle that the sun, or another light with a direction, is seen at, in degrees, in [0, 90).
    * The sun's is 0.53. It takes Samples of 2 or more: each then looks at another point of an even
    * disc. 0: a point. Default: 0.
@@ -249,6 +260,8 @@ protected:
   ~vtkGnomonVisibilityFilter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 

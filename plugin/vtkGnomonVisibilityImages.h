@@ -50,6 +50,12 @@ struct VisibilityImages
   std::vector<float> normalY;   ///< see normalX
   std::vector<float> normalZ;   ///< see normalX
   std::vector<float> coverage;  ///< 1 where a surface was drawn, else 0
+
+  /// Whose surface that is: a number in vtkRenderer::GetViewProps(); -1 where there is none.
+  std::vector<int> prop;
+  /// Which cell of the mapper's input, a vtkPolyData; -1 for other input (composite data, other
+  /// data sets, glyphs, molecules), parts of assemblies, levels of detail, spheres and tubes.
+  std::vector<std::int64_t> cell;
 };
 
 } // namespace gnomon

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Breaks one token of the library at a time and says which tests notice.
+"""Break one token of the library at a time and print which tests notice.
 
     tests/mutations.py --base COMMIT --checkout DIRECTORY [--tiers all] [--only NUMBER...]
 
-Mutations are drawn by a seed from the lines of C++ and GLSL that COMMIT and HEAD share, so that the
-suites of both can be asked the same. DIRECTORY is a clean checkout of either, in which each
-mutation is made, built, tested until the first failure, and taken back. Prints a line of CSV for
-each: number, place, before and after, the tier and the test that noticed it, seconds of tests.
-"none" means that it survived. What does not compile is passed over.
+A seed draws mutations from the lines of C++ and GLSL that COMMIT and HEAD share, so the suites of
+both can be compared. DIRECTORY is a clean checkout of either. Each mutation is made there, built,
+tested until the first failure, and reverted. Prints a line of CSV for each: number, place, before
+and after, the tier and the test that noticed it, seconds of tests. "none" means that it survived.
+Mutations that do not compile are skipped.
 """
 
 import argparse
@@ -24,13 +24,13 @@ from pathlib import Path
 FOLDERS = ("lights/", "plugin/", "shadowtech/")
 ENDINGS = (".h", ".cpp", ".cxx", ".glsl")
 
-# What ctest is asked for. Commits without tiers have `all` alone.
+# ctest's arguments for each tier. Commits without tiers have only `all`.
 TIERS = {
     "quick": ["--preset", "quick"],
     "rest": ["--preset", "ci", "-LE", "^quick$"],
     "all": ["--preset", "ci"],
 }
-SECONDS_A_TEST = 400  # a mutation may loop for ever
+SECONDS_A_TEST = 400  # a mutation may loop forever
 
 OTHERS = {
     "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&",
@@ -53,7 +53,7 @@ def output_of(*command, directory="."):
 
 
 def places_of_lines(commit):
-    """Of each line's text in a commit's sources the (path, index of line); of code alone."""
+    """Map the text of each code line in a commit's sources to its (path, index of line)."""
     places = collections.defaultdict(list)
     for path in output_of("git", "ls-tree", "-r", "--name-only", commit).splitlines():
         if path.startswith(FOLDERS) and path.endswith(ENDINGS):
@@ -66,7 +66,7 @@ def places_of_lines(commit):
 
 
 def mutations(base, seed):
-    """All single-token mutations of lines that occur once in both commits, in random order."""
+    """Return single-token mutations of lines that occur once in both commits, in random order."""
     ours, theirs = places_of_lines("HEAD"), places_of_lines(base)
     shared = sorted(
         text for text in ours if len(ours[text]) == 1 and len(theirs.get(text, ())) == 1)
@@ -84,7 +84,7 @@ def mutations(base, seed):
 
 
 def mutate(source, mutation):
-    """The text of a file with a mutation in it."""
+    """Return the text of a file with a mutation in it."""
     lines = source.split("\n")
     index = next(i for i, line in enumerate(lines) if line.strip() == mutation.text)
     indent = len(lines[index]) - len(lines[index].lstrip())
@@ -103,7 +103,7 @@ def succeeds(directory, *command):
 
 
 def first_failure(tiers, checkout):
-    """The tier and the case, or the program, that fails first; ("none", "") if all pass."""
+    """Return the tier and the case, or program, that fails first; ("none", "") if all pass."""
     for tier in tiers:
         passes, log = succeeds(checkout, "ctest", *TIERS[tier], "--stop-on-failure",
                                "--timeout", str(SECONDS_A_TEST))

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Builds Gnomon and passes its tests, on a bare Debian 12 or any machine set up like one.
+# Build Gnomon and run its tests, on a bare Debian 12 or any machine set up like one.
 #
 #   tests/run.sh        the quick tier (tests/main/QuickTier.h)
 #   tests/run.sh --all  everything
@@ -22,7 +22,7 @@ step=starting
 trap 'echo "FAILED while $step, after $SECONDS s." >&2' ERR
 set -o errtrace
 
-# announce STEP: starts a step and says so.
+# announce STEP: start a step and print its name.
 announce()
 {
   step="$1"

@@ -16,9 +16,12 @@ void addTechniquesCommand(CLI::App& app);
 void addScenesCommand(CLI::App& app);
 void addSettingsCommand(CLI::App& app);
 void addStudyCommand(CLI::App& app);
+void addViewCommand(CLI::App& app);
 ///@}
 
-/// A window's size in pixels, on the command line WIDTHxHEIGHT, each from 1 to 16384.
+inline constexpr int largestSidePixels = 16384;
+
+/// A window's size in pixels, on the command line WIDTHxHEIGHT, each from 1 to largestSidePixels.
 struct PictureSize
 {
   int width = 1024;

@@ -176,6 +176,20 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
 }
 
 //------------------------------------------------------------------------------
+std::vector<unsigned char> tracedMask(const VisibilityImages& images)
+{
+  std::vector<unsigned char> traced(images.coverage.size(), 0);
+  for (const ClassImage& image : images.classes)
+  {
+    for (std::size_t i = 0; i < image.ofPixels.size(); ++i)
+    {
+      traced[i] |= image.classes[image.ofPixels[i]].traced ? 1 : 0;
+    }
+  }
+  return traced;
+}
+
+//------------------------------------------------------------------------------
 Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& verdicts,
   const std::vector<unsigned char>* traced)
 {

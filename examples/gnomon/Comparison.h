@@ -69,6 +69,9 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
   const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts = nullptr,
   std::vector<float>* differences = nullptr);
 
+/// Return a mask with 1 for each traced pixel, of any light.
+std::vector<unsigned char> tracedMask(const VisibilityImages& images);
+
 /// Return the dimmed picture with false light in blue and false shadow in red. Pixels that are
 /// right and traced are purple.
 /// @param traced not 0 for each traced pixel; may be null

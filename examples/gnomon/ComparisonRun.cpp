@@ -395,8 +395,7 @@ VisibilityImages truthOf(
   {
     return keptVisibility(variant);
   }
-  const std::map<std::string, std::string> ofTruth = { { "light_samples", std::to_string(samples) },
-    { "light_seed", unusedSeed(variants) }, { "light_sampling", "sobol" } };
+  const std::map<std::string, std::string> ofTruth = truthSettings(samples, unusedSeed(variants));
   std::map<std::string, std::string> ofVariant;
   for (const auto& [name, value] : ofTruth)
   {
@@ -456,20 +455,6 @@ VisibilityImages visibilityOf(Variant& variant, const Scene& scene, const Visibi
     ? "It is the truth."
     : "From its visibility image, one number per pixel and light.";
   return keptVisibility(variant);
-}
-
-/// Return a mask with 1 for each traced pixel.
-std::vector<unsigned char> tracedMask(const VisibilityImages& images)
-{
-  std::vector<unsigned char> traced(images.coverage.size(), 0);
-  for (const ClassImage& image : images.classes)
-  {
-    for (std::size_t i = 0; i < image.ofPixels.size(); ++i)
-    {
-      traced[i] |= image.classes[image.ofPixels[i]].traced ? 1 : 0;
-    }
-  }
-  return traced;
 }
 
 /// Store the classes of a variant's pixels in its result.
@@ -642,6 +627,13 @@ std::vector<std::string> allTechniques()
     names.push_back(entry.name);
   }
   return names;
+}
+
+//------------------------------------------------------------------------------
+std::map<std::string, std::string> truthSettings(int samples, const std::string& seed)
+{
+  return { { "light_samples", std::to_string(samples) }, { "light_seed", seed },
+    { "light_sampling", "sobol" } };
 }
 
 //------------------------------------------------------------------------------

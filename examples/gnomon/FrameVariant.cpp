@@ -43,25 +43,6 @@ vtkSmartPointer<vtkRenderPass> makeShadowMapPass(int mapSizeTexels)
   return camera;
 }
 
-vtkSmartPointer<vtkRenderPass> makeGnomonPass(const VariantSpec& spec)
-{
-  auto pass = vtkSmartPointer<vtkGnomonShadowPass>::New();
-  pass->SetTechnique(spec.technique.c_str());
-  pass->SetRoute(spec.route);
-  pass->SetTracer(spec.tracer);
-  pass->SetRasterizer(spec.rasterizer);
-  pass->SmoothTerminatorsOff(); // all techniques are compared on the triangles
-  if (spec.mapSizeTexels > 0)
-  {
-    pass->SetMapSize(spec.mapSizeTexels);
-  }
-  for (const auto& [name, value] : spec.settings)
-  {
-    pass->SetSetting(name.c_str(), value.c_str());
-  }
-  return pass;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -145,11 +126,32 @@ VariantSpec parseTechnique(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
+void setUp(vtkGnomonShadowPass* pass, const VariantSpec& spec)
+{
+  pass->SetSettings(nullptr);
+  pass->SetTechnique(spec.technique.c_str());
+  pass->SetRoute(spec.route);
+  pass->SetTracer(spec.tracer);
+  pass->SetRasterizer(spec.rasterizer);
+  pass->SmoothTerminatorsOff(); // all techniques are compared on the triangles
+  if (spec.mapSizeTexels > 0)
+  {
+    pass->SetMapSize(spec.mapSizeTexels);
+  }
+  for (const auto& [name, value] : spec.settings)
+  {
+    pass->SetSetting(name.c_str(), value.c_str());
+  }
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec)
 {
   if (spec.isGnomon())
   {
-    return makeGnomonPass(spec);
+    auto pass = vtkSmartPointer<vtkGnomonShadowPass>::New();
+    setUp(pass, spec);
+    return pass;
   }
   return spec.technique == shadowMapPassTechnique ? makeShadowMapPass(spec.mapSizeTexels) : nullptr;
 }

@@ -49,6 +49,9 @@ ShadowSettings settingsOf(const VariantSpec& spec);
 /// technique lacks
 VariantSpec parseTechnique(const std::string& text);
 
+/// Set a pass up to draw a variant that isGnomon(). Its other settings return to their defaults.
+void setUp(vtkGnomonShadowPass* pass, const VariantSpec& spec);
+
 /// Return a variant's pass, for vtkRenderer::SetPass(); null for plain VTK.
 vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec);
 

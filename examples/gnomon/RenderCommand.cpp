@@ -10,6 +10,7 @@
 #include "Text.h"
 #include "Vec3.h"
 #include "VtkMessages.h"
+#include "view/View.h"
 
 #include "lights/LightManager.h"
 #include "plugin/frame/ReportText.h"
@@ -41,12 +42,11 @@ namespace gnomon::tool
 namespace
 {
 
-constexpr int largestSidePixels = 16384;
-
 /// The options of the command line.
 struct RenderOptions
 {
   std::string scene;
+  std::string viewFile; ///< a file of `gnomon view` in place of the other options
   std::string picture;
   std::string size = "1024x1024";
   std::map<std::string, std::string> settings; ///< of all lights, by name; empty values: not given
@@ -326,8 +326,27 @@ std::map<std::string, std::string> makeHeader(
   return header;
 }
 
+/// Draws what the viewer showed when it saved this file.
+void renderSettings(const RenderOptions& options)
+{
+  requireWritableFile(options.picture, "--output", { ".png", ".exr" });
+  Progress progress("reading " + options.viewFile);
+  auto [state, scene] = readView(options.viewFile);
+  progress.begin("rendering");
+  writePicture(drawWithoutScreen(state, std::move(scene)), options.picture);
+}
+
 void render(const RenderOptions& options)
 {
+  if (options.scene.empty() == options.viewFile.empty())
+  {
+    throw BadInput("render: expected a scene or --settings, and one of them");
+  }
+  if (!options.viewFile.empty())
+  {
+    renderSettings(options);
+    return;
+  }
   check(options);
   const PictureSize size = parseSize(options.size);
   Progress progress("reading " + options.scene);
@@ -459,13 +478,12 @@ void addRenderCommand(CLI::App& app)
 {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "Render a scene with shadows");
-  command
-    ->add_option("scene", options->scene,
-      "A built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds "
-      ".glb .gltf)")
-    ->required();
-  command->add_option("-o,--output", options->picture, "The picture to write, .png or .exr")
-    ->required();
+  command->add_option("scene", options->scene,
+    "A built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds "
+    ".glb .gltf)");
+  CLI::Option* const output =
+    command->add_option("-o,--output", options->picture, "The picture to write, .png or .exr")
+      ->required();
   command->add_option("--size", options->size, "Size of the picture in pixels, WIDTHxHEIGHT")
     ->capture_default_str();
   addSettingOptions(*command, options->settings);
@@ -515,6 +533,16 @@ void addRenderCommand(CLI::App& app)
     "Also write each pixel's class as a colour, for the first light whose technique has classes: "
     "lit for certain light grey, in shadow for certain dark grey, traced purple, penumbras by "
     "their edges orange, turned away from the light green; .png or .exr");
+  CLI::Option* const settings = command->add_option("--settings", options->viewFile,
+    "A settings file that `gnomon view` saved, in place of a scene and all other options: its "
+    "picture again, byte for byte");
+  for (CLI::Option* const other : command->get_options())
+  {
+    if (other != settings && other != output && other->nonpositional())
+    {
+      settings->excludes(other);
+    }
+  }
   command->callback([options] { render(*options); });
 }
 

@@ -13,7 +13,6 @@
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkActor.h>
-#include <vtkCamera.h>
 #include <vtkLight.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
@@ -174,6 +173,27 @@ Scene loadScene(const std::string& nameOrPath, std::optional<bool> ground)
 }
 
 //------------------------------------------------------------------------------
+void setLights(vtkRenderer* renderer, const std::vector<SceneLight>& lights)
+{
+  renderer->RemoveAllLights();
+  for (const SceneLight& light : lights)
+  {
+    renderer->AddLight(makeLight(light));
+  }
+}
+
+//------------------------------------------------------------------------------
+void setCamera(vtkCamera* camera, const SceneCamera& source)
+{
+  camera->SetPosition(source.position.data());
+  camera->SetFocalPoint(source.target.data());
+  camera->SetViewUp(source.up.data());
+  camera->SetViewAngle(source.fovDegrees);
+  camera->SetParallelProjection(source.parallelScale.has_value());
+  camera->SetParallelScale(source.parallelScale.value_or(1.0));
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect)
 {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
@@ -187,18 +207,10 @@ vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect)
     renderer->AddViewProp(prop.make());
   }
   renderer->AutomaticLightCreationOff();
-  for (const SceneLight& light : scene.lights)
-  {
-    renderer->AddLight(makeLight(light));
-  }
+  setLights(renderer, scene.lights);
 
   vtkNew<vtkCamera> camera;
-  camera->SetPosition(scene.camera.position.data());
-  camera->SetFocalPoint(scene.camera.target.data());
-  camera->SetViewUp(scene.camera.up.data());
-  camera->SetViewAngle(scene.camera.fovDegrees);
-  camera->SetParallelProjection(scene.camera.parallelScale.has_value());
-  camera->SetParallelScale(scene.camera.parallelScale.value_or(1.0));
+  setCamera(camera, scene.camera);
   renderer->SetActiveCamera(camera);
 
   setClippingRange(renderer, scene, aspect);

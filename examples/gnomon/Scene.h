@@ -1,5 +1,6 @@
 #pragma once
 
+#include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkPolyData.h>
 #include <vtkProp3D.h>
@@ -126,6 +127,12 @@ SceneLight parseLight(const std::string& spec);
 ///     parallel_scale=2
 /// @throws BadInput
 SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
+
+///@{
+/// Set the lights of a renderer, or a camera, to those of a scene.
+void setLights(vtkRenderer* renderer, const std::vector<SceneLight>& lights);
+void setCamera(vtkCamera* camera, const SceneCamera& source);
+///@}
 
 /// Return a renderer with the scene's actors, props, lights, camera (clipping range set) and
 /// background. It shares surfaces with the scene and the scene's other renderers, and owns the

@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "Files.h"
+#include "SceneJson.h"
 #include "Vec3.h"
 #include "lights/SettingsTable.h"
 
@@ -139,16 +140,7 @@ std::string exportScene(const Scene& scene, const std::string& folder)
   const std::string path = (std::filesystem::path(folder) / (scene.name + ".json")).string();
   requireWritableFile(path, "--export", { ".json" });
   Json json;
-  json["camera"] = { { "position", scene.camera.position }, { "target", scene.camera.target },
-    { "up", scene.camera.up } };
-  if (scene.camera.parallelScale)
-  {
-    json["camera"]["parallel_scale"] = *scene.camera.parallelScale;
-  }
-  else
-  {
-    json["camera"]["fov"] = scene.camera.fovDegrees;
-  }
+  json["camera"] = toJson(scene.camera);
   json["models"] = Json::array();
   for (const SceneModel& model : scene.models)
   {

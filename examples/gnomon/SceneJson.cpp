@@ -298,4 +298,20 @@ SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>&
   return camera;
 }
 
+//------------------------------------------------------------------------------
+nlohmann::ordered_json toJson(const SceneCamera& camera)
+{
+  nlohmann::ordered_json json = { { "position", camera.position }, { "target", camera.target },
+    { "up", camera.up } };
+  if (camera.parallelScale)
+  {
+    json["parallel_scale"] = *camera.parallelScale;
+  }
+  else
+  {
+    json["fov"] = camera.fovDegrees;
+  }
+  return json;
+}
+
 } // namespace gnomon::tool

@@ -18,5 +18,7 @@ SceneLight readLight(const JsonValue& value, const std::filesystem::path& folder
 /// required.
 /// @throws BadInput
 SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>& defaults);
+/// The same camera, for scene files.
+nlohmann::ordered_json toJson(const SceneCamera& camera);
 
 } // namespace gnomon::tool

@@ -28,6 +28,7 @@ int main(int argc, char** argv)
   app.set_version_flag(
     "--version", std::string("gnomon " GNOMON_VERSION ", VTK ") + vtkVersion::GetVTKVersion());
   gnomon::tool::addRenderCommand(app);
+  gnomon::tool::addViewCommand(app);
   gnomon::tool::addCompareCommand(app);
   gnomon::tool::addStudyCommand(app);
   gnomon::tool::addDiffCommand(app);

@@ -18,19 +18,19 @@ namespace
 
 constexpr std::uint32_t noVertex = std::numeric_limits<std::uint32_t>::max();
 
-/// Snapshots of different filters may meet in one process, but never in one tracer.
+/// Snapshots of several filters may exist in one process, but a tracer sees one only.
 constexpr std::uint64_t onlyVersion = 1;
 
-/// Normals that are as near to each other as this, by their cosine, are of one plane.
+/// Normals whose cosine exceeds this lie on one plane.
 constexpr double onePlane = 1.0 - 1e-6;
 
-/// A unit normal on the front: the side that shows the corners counter-clockwise.
+/// Return the unit normal on the front, which shows the corners counter-clockwise.
 glm::dvec3 normalOf(const std::array<glm::dvec3, 3>& corners)
 {
   return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
 }
 
-/// Turns the counts in first[1] and on into places, for a second pass that fills them.
+/// Turn the counts in first[1] and on into offsets, which a second pass fills.
 void sumUp(std::vector<std::uint32_t>& first)
 {
   std::partial_sum(first.begin(), first.end(), first.begin());

@@ -19,8 +19,8 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// Polydata as shadow rays see them: the snapshot of their polygons and strips, as a picture has it
-/// (OccluderCollector), and the cell that each triangle is of. The first one is the receivers.
+/// Polydata as shadow rays see them: the snapshot of their polygons and strips, as for a picture
+/// (OccluderCollector), and each triangle's cell. The first polydata is the receivers.
 class DataScene
 {
 public:
@@ -36,16 +36,16 @@ public:
 
   const Occluders& occluders() const { return this->occluders_; }
 
-  /// The input that a surface of the snapshot is of.
+  /// Return the input of a surface of the snapshot.
   int inputOf(std::uint32_t surface) const { return this->parts_[surface].input; }
-  /// The cell, in its polydata, that a triangle of the snapshot is of.
+  /// Return the cell, in its polydata, of a triangle of the snapshot.
   vtkIdType cellOf(std::uint32_t surface, std::uint32_t triangle) const
   {
     return this->parts_[surface].firstCell + this->cellOfTriangle_[triangle];
   }
 
-  /// Cells or points of the receivers, and the triangles at each: those of element `i` are
-  /// triangles[first[i]] up to triangles[first[i + 1]].
+  /// Cells or points of the receivers with their triangles. Element `i` has triangles[first[i]] up
+  /// to triangles[first[i + 1]].
   struct Elements
   {
     std::vector<std::uint32_t> first;
@@ -53,13 +53,12 @@ public:
 
     std::size_t count() const { return this->first.size() - 1; }
   };
-  /// The triangles of each cell.
+  /// Return the triangles of each cell.
   Elements cells() const;
-  /// Of each point, the triangles that meet there, but one alone of those that lie in one plane of
-  /// one cell.
+  /// Return the triangles that meet at each point. Triangles in one plane of one cell count once.
   Elements points() const;
 
-  /// A triangle's corners, centred.
+  /// Return a triangle's corners, centred.
   std::array<glm::dvec3, 3> corners(std::uint32_t triangle) const
   {
     const glm::uvec3& vertices = this->occluders_.triangles[triangle];
@@ -67,7 +66,7 @@ public:
     return { glm::dvec3(positions[vertices.x]), glm::dvec3(positions[vertices.y]),
       glm::dvec3(positions[vertices.z]) };
   }
-  /// A point of the receivers, centred; nothing if no triangle of theirs uses it.
+  /// Return a point of the receivers, centred; nothing if no triangle of theirs uses it.
   std::optional<glm::dvec3> pointCentred(std::size_t point) const;
 
 private:
@@ -78,7 +77,7 @@ private:
     vtkIdType firstCell; ///< of its kind, in the polydata
   };
   void add(const Input& input, int number);
-  /// Calls visit(surface, triangle) for the receivers' triangles.
+  /// Call visit(surface, triangle) for the receivers' triangles.
   template <typename Visit>
   void visitReceivers(const Visit& visit) const;
   std::uint32_t pointOf(std::uint32_t vertex) const;
@@ -90,7 +89,7 @@ private:
   std::vector<std::uint32_t> scratch_;        ///< triangulate()'s
   std::size_t cellCount_ = 0;                 ///< of the receivers
   std::size_t pointCount_ = 0;                ///< likewise
-  std::vector<std::uint32_t> vertexOfPoint_;  ///< of the receivers; noVertex where there is none
+  std::vector<std::uint32_t> vertexOfPoint_;  ///< of the receivers; noVertex if there is none
 };
 
 } // namespace gnomon

@@ -16,17 +16,17 @@ namespace gnomon
 namespace
 {
 
-/// How far a point's starts are from it, as a share of the way to the middle of the triangle.
+/// Distance of a point's starts from it, as a share of the way to the middle of the triangle.
 constexpr double inwardShare = 1.0 / 1024.0;
 
-/// A triangle is as many pixels long for shadowRayOffsetInside(), which asks for a pixel's side.
-/// The share of the offset that follows only has to be more than nothing.
+/// A triangle's length in pixels for shadowRayOffsetInside(), which needs a pixel's side. The
+/// resulting share of the offset only has to be above 0.
 constexpr double pixelsAlong = 1024.0;
 
 constexpr std::uint32_t seedOfPlaces = 1;
 constexpr std::uint32_t seedOfDiscs = 2;
 
-/// Cells side by side on the square that SobolPoints takes its places from.
+/// Columns of the square from which SobolPoints takes its points.
 constexpr std::size_t columns = 65536;
 
 using Corners = std::array<glm::dvec3, 3>;
@@ -41,14 +41,14 @@ glm::dvec3 middleOfCorners(const Corners& corners)
   return (corners[0] + corners[1] + corners[2]) / 3.0;
 }
 
-/// A fraction of 2^32 as a number in (0, 1).
+/// Return a fraction of 2^32 as a number in (0, 1).
 double unit(std::uint32_t fraction)
 {
   return std::ldexp(fraction + 0.5, -32);
 }
 
-/// The point of a triangle that is closest to a point (Ericson, Real-Time Collision Detection,
-/// section 5.1.5), by projection onto the plane, then onto the edges.
+/// Return the point of a triangle that is closest to a point (Ericson, Real-Time Collision
+/// Detection, section 5.1.5): by projection onto the plane, then onto the edges.
 glm::dvec3 closestPoint(const Corners& corners, const glm::dvec3& to)
 {
   const glm::dvec3 area = areaVector(corners); // not 0: the snapshot has no such triangles
@@ -73,7 +73,7 @@ glm::dvec3 closestPoint(const Corners& corners, const glm::dvec3& to)
   return isInside ? inPlane : closest;
 }
 
-/// Spreads 21 bits so that two others' fit in between.
+/// Spread 21 bits so that two other numbers' bits fit in between.
 std::uint64_t spread3(std::uint64_t bits)
 {
   bits &= 0x1fffff;
@@ -158,7 +158,7 @@ void ReceiverStarts::append(std::size_t element, RayStarts& starts, bool middle)
 {
   if (this->ofPoints_)
   {
-    // Its samples differ by the disc alone, so that one is enough without.
+    // Without a disc, a point's samples are equal, so one is enough.
     for (int i = 0; i < (middle ? 1 : this->samples_); ++i)
     {
       this->appendCorners(element, starts);
@@ -202,7 +202,7 @@ void ReceiverStarts::appendStart(
 }
 
 //------------------------------------------------------------------------------
-/// The middle of the area of a cell's triangles.
+/// Return the centroid of a cell's triangles, weighted by area.
 glm::dvec3 ReceiverStarts::middleOf(std::size_t element) const
 {
   glm::dvec3 sum(0.0);
@@ -215,12 +215,12 @@ glm::dvec3 ReceiverStarts::middleOf(std::size_t element) const
     sum += doubleArea * middleOfCorners(corners);
     area += doubleArea;
   }
-  return sum / area; // of triangles that have one
+  return sum / area; // triangles of the snapshot have an area
 }
 
 //------------------------------------------------------------------------------
-/// The start of a cell is on the triangle that is closest to its middle. That may be an edge
-/// between two triangles, so that the start is off both.
+/// Append a cell's start on the triangle closest to its middle. That may be an edge between two
+/// triangles, so that the start is off both.
 void ReceiverStarts::appendMiddle(std::size_t element, RayStarts& starts) const
 {
   const std::uint32_t begin = this->elements_.first[element];
@@ -251,8 +251,9 @@ void ReceiverStarts::appendMiddle(std::size_t element, RayStarts& starts) const
 }
 
 //------------------------------------------------------------------------------
-/// The unit square is cut into columns, one for each triangle and as wide as its area says. Each is
-/// taken to the triangle so that areas keep their shares (Turk 1990).
+/// Append starts spread over a cell. The unit square is cut into columns, one for each triangle,
+/// with a width in proportion to its area. Each column maps to its triangle such that areas keep
+/// their shares (Turk 1990).
 void ReceiverStarts::appendSpread(std::size_t element, RayStarts& starts) const
 {
   const std::uint32_t begin = this->elements_.first[element];
@@ -302,7 +303,7 @@ void ReceiverStarts::appendCorners(std::size_t element, RayStarts& starts) const
 }
 
 //------------------------------------------------------------------------------
-/// The places on the disc go to the samples in a random order, since both come from one sequence.
+/// Append disc points in random order, since both they and the starts come from one sequence.
 void ReceiverStarts::appendDisc(std::size_t element, RayStarts& starts) const
 {
   const SamplePixel pixel = this->discPoints_.pixel(

@@ -12,61 +12,61 @@
 namespace gnomon
 {
 
-/// Which side of a surface receives light.
+/// The side of a surface that receives light.
 enum class ReceivingSide
 {
   Front, ///< the side that shows the corners counter-clockwise
   Back,
-  Both ///< for each light the side that faces it
+  Both ///< for each light, the side that faces it
 };
 
-/// Where the shadow rays of some elements start: one array for each number.
+/// Starts of the shadow rays of some elements, as one array for each quantity.
 struct RayStarts
 {
   std::vector<glm::vec3> position; ///< on the triangle, centred
   std::vector<glm::vec3> normal;   ///< of the triangle, unit, on the receiving side
   std::vector<float> offset;       ///< ShadowRay.h
 
-  /// Samples: those of an element lie side by side. A sample is lit in a direction if a ray from
-  /// one of its starts, first[s] up to first[s + 1], is free. A cell's has one start, and a point's
-  /// one for each plane that meets there.
+  /// First start of each sample. Samples of an element are adjacent. A sample is lit from a
+  /// direction if a ray from one of its starts, first[s] up to first[s + 1], is free. A cell's
+  /// sample has one start. A point's sample has one for each plane that meets there.
   std::vector<std::uint32_t> first;
-  /// Where the samples look on the light's disc, in radii; empty where they all look at its middle.
+  /// Points of the light's disc that samples see, in radii; empty if all see its middle.
   std::vector<glm::vec2> disc;
 
   std::size_t samples() const { return this->first.size() - 1; }
   void clear();
 };
 
-/// Finds where the shadow rays of cells and points start.
+/// Finds the starts of shadow rays from cells and points.
 ///
 /// A cell has one start in its centroid, or several spread evenly over its triangles by area
-/// (SobolPoints), each cell's by itself. A point starts a thousandth of the way towards the middles
-/// of its triangles. So it sees what a picture shows beside it, and not the edge on which it lies.
+/// (SobolPoints), independently of other cells. A point starts a thousandth of the way towards the
+/// middles of its triangles. So it sees what a picture shows beside it, not the edge on which it
+/// lies.
 class ReceiverStarts
 {
 public:
-  /// @param ofPoints whether elements are points of the receivers; else cells
-  /// @param samples of each element; one is its middle
-  /// @param hasDisc whether samples look at different points of the light's disc
-  /// @param scene stays where it is
+  /// @param ofPoints true if elements are points of the receivers; else they are cells
+  /// @param samples per element; a single one is its middle
+  /// @param hasDisc true if samples see different points of the light's disc
+  /// @param scene must outlive this
   ReceiverStarts(
     const DataScene& scene, bool ofPoints, int samples, bool hasDisc, ReceivingSide side);
 
   std::size_t count() const { return this->elements_.count(); }
   int samples() const { return this->samples_; }
-  /// Whether an element has a surface that light could fall on.
+  /// True if an element has a surface on which light could fall.
   bool hasSurface(std::size_t element) const
   {
     return this->elements_.first[element] < this->elements_.first[element + 1];
   }
 
-  /// Elements in an order in which neighbours follow each other: those with a surface alone, along
-  /// a Z curve.
+  /// Return the elements with a surface along a Z curve, so that neighbours follow each other.
   std::vector<std::uint32_t> order() const;
 
-  /// Appends an element's samples.
-  /// @param middle one sample in the middle, looking at the light's middle, in place of its samples
+  /// Append an element's samples.
+  /// @param middle append only one sample, in the middle and seeing the light's middle
   void append(std::size_t element, RayStarts& starts, bool middle = false) const;
 
 private:

@@ -16,18 +16,18 @@ namespace
 
 /// Samples of a chunk, at least one element's.
 constexpr std::size_t samplesOfChunk = 16384;
-/// Rays of a part, about: a fifth of a second on two cores.
+/// Approximate rays of a part: a fifth of a second on two cores.
 constexpr std::size_t raysOfPart = std::size_t(1) << 22;
-/// Samples of a tile, which one thread traces: four packets, so that few are torn.
+/// Samples of a tile, which one thread traces. Four packets, so that few packets are incomplete.
 constexpr std::size_t samplesOfTile = 64;
-/// Answers that a tile keeps at once: they stay in the processor's first cache.
+/// Answers that a tile holds at a time: they fit the processor's first cache.
 constexpr std::size_t answersOfTile = 16384;
-/// Rays that are traced at once.
+/// Rays traced in one call.
 constexpr std::size_t raysOfBatch = 256;
-/// Lights side by side whose rays from a sample follow each other: as many as a packet has lanes.
+/// Consecutive lights whose rays from a sample are adjacent: the number of lanes of a packet.
 constexpr std::size_t lightsOfGroup = 16;
 
-/// Rays of one length that wait for the tracer, and where their answers go.
+/// Rays of one length that wait for the tracer, with the places of their answers.
 class WaitingRays
 {
 public:
@@ -86,7 +86,7 @@ private:
   std::array<std::uint8_t, raysOfBatch> blocked_;
 };
 
-/// A start, copied: the compiler keeps it in registers while rays are stored.
+/// A copy of a start, which the compiler holds in registers while rays are stored.
 struct RayStart
 {
   glm::vec3 position;
@@ -101,11 +101,12 @@ struct RayStart
   }
 };
 
-/// The shadow ray of a start. One that receives on both sides takes the side that faces the light.
+/// Return the shadow ray of a start. If it receives on both sides, use the side that faces the
+/// light.
 template <typename MakeRay>
 ShadowRay rayOf(const MakeRay& makeRay, const RayStart& start, bool bothSides)
 {
-  if (!bothSides) // and no ray is copied
+  if (!bothSides) // this path copies no ray
   {
     return makeRay(start.position, start.normal, start.offset);
   }
@@ -113,8 +114,8 @@ ShadowRay rayOf(const MakeRay& makeRay, const RayStart& start, bool bothSides)
   return ray.traced ? ray : makeRay(start.position, -start.normal, start.offset);
 }
 
-/// A place on a Z curve over all directions, which octahedral coordinates lay out on a square
-/// (Meyer et al., EGSR 2010).
+/// Return a position on a Z curve over all directions. Octahedral coordinates map directions onto a
+/// square (Meyer et al., EGSR 2010).
 std::uint32_t placeOf(const glm::vec3& direction)
 {
   const glm::vec3 size = glm::abs(direction);
@@ -141,16 +142,16 @@ bool isAboveGround(const glm::vec3& up, const glm::vec3& toLight)
   return up == glm::vec3(0.0f) || glm::dot(up, toLight) > 0.0f;
 }
 
-/// Whether all rays to a light are parallel and endless.
+/// True if all rays to a light are parallel and endless.
 bool isPlain(const ShadowRayLight& light)
 {
   return light.kind == LightKind::Directional && !light.hasBox;
 }
 
-/// Behind all directions.
+/// After all directions.
 constexpr std::uint64_t placeOfLamps = std::uint64_t(1) << 32;
 
-/// Whether any of a direction's disc is above the ground.
+/// True if any of a direction's disc is above the ground.
 bool mayShine(const WeightedLight& light, const glm::vec3& up)
 {
   const float reach = glm::length(glm::vec2(glm::dot(up, light.discX), glm::dot(up, light.discY)));
@@ -179,8 +180,8 @@ VisibilityRun::VisibilityRun(const DataScene& scene, const ReceiverStarts& start
 }
 
 //------------------------------------------------------------------------------
-/// Puts directions side by side, and behind them the lights that have a place. Directions below the
-/// horizon are left out.
+/// Sort directions along the curve, then append the lights that have a position. Directions below
+/// the horizon are left out.
 void VisibilityRun::orderLights()
 {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
@@ -215,7 +216,7 @@ std::size_t VisibilityRun::chunkSize() const
 //------------------------------------------------------------------------------
 double VisibilityRun::shareDone() const
 {
-  // Where all lights are below the horizon there is none.
+  // No lights remain if all are below the horizon.
   const auto lights = static_cast<double>(std::max<std::size_t>(1, this->plan_.lights.size()));
   const auto inChunk = static_cast<double>(this->chunkEnd_ - this->chunkBegin_);
   const double done = static_cast<double>(this->chunkBegin_) +
@@ -279,12 +280,12 @@ void VisibilityRun::traceBlock(std::size_t firstLight, std::size_t lastLight)
 }
 
 //------------------------------------------------------------------------------
-/// Traces the rays of some samples to a group of lights.
+/// Traces rays from some samples to a group of lights.
 class VisibilityRun::Tile
 {
 public:
   /// @param starts of the samples
-  /// @param lit gets the answers of `samples` samples to each light, one light after the other
+  /// @param lit receives the answers of `samples` samples to each light, one light after the other
   Tile(const VisibilityRun& run, const RayStarts& starts, std::uint8_t* lit)
     : plan_(run.plan_)
     , starts_(starts)
@@ -295,7 +296,7 @@ public:
   {
   }
 
-  /// @param answers place of the first light's answers in `lit`
+  /// @param answers index of the first light's answers in `lit`
   void trace(std::size_t firstLight, std::size_t lastLight, std::size_t answers)
   {
     const bool isSimple = this->starts_.position.size() == this->samples_ &&
@@ -307,7 +308,7 @@ public:
   std::uint64_t rays() const { return this->batch_.rays(); }
 
 private:
-  /// Of samples with one start, to directions without a disc.
+  /// Trace samples with one start to directions without a disc.
   void traceSimple(std::size_t firstLight, std::size_t lastLight, std::size_t answers)
   {
     this->batch_.setFar(shadowRayFarDirectional);
@@ -337,7 +338,7 @@ private:
         this->next_.begin() + static_cast<std::ptrdiff_t>((light - firstLight) * this->samples_);
       std::copy_n(this->starts_.first.begin(), this->samples_, next);
     }
-    // Of a sample with several starts, those after one that is lit need no ray.
+    // After a lit start, a sample's further starts need no ray.
     for (bool waits = true; waits;)
     {
       waits = false;
@@ -355,8 +356,8 @@ private:
       }
     }
   }
-  /// Adds the ray from the next start of a sample that faces a light.
-  /// @return whether the sample has starts left
+  /// Add the ray from the next start of a sample that faces a light.
+  /// @return true if the sample has starts left
   bool addRay(
     const WeightedLight& light, std::size_t sample, std::uint32_t& next, std::size_t answer)
   {
@@ -405,6 +406,7 @@ private:
 };
 
 //------------------------------------------------------------------------------
+/// Trace a tile.
 /// @param firstElement, lastElement counted from the chunk's first
 /// @return the number of rays
 std::uint64_t VisibilityRun::traceTile(
@@ -473,7 +475,7 @@ void VisibilityRun::explain()
   tbb::parallel_for(tbb::blocked_range<std::size_t>(this->chunkBegin_, this->chunkEnd_, 64),
     [this](const tbb::blocked_range<std::size_t>& range)
     {
-      RayStarts starts; // whose memory they share
+      RayStarts starts; // their memory is shared
       for (std::size_t i = range.begin(); i != range.end(); ++i)
       {
         this->explainOne(this->order_[i], starts);
@@ -482,8 +484,8 @@ void VisibilityRun::explain()
 }
 
 //------------------------------------------------------------------------------
-/// Tells of the element's middle. A point's fate is that of the start which comes nearest to being
-/// lit: one that faces the light counts before those that do not.
+/// Explain the fate of the element's middle. A point has the fate of its start that is nearest to
+/// being lit. A start that faces the light precedes one that does not.
 void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
 {
   starts.clear();
@@ -505,7 +507,7 @@ void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
         const ShadowRay ray = rayOf(makeRay, RayStart(starts, i), this->plan_.bothSides);
         if (!ray.traced)
         {
-          // Turned away, or outside of the cone or box of a light that it faces.
+          // Turned away, or outside the cone or box of a light that it faces.
           const bool faces = facesLight(starts.normal[i], ray.direction) ||
             (this->plan_.bothSides && facesLight(-starts.normal[i], ray.direction));
           fate = fate == Fate::TurnedAway && faces ? Fate::OutOfReach : fate;
@@ -525,7 +527,7 @@ void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
         {
           return;
         }
-        // A ray within rounding of an edge may be blocked by what a lone ray misses.
+        // A ray within rounding of an edge may be blocked by a triangle that a single ray misses.
         const std::optional<CasterHits::Hit> hit =
           this->tracer_.nearest(ray.origin, ray.direction, shadowRayNear, rayFar);
         input = hit ? this->scene_.inputOf(hit->surface) : -1;
@@ -549,7 +551,7 @@ void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
 void VisibilityRun::finishChunk()
 {
   const auto samples = static_cast<double>(this->samplesOfElement_);
-  // Lights that are on for no time at all leave nothing lit.
+  // Lights that are on for no time leave nothing lit.
   const double toFraction = this->allHours_ > 0.0 ? 1.0 / this->allHours_ : 0.0;
   for (std::size_t i = this->chunkBegin_; i < this->chunkEnd_; ++i)
   {

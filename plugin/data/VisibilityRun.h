@@ -18,18 +18,18 @@
 namespace gnomon
 {
 
-/// A light, or the sun in one of its places.
+/// A light, or the sun at one of its positions.
 struct WeightedLight
 {
   ShadowRayLight ray;
   double weight; ///< hours
-  /// Two vectors across the way to it that take the unit disc to what it looks like from the scene,
-  /// at the distance of `ray.toLight`; 0 of a point.
+  /// Two vectors across the way to the light, at the distance of `ray.toLight`. They map the unit
+  /// disc to the light's disc as the scene sees it. 0 for a point.
   glm::vec3 discX{ 0.0f };
   glm::vec3 discY{ 0.0f };
 };
 
-/// What became of a shadow ray. The numbers are public (vtkGnomonVisibilityFilter).
+/// The fate of a shadow ray. The numbers are public (vtkGnomonVisibilityFilter).
 enum class Fate : std::uint8_t
 {
   Lit = 0,
@@ -41,47 +41,47 @@ enum class Fate : std::uint8_t
   NoSurface = 6
 };
 
-/// Where results go: an entry for each element. They are filled with what stands for no surface.
+/// Destinations of the results, one entry for each element, filled with the value for no surface.
 /// Null: not wanted.
 struct VisibilityArrays
 {
   float* hours;
   float* fraction;
   float* error;       ///< standard error of the fraction
-  std::uint8_t* bits; ///< bit d % 8 of byte d / 8 of an element: whether it is lit by light d
+  std::uint8_t* bits; ///< bit d % 8 of byte d / 8 of an element: 1 if light d reaches it
   std::uint8_t* fate; ///< of the explained light
   vtkIdType* blockerCell;
   int* blockerInput;
 };
 
-/// Traces the shadow rays from elements to lights, in parts, so that it can stop between them and
-/// go on later. Its results depend neither on the parts nor on threads.
+/// Traces the shadow rays from elements to lights in parts, so that it can pause between them. Its
+/// results depend neither on the parts nor on threads.
 ///
-/// Elements are visited a chunk after the other, and of a chunk one block of lights after the
-/// other: so memory depends on neither. Packets hold the rays of one sample to lights side by side,
-/// or, of few lights, those of neighbours.
+/// It visits elements chunk by chunk, and for each chunk all lights block by block, so memory
+/// depends on neither number. Packets hold the rays of one sample to consecutive lights or, with
+/// few lights, the rays of neighbouring samples.
 class VisibilityRun
 {
 public:
   struct Plan
   {
     std::vector<WeightedLight> lights;
-    glm::vec3 up{ 0.0f };      ///< unit; what is not above the ground is dark. 0: no ground
-    std::size_t explained = 0; ///< the light whose fates are told
+    glm::vec3 up{ 0.0f };      ///< unit; anything not above the ground is dark. 0: no ground
+    std::size_t explained = 0; ///< the light whose fates are explained
     bool bothSides = false;    ///< elements receive on the side that faces the light
   };
 
-  /// @param scene, starts, tracer, arrays stay where they are
+  /// @param scene, starts, tracer, arrays must outlive this
   /// @param tracer has the scene's snapshot
   VisibilityRun(const DataScene& scene, const ReceiverStarts& starts, const EmbreeTracer& tracer,
     Plan plan, const VisibilityArrays& arrays);
 
-  /// Goes on until all is done, or told to stop.
-  /// @param goOn told the share that is done, after each part; false: stop
-  /// @return whether all is done
+  /// Continue until all is done or goOn() returns false.
+  /// @param goOn called with the completed share, in [0, 1], after each part; false: stop
+  /// @return true if all is done
   bool go(const std::function<bool(double)>& goOn);
 
-  /// Rays traced so far.
+  /// Return the number of rays traced so far.
   std::uint64_t rays() const { return this->rays_; }
 
 private:
@@ -103,13 +103,13 @@ private:
   Plan plan_;
   VisibilityArrays arrays_;
   std::vector<std::uint32_t> order_;         ///< the elements that have a surface
-  std::vector<std::uint32_t> numberOfLight_; ///< by place in plan_.lights: the order of the caller
+  std::vector<std::uint32_t> numberOfLight_; ///< the caller's number of each light in plan_.lights
   std::optional<ShadowRayLight> explained_;
   double allHours_ = 0.0;
   std::size_t bytesOfBits_;
   std::size_t samplesOfElement_;
 
-  /// The chunk in hand.
+  /// The present chunk.
   std::size_t chunkBegin_ = 0; ///< in order_
   std::size_t chunkEnd_ = 0;
   bool chunkBegun_ = false;

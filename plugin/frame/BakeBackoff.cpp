@@ -21,7 +21,7 @@ bool BakeBackoff::usesMap(bool rested, bool baked)
     return false;
   }
   this->rested_ = 0;
-  this->served_ = std::min(this->served_ + 1, mostPatience); // more make no difference
+  this->served_ = std::min(this->served_ + 1, mostPatience); // a larger count has no effect
   return true;
 }
 

@@ -16,43 +16,43 @@ namespace gnomon
 namespace
 {
 
-/// The value of a setting as text; empty where an estimator does not have it.
+/// Return the value of a setting as text; empty if an estimator does not have it.
 std::string valueOf(const char* setting, const TechniqueInfo& info, const ShadowLight& light)
 {
   return has(info, setting) ? findSetting(setting)->get(light) : "";
 }
 
-/// The same of a whole number; 0 where an estimator does not have it.
+/// Return the value of an integer setting; 0 if an estimator does not have it.
 int numberOf(const char* setting, const TechniqueInfo& info, const ShadowLight& light)
 {
   const std::string value = valueOf(setting, info, light);
   return value.empty() ? 0 : std::stoi(value);
 }
 
-/// The technique of lights that cannot have theirs.
+/// Return the technique of lights that cannot have theirs.
 const char* fallbackTechnique()
 {
   return canDrawMaps() ? plainTechnique : "raytraced";
 }
 
-/// Finds the estimator of a completed light.
-/// @throws CompositionError also where OpenGL is too old for it
+/// Return the estimator of a light, and complete the light.
+/// @throws CompositionError also if OpenGL is too old for it
 const EstimatorEntry& composeHere(ShadowLight& light)
 {
   const EstimatorEntry& estimator = compose(light);
   const TechniqueInfo& info = estimator.info;
-  const bool drawsMaps = info.bakesMap() && !info.conservativeMap; // else the CPU can
+  const bool drawsMaps = info.bakesMap() && !info.conservativeMap; // else the CPU bakes them
   if (!canDrawMaps() && (drawsMaps || info.evaluation != Evaluation::ScreenCpu))
   {
     throw CompositionError("'" + light.technique +
-      "' takes OpenGL 4.3, and this context has less; what the CPU traces takes 3.2: 'raytraced', "
-      "'silhouette', 'penumbra'");
+      "' needs OpenGL 4.3, and this context has less; 'raytraced', 'silhouette' and 'penumbra' "
+      "need 3.2");
   }
   return estimator;
 }
 
-/// Finds a light's estimator, and completes the light. If its settings make no sense together or
-/// here, it gets the fallback technique with the default settings.
+/// Return a light's estimator, and complete the light. If its settings contradict each other or
+/// OpenGL's version, use the fallback technique with the default settings.
 const EstimatorEntry& composeIn(ShadowLight& light, std::vector<std::string>& misfits)
 {
   try
@@ -62,7 +62,7 @@ const EstimatorEntry& composeIn(ShadowLight& light, std::vector<std::string>& mi
   catch (const CompositionError& error)
   {
     misfits.push_back(
-      nameOf(light) + ": " + error.what() + ". It has '" + fallbackTechnique() + "' instead");
+      nameOf(light) + ": " + error.what() + ". It uses '" + fallbackTechnique() + "' instead");
   }
   const int mapSizeTexels = light.mapSizeTexels;
   static_cast<ShadowSettings&>(light) = {};
@@ -71,15 +71,15 @@ const EstimatorEntry& composeIn(ShadowLight& light, std::vector<std::string>& mi
   return compose(light);
 }
 
-/// Takes back what a light's technique cannot do here, and notes what it does instead.
+/// Reduce a light's settings to OpenGL's limits, and note the effects.
 void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::string>& notes)
 {
   const int samples = numberOf("map_samples", info, light);
   if (samples > 1 && samples > mostMapSamples())
   {
     const std::string most = std::to_string(mostMapSamples());
-    notes.push_back(nameOf(light) + ": OpenGL draws maps with at most " + most +
-      " samples of a texel, not " + std::to_string(samples));
+    notes.push_back(nameOf(light) + ": OpenGL supports at most " + most +
+      " samples per texel of a map, not " + std::to_string(samples));
     findSetting("map_samples")->set(light, most);
   }
   if (light.texture && !info.seesTextures)
@@ -89,16 +89,16 @@ void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::stri
   }
 }
 
-/// Whether a light's technique has a setting; that of a light which leaves it to the pass at rest,
-/// or in frames that move.
+/// True if a light's technique has a setting. A light that leaves its technique to the pass has the
+/// settings of both techniques, at rest and in motion.
 bool mayHave(const ShadowLight& light, const std::string& settingName)
 {
   return has(estimatorOfLight(light).info, settingName) ||
     (isAutomatic(light) && has(findTechnique(plainTechnique)->estimator->info, settingName));
 }
 
-/// The settings that are named for lights whose technique does not have them: a light's own, and
-/// those of the pass that no light's technique has.
+/// Return the errors of named settings that are without effect: a light's own that its technique
+/// lacks, and those of the pass that every light's technique lacks.
 std::vector<std::string> findMisfits(
   const std::vector<ShadowLight>& lights, const ShadowSettings& defaults)
 {
@@ -125,14 +125,14 @@ std::vector<std::string> findMisfits(
   return misfits;
 }
 
-/// A light, and what it is to be shaded by.
+/// A light with its estimator.
 struct ComposedLight
 {
   ShadowLight light;
   const EstimatorEntry* estimator = nullptr;
-  std::optional<ShadowLight> asked; ///< CastingLight's, as is what follows
+  std::optional<ShadowLight> asked; ///< as in CastingLight, like the next
   int mostMapTexels = std::numeric_limits<int>::max();
-  std::string budgetReason; ///< LightReport's
+  std::string budgetReason; ///< as in LightReport
 };
 
 Bounds visibleBounds(vtkRenderer* renderer)
@@ -142,8 +142,8 @@ Bounds visibleBounds(vtkRenderer* renderer)
   return { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
 }
 
-/// Fits the lights to the memory budget.
-/// @param skipped gets those without room for a shadow
+/// Fit the lights to the memory budget.
+/// @param skipped receives lights without room for a shadow
 void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
   const FrameWishes& wishes, std::vector<SkippedLight>& skipped, FrameReport& report)
 {
@@ -179,11 +179,12 @@ void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
     if (share.way == LightShare::Way::Rays)
     {
       of.light.mapSizeTexels =
-        std::min(of.light.mapSizeTexels, fewestTexels); // of translucent ones
+        std::min(of.light.mapSizeTexels, fewestTexels); // for translucent surfaces
       of.light.technique = "raytraced";
       of.light.estimator.clear();
       of.estimator = &composeIn(of.light, report.misfits);
-      of.budgetReason = of.asked ? "" : "the memory budget has no room for its map, so it has rays";
+      of.budgetReason =
+        of.asked ? "" : "the memory budget has no room for its map, so rays replace it";
     }
     else if (share.mapSizeTexels < of.light.mapSizeTexels)
     {
@@ -195,7 +196,7 @@ void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
   lights = std::move(casting);
 }
 
-/// Has a light that a map shades what it has at rest.
+/// Restore the resting technique of a light that a map shades.
 void putBack(CastingLight& casting)
 {
   casting.plain = std::move(casting.own);
@@ -298,7 +299,7 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   std::sort(report.lights.begin(), report.lights.end(),
     [](const LightReport& a, const LightReport& b) { return a.sceneIndex < b.sceneIndex; });
 
-  // Nothing below fails half way: what a light has kept goes on with it.
+  // Nothing below throws, so the lights' cached techniques cannot get lost.
   std::vector<CastingLight> lights;
   for (ComposedLight& of : composed)
   {
@@ -307,19 +308,18 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
     lights.back().mostMapTexels = of.mostMapTexels;
     if (lights.back().asked && lights.back().asked->mapSizeTexels > of.mostMapTexels)
     {
-      lights.back().plain.reset(); // of a larger budget
+      lights.back().plain.reset(); // it was made for a larger budget
     }
   }
   this->lights_ = std::move(lights);
   this->placeVisibility();
-  // What no light has taken is of lights that are gone, or have another technique.
+  // The techniques left over belong to lights that are gone or changed their technique.
   this->ofAllViews_.clear();
   ofView.clear();
 }
 
 //------------------------------------------------------------------------------
-/// Shares out layers, and bits among lights with hard shadows. A single one of these gains nothing
-/// by a bit.
+/// Assign layers, and bits to lights with hard shadows. A single such light gains nothing by a bit.
 void CastingLights::placeVisibility()
 {
   const auto isHard = [](const CastingLight& casting)
@@ -406,15 +406,15 @@ void CastingLights::giveBack(TechniquesOfLights& ofView)
 }
 
 //------------------------------------------------------------------------------
-/// Where a light's techniques are kept: maps that are fitted to a camera in every frame are one
-/// view's own.
+/// Return the cache of a light's techniques. Maps that are fitted to a camera in every frame belong
+/// to one view.
 TechniquesOfLights& CastingLights::placeOf(const ShadowLight& light, TechniquesOfLights& ofView)
 {
   return isFittedToCamera(light) && light.fit != ViewFit::Once ? ofView : this->ofAllViews_;
 }
 
 //------------------------------------------------------------------------------
-/// A light with the techniques that an earlier frame had for it, or with new ones.
+/// Return a light with its techniques of an earlier frame, or with new ones.
 CastingLight CastingLights::take(
   ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView)
 {

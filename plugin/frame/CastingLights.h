@@ -23,35 +23,35 @@ namespace gnomon
 
 struct FrameWishes;
 
-/// What a light keeps from frame to frame.
+/// A light's techniques, cached from frame to frame.
 struct KeptTechniques
 {
   LightTechnique own;
-  /// Shades translucent surfaces where the light's own technique works on the screen, and all of
-  /// them in frames that move where the light leaves its technique to the pass; else none.
+  /// Shades translucent surfaces if the light's own technique works on the screen. If the light
+  /// leaves its technique to the pass, it also shades all surfaces in moving frames. Else none.
   std::optional<LightTechnique> plain;
 };
-/// By the lights' places in the scene.
+/// By the lights' indices in the scene.
 using TechniquesOfLights = std::map<int, KeptTechniques>;
 std::size_t bytesOfMaps(const TechniquesOfLights& techniques);
 
-/// A light that casts in this frame, and what shades it.
+/// A light that casts in this frame, with the techniques that shade it.
 struct CastingLight : KeptTechniques
 {
   ShadowLight light;
   int channels = 1;            ///< of its visibility, a layer each
-  int layer = 0;               ///< of the visibility layers, its first
-  int bit = noBit;             ///< or of their image of bits
-  bool shadesAtPoints = false; ///< whether shaders call a technique for it
-  bool isStale = true;         ///< image route: whether its visibility is computed in this frame
-  bool mayKeepTiles = false;   ///< and whether nothing changed but what may leave some tiles
-  /// Of an area light in a picture at rest that may refine, the samples of its first frame; 0: all.
+  int layer = 0;               ///< its first visibility layer
+  int bit = noBit;             ///< or its bit in the image of bits
+  bool shadesAtPoints = false; ///< true if shaders call a technique for it
+  bool isStale = true;         ///< image route: true if this frame computes its visibility
+  bool mayKeepTiles = false;   ///< and true if the changes may leave some tiles valid
+  /// Samples of the first frame of an area light that may refine at rest; 0: all.
   int firstSamples = 0;
-  /// Of a light that leaves its technique to the pass, the largest map that a memory budget allows.
+  /// The largest map that a memory budget allows a light that leaves its technique to the pass.
   int mostMapTexels = std::numeric_limits<int>::max();
-  /// Of a light that leaves its technique to the pass, what it asks for; none of others.
+  /// The request of a light that leaves its technique to the pass; none for others.
   std::optional<ShadowLight> asked = std::nullopt;
-  /// What such a light has at rest, while a map shades it.
+  /// Its resting technique while a map shades it.
   struct Resting
   {
     ShadowLight light;
@@ -59,39 +59,39 @@ struct CastingLight : KeptTechniques
   };
   std::optional<Resting> resting = std::nullopt;
 
-  /// What the shader computes the light's visibility with on a route; null if it only fetches. From
-  /// here on there is a plain technique where one is needed.
-  /// @param translucentReceivers whether translucent surfaces receive
+  /// Return the technique by which the shader computes the light's visibility on a route; null if
+  /// it only fetches. Creates the plain technique if one is needed, and drops one that is not.
+  /// @param translucentReceivers true if translucent surfaces receive
   const PointwiseTechnique* pointwiseOn(Route route, bool translucentReceivers);
 };
 
-/// Whether a light's technique traces from receivers on the CPU.
+/// True if a light's technique traces from receivers on the CPU.
 bool isOnCpu(const CastingLight& casting);
-/// How many shadow rays a pixel at an edge gets. Area lights have no edges.
+/// Return the number of shadow rays for a pixel at an edge. Area lights have no edges: 1.
 std::size_t edgeSamplesOf(const CastingLight& casting);
 
-/// Whether OpenGL is new enough (4.3) for techniques that work on the GPU; the context is current.
+/// True if OpenGL is new enough (4.3) for techniques that work on the GPU. Needs a current context.
 bool canDrawMaps();
 
-/// The lights stage: which of a renderer's lights cast, in the scene's order, each with the
-/// technique that it keeps for as long as it asks for the same estimator.
+/// The lights stage: the lights of a renderer that cast, in the scene's order. Each keeps its
+/// technique while it asks for the same estimator.
 class CastingLights
 {
 public:
-  /// Reads the lights as they are now, and says of each in the report what becomes of it.
-  /// @param ofView what lights whose maps are fitted to a camera keep for this view
+  /// Read the present lights, and report the outcome for each.
+  /// @param ofView the view's cached techniques of lights whose maps are fitted to a camera
   void collect(vtkRenderer* renderer, const ShadowSettings& defaults, const FrameWishes& wishes,
     TechniquesOfLights& ofView, FrameReport& report);
 
   ///@{
-  /// For this frame, has a light that leaves its technique to the pass shaded by a plain map, or
-  /// again by what it has at rest.
-  /// @return takeMap: why it cannot be, as a clause; empty if it is
+  /// Shade a light that leaves its technique to the pass by a plain map in this frame, or by its
+  /// resting technique.
+  /// @return takeMap: why this is impossible, as a clause; empty on success
   std::string takeMap(CastingLight& casting, int mapSizeTexels, FrameReport& report);
   void takeResting(CastingLight& casting, FrameReport& report);
   ///@}
 
-  /// Ends a frame: what the lights have goes back to where collect() took it from.
+  /// End a frame: return the lights' techniques to the caches that collect() took them from.
   void giveBack(TechniquesOfLights& ofView);
 
   bool empty() const { return this->lights_.empty(); }
@@ -101,7 +101,7 @@ public:
   std::vector<CastingLight>::const_iterator begin() const { return this->lights_.begin(); }
   std::vector<CastingLight>::const_iterator end() const { return this->lights_.end(); }
 
-  /// Whether any of their techniques is such a one.
+  /// True if a predicate holds for any of their techniques.
   template <typename IsSuch>
   bool anyTechnique(const IsSuch& isSuch) const
   {
@@ -109,11 +109,11 @@ public:
       [&](const CastingLight& casting) { return isSuch(casting.own.info()); });
   }
 
-  /// Memory of the maps that serve all views.
+  /// Return the bytes of the maps that serve all views.
   std::size_t bytesOfMaps() const { return gnomon::bytesOfMaps(this->ofAllViews_); }
 
   ///@{
-  /// How many visibility layers they fill, and how many bits.
+  /// Return the number of their visibility layers, and of their bits.
   int layers() const { return this->layers_; }
   int bits() const { return this->bits_; }
   ///@}
@@ -125,12 +125,12 @@ private:
 
   LightManager manager_;
   TechniquesOfLights ofAllViews_;    ///< of lights whose maps serve all views
-  std::vector<CastingLight> lights_; ///< by their place in the scene
+  std::vector<CastingLight> lights_; ///< by their index in the scene
   int layers_ = 0;
   int bits_ = 0;
 };
 
-/// What the report says of a light that it has.
+/// Return a light's entry in the report.
 LightReport& reportOf(FrameReport& report, const ShadowLight& light);
 
 } // namespace gnomon

@@ -5,7 +5,7 @@
 namespace gnomon
 {
 
-/// The clock that frames are measured by: milliseconds since some moment. It never goes back.
+/// Return the milliseconds since a fixed moment. Times frames, and never goes back.
 inline double steadyMilliseconds()
 {
   return std::chrono::duration<double, std::milli>(

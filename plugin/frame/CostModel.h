@@ -15,7 +15,7 @@ struct CostFactors
   double drawTriangle, drawPixel;
   ///@}
   ///@{
-  /// One light's map: VTK's shader looks it up, or it is baked.
+  /// Map of one light: VTK's shader looks it up, or it is baked.
   double askPixel, bakeTriangle, bakeTexel;
   ///@}
   double fetchPixel; ///< VTK's shader fetches the exact visibility of all lights
@@ -27,12 +27,13 @@ struct CostFactors
   double refitTriangle; ///< Embree refits its structure to moved casters
 };
 
-/// The factors of llvmpipe on two cores. For hardware OpenGL they are a guess, not measured: drawing
-/// costs a twentieth, tracing on the CPU costs the same. `gnomon calibrate` measures a machine.
+/// Return the factors of llvmpipe on two cores. For hardware OpenGL they are a guess, not measured:
+/// drawing costs a twentieth, tracing on the CPU costs the same. `gnomon calibrate` measures a
+/// machine.
 CostFactors defaultFactors(bool software);
 
 ///@{
-/// Factors as text: a line each, name and number. Lines that begin with # are comments.
+/// Factors as text, one name and number per line. Lines that begin with # are comments.
 struct NamedFactor
 {
   const char* name;
@@ -40,12 +41,12 @@ struct NamedFactor
 };
 const std::array<NamedFactor, 10>& namedFactors();
 std::string textOf(const CostFactors& factors);
-/// @throws std::runtime_error that names the file and the line, if a factor is missing, named twice,
+/// @throws std::runtime_error that names the file and the line, if a factor is missing, repeated,
 /// unknown, negative or not finite
 CostFactors readFactors(const std::string& path);
 ///@}
 
-/// Counts that the costs of a frame depend on.
+/// Counts that determine the costs of a frame.
 struct FrameCounters
 {
   std::size_t triangles = 0;
@@ -58,7 +59,7 @@ struct FrameCounters
 };
 
 ///@{
-/// The time of a frame in milliseconds, with maps or with rays for its lights.
+/// Return the milliseconds of a frame with maps or with rays for its lights.
 double costByMaps(const FrameCounters& counters, const CostFactors& factors);
 double costByRays(const FrameCounters& counters, const CostFactors& factors);
 ///@}

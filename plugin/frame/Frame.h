@@ -16,25 +16,25 @@
 namespace gnomon
 {
 
-/// What all stages of a frame know of it.
+/// The values that all stages of a frame share.
 struct Frame
 {
   FrameWishes wishes;
   FrameReport report;
   CastingLights lights;
   glm::ivec2 size{ 0 }; ///< of the picture, in pixels
-  CameraView camera;    ///< that it is drawn by
+  CameraView camera;    ///< that draws it
   ReceiverSpace space;  ///< the camera's
   Route route = Route::Inline;
-  ViewValues* view = nullptr; ///< what the view keeps that is drawn
-  bool severalViews = false;  ///< whether the pass draws others beside it
+  ViewValues* view = nullptr; ///< cached values of the view
+  bool severalViews = false;  ///< true if the pass draws other views, too
   double start = 0.0;         ///< by steadyMilliseconds()
-  double stageStart = 0.0;    ///< likewise
+  double stageStart = 0.0;    ///< as start
 
-  /// Ends the clock of a stage, or of a part of it, if stages are measured.
+  /// End the clock of a stage, or of a part of it, if stages are measured.
   void endStage(const std::string& name);
-  /// Says in the report whether a value was reused.
-  /// @param changes what it was not reused for; empty: it was
+  /// Report whether a value was reused.
+  /// @param changes why it was not reused; empty if it was
   void tellReuse(const std::string& value, const std::string& changes);
 };
 

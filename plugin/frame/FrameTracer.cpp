@@ -51,7 +51,7 @@ void FrameTracer::areFree(
     own->areFree(count, from, to, free);
     return;
   }
-  std::fill_n(free, count, 0); // another tracer has taken over
+  std::fill_n(free, count, 0); // another tracer is in use
 }
 
 //------------------------------------------------------------------------------
@@ -89,7 +89,7 @@ ShadowTracer::Update FrameTracer::updateTaken(
 {
   if (!this->tracer_ || this->taken_.gpu != choice.gpu)
   {
-    this->tracer_.reset(); // its memory first
+    this->tracer_.reset(); // frees its memory first
     if (choice.gpu)
     {
       this->tracer_ = std::make_unique<GpuShadowTracer>(this->buffers_, this->shaders_);

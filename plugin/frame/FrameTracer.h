@@ -13,54 +13,55 @@
 namespace gnomon
 {
 
-/// Which tracer a frame takes, and why.
+/// A frame's tracer, and why.
 struct TracerChoice
 {
   bool gpu = false;   ///< GpuShadowTracer; else EmbreeTracer
-  bool asked = false; ///< and no other will do
+  bool asked = false; ///< the user asked for it, so there is no fallback
   std::string reason; ///< as a clause
 };
 
+/// Return the tracer of a frame.
 /// @param gpuLacks GpuTracer::whyUnsupported()
 /// @param renderer GL_RENDERER
-/// @throws std::runtime_error where the GPU is asked for and lacks something
+/// @throws std::runtime_error if the GPU is asked for and lacks a feature
 TracerChoice chooseTracer(
   TracerWish wished, const std::string& gpuLacks, const std::string& renderer);
 
-/// The tracer of all techniques of a frame. It is made when somebody traces and kept while the
-/// choice stays the same, so that no more than one has an acceleration structure. All calls, the
-/// destructor included, want the context to be current.
+/// The tracer of all techniques of a frame. It is made for the first trace and cached while the
+/// choice stays the same, so only one has an acceleration structure. All calls, the destructor
+/// included, need a current context.
 class FrameTracer : public FreeSegments
 {
 public:
   /// @param buffers of the snapshot
   FrameTracer(OccluderBuffers& buffers, ShaderLibrary& shaders);
 
-  /// Brings the chosen tracer up to date with the snapshot. Where the GPU was not asked for and
-  /// fails, Embree takes over until the snapshot's topology changes.
-  /// @throws std::exception as ShadowTracer::update(); nothing is kept then
+  /// Update the chosen tracer to the snapshot. If the GPU was not asked for and fails, Embree is
+  /// the fallback until the snapshot's topology changes.
+  /// @throws std::exception as ShadowTracer::update(); then no tracer is left
   ShadowTracer::Update update(const TracerChoice& choice, const Occluders& occluders);
 
-  /// What update() took.
+  /// Return the tracer of the last update().
   ShadowTracer& tracer() { return *this->tracer_; }
   const TracerChoice& taken() const { return this->taken_; }
-  /// Itself, where update() took a tracer that says whether segments are free; else null.
+  /// Return this if the tracer can test whether segments are free; else null.
   const FreeSegments* freeSegments() const
   {
     return this->tracer_ && this->tracer_->freeSegments() ? this : nullptr;
   }
-  /// The tracer's; null also where nobody has traced.
+  /// Return the tracer's; null also if nothing was traced.
   const CasterHits* casterHits() const
   {
     return this->tracer_ ? this->tracer_->casterHits() : nullptr;
   }
   void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
     std::uint8_t* free) const override;
-  /// Why Embree has taken over; empty where it has not.
+  /// Return why Embree is the fallback; empty if it is not.
   const std::string& gpuFailure() const { return this->gpuFailure_; }
 
   ///@{
-  /// As the tracer's; 0 where nobody has traced.
+  /// As the tracer's; 0 if nothing was traced.
   std::size_t bytes() const { return this->tracer_ ? this->tracer_->bytes() : 0; }
   std::size_t bytesOfTable() const { return this->tracer_ ? this->tracer_->bytesOfTable() : 0; }
   std::size_t bytesOfRays() const { return this->tracer_ ? this->tracer_->bytesOfRays() : 0; }

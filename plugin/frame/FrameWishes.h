@@ -7,7 +7,7 @@
 namespace gnomon
 {
 
-/// How visibility is to reach the picture.
+/// Requested way of visibility to the picture.
 enum class RouteWish
 {
   Auto,
@@ -16,7 +16,7 @@ enum class RouteWish
   Deferred
 };
 
-/// What traces rays.
+/// Requested tracer of rays.
 enum class TracerWish
 {
   Auto,
@@ -24,7 +24,7 @@ enum class TracerWish
   Gpu
 };
 
-/// What draws conservative maps.
+/// Requested rasterizer of conservative maps.
 enum class RasterizerWish
 {
   Auto,
@@ -32,24 +32,24 @@ enum class RasterizerWish
   Gpu
 };
 
-/// What the pass is set to for a frame.
+/// The pass's settings for a frame.
 struct FrameWishes
 {
   RouteWish route = RouteWish::Auto;
   TracerWish tracer = TracerWish::Auto;
   RasterizerWish rasterizer = RasterizerWish::Auto;
-  bool keepVisibility = false; ///< whether visibility is asked for as data
+  bool keepVisibility = false; ///< true if visibility is asked for as data
   bool measureStages = false;
   double memoryBudget = 0.0;     ///< bytes of lights' maps and images of visibility; 0: none
-  bool smoothTerminators = true; ///< whether receivers may be on the surface that normals imply
+  bool smoothTerminators = true; ///< true if receivers may lie on the surface that normals imply
   ///@{
-  /// Of lights that leave their technique to the pass.
-  bool moves = false;             ///< whether the picture moves; at rest they are exact
-  bool mayRefine = false;         ///< whether more frames at rest follow if this one is incomplete
-  double maximumError = 0.005;    ///< share of wrong pixels of hard shadows, in frames that move
-  double maximumSoftError = 0.03; ///< root mean square error of soft ones
-  double timeBudget = 0.0;        ///< milliseconds for a frame that moves; 0: none
-  std::optional<CostFactors> factors; ///< of this machine; none: the default ones
+  /// For lights that leave their technique to the pass.
+  bool moves = false;                 ///< true if the picture moves; at rest they are exact
+  bool mayRefine = false;             ///< true if more frames at rest follow an incomplete one
+  double maximumError = 0.005;        ///< share of wrong pixels of hard shadows in moving frames
+  double maximumSoftError = 0.03;     ///< root mean square error of soft shadows
+  double timeBudget = 0.0;            ///< milliseconds for a moving frame; 0: none
+  std::optional<CostFactors> factors; ///< of this machine; none: the defaults
   ///@}
 };
 

@@ -1,9 +1,13 @@
 #include "plugin/frame/KeptVisibility.h"
 
+#include "shadowtech/base/SeenTriangle.h"
+#include "shadowtech/base/VisibilityLayers.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 
 namespace gnomon
 {
@@ -45,6 +49,40 @@ VisibilityImages imagesOf(const ReceiverPixels& receivers, const glm::dvec3& cen
   return images;
 }
 
+/// Adds whose surfaces the pixels show.
+void addNames(VisibilityImages& images, const ReceiversValue& value,
+  const ReceiverPixels& receivers, const Occluders& occluders,
+  const std::vector<SurfaceName>& names)
+{
+  std::vector<int> props(receivers.size(), -1);
+  std::vector<std::int64_t> cells(receivers.size(), -1);
+  std::unordered_map<std::uint32_t, std::vector<vtkIdType>> cellsOfSurfaces;
+  for (std::size_t pixel = 0; pixel < receivers.size(); ++pixel)
+  {
+    const std::uint32_t surface = receivers.surface[pixel];
+    if (surface >= names.size())
+    {
+      continue; // nothing is covered
+    }
+    const SurfaceName& name = names[surface];
+    props[pixel] = name.prop;
+    if (name.data)
+    {
+      const auto [found, isNew] = cellsOfSurfaces.try_emplace(surface);
+      if (isNew)
+      {
+        found->second = cellsOfPrimitives(name);
+      }
+      const glm::vec2 fragment = value.images.fragments[pixel];
+      const std::uint32_t primitive =
+        findTriangle(fragment.x, fragment.y, value.drawnSurfaces, occluders).primitive;
+      cells[pixel] = primitive < found->second.size() ? found->second[primitive] : -1;
+    }
+  }
+  images.prop = topRowFirst(props, images.width, images.height);
+  images.cell = topRowFirst(cells, images.width, images.height);
+}
+
 /// Adds a light's visibility: one image, or three of a light with a texture, whether or not its
 /// technique sees it.
 void addLight(VisibilityImages& images, const CastingLight& casting, const ClassImage& classes,
@@ -81,12 +119,13 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
 } // namespace
 
 //------------------------------------------------------------------------------
-VisibilityImages keepVisibility(const CastingLights& lights,
-  const std::vector<VisibilityValue>& values, const VisibilityLayers& layers,
-  const ReceiverPixels& receivers, const glm::dvec3& centreWorld)
+VisibilityImages keepVisibility(const CastingLights& lights, const ViewValues& view,
+  const ReceiverPixels& receivers, const Occluders& occluders,
+  const std::vector<SurfaceName>& names)
 {
-  VisibilityImages images = imagesOf(receivers, centreWorld);
-  auto value = values.begin();
+  VisibilityImages images = imagesOf(receivers, occluders.centreWorld);
+  addNames(images, view.receivers, receivers, occluders, names);
+  auto value = view.visibility.begin();
   for (const CastingLight& casting : lights)
   {
     ClassImage classImage{ casting.own.info().classes, {} };
@@ -94,7 +133,7 @@ VisibilityImages keepVisibility(const CastingLights& lights,
     {
       classImage.ofPixels = topRowFirst(value->classes, images.width, images.height);
     }
-    addLight(images, casting, classImage, layers);
+    addLight(images, casting, classImage, view.layers);
     ++value;
   }
   return images;

@@ -2,11 +2,10 @@
 
 #include "plugin/frame/CastingLights.h"
 #include "plugin/frame/ViewValues.h"
+#include "plugin/scene/SurfaceNames.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
+#include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Receivers.h"
-#include "shadowtech/base/VisibilityLayers.h"
-
-#include <glm/glm.hpp>
 
 #include <vector>
 
@@ -15,9 +14,11 @@ namespace gnomon
 
 /// A frame's visibility and what it is of, as data for people: a copy, top row first.
 /// @param values of each light in turn, classified
-/// @param centreWorld Occluders::centreWorld
-VisibilityImages keepVisibility(const CastingLights& lights,
-  const std::vector<VisibilityValue>& values, const VisibilityLayers& layers,
-  const ReceiverPixels& receivers, const glm::dvec3& centreWorld);
+/// @param view whose receivers' images are on the CPU
+/// @param receivers of the view
+/// @param names of the snapshot's surfaces
+VisibilityImages keepVisibility(const CastingLights& lights, const ViewValues& view,
+  const ReceiverPixels& receivers, const Occluders& occluders,
+  const std::vector<SurfaceName>& names);
 
 } // namespace gnomon

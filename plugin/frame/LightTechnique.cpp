@@ -33,7 +33,7 @@ void LightTechnique::chooseFit(
 }
 
 //------------------------------------------------------------------------------
-/// Why a light's views cannot be fitted to the receivers that are drawn; empty if they can.
+/// Return why a light's views cannot be fitted to the drawn receivers; empty if they can.
 std::string LightTechnique::reasonAgainstReceivers(
   const ShadowLight& light, Route route, bool translucentReceivers) const
 {
@@ -43,28 +43,28 @@ std::string LightTechnique::reasonAgainstReceivers(
   }
   if (!this->info().isPointwise())
   {
-    return "the technique works on the screen, where the receivers are found after the maps";
+    return "the technique works on the screen, so receivers are found after the maps";
   }
   if (light.fit == ViewFit::Off)
   {
-    return "that takes the setting fit=frame";
+    return "it needs the setting fit=frame";
   }
   if (light.projection == Projection::Splits && light.splitBlend > 0.0)
   {
-    return "splits that are blended overlap, and each receiver is counted to one";
+    return "blended splits overlap, but each receiver counts for one split";
   }
   if (light.fit == ViewFit::Once)
   {
-    return "a fit that is made once has to hold what will be seen later";
+    return "a fit made once must also hold later views";
   }
   if (translucentReceivers)
   {
-    return "translucent surfaces receive, which are not among the receivers that are drawn first";
+    return "translucent surfaces receive, but the receivers drawn first are opaque";
   }
   if (this->technique().mapReach(light).dependsOnViews())
   {
-    return "a kernel of a width in world units, or as wide as penumbrae are, needs a border that "
-           "follows from the fit itself";
+    return "the border of a kernel with a width in world units, or of penumbrae, depends on "
+           "the fit";
   }
   return {};
 }
@@ -82,14 +82,14 @@ void LightTechnique::updateMaps(
   {
     this->backoff_ = BakeBackoff();
     this->usesMap_ = false;
-    report.mapReason = "it would not know casters that are spheres or cylinders";
+    report.mapReason = "it cannot hold casters that are spheres or cylinders";
   }
   else if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always &&
     !this->takesRays_ && !this->baked_.changesTo(wanted).empty())
   {
     this->backoff_ = BakeBackoff();
     this->usesMap_ = false;
-    report.mapReason = "the light needs few shadow rays or none without it";
+    report.mapReason = "the light needs few shadow rays, or none, without a map";
   }
   else if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always)
   {
@@ -113,7 +113,7 @@ void LightTechnique::updateMaps(
   stage.report.values.push_back({ "maps of " + nameOf(light), changes.empty(), changes });
   if (changes.empty())
   {
-    this->baked_.rasterizer = wanted.rasterizer; // it may be the same for another reason
+    this->baked_.rasterizer = wanted.rasterizer; // its reason may differ for the same rasterizer
   }
   else
   {
@@ -123,7 +123,7 @@ void LightTechnique::updateMaps(
 }
 
 //------------------------------------------------------------------------------
-/// Lays out the light's views, and keeps how.
+/// Lay out the light's views, and store the fitting.
 LightViews LightTechnique::layOut(
   const ShadowLight& light, const MapStage& stage, const MapReach& reach)
 {
@@ -142,8 +142,8 @@ LightViews LightTechnique::layOut(
   LightViews views = fitLightViews(seen, fitting);
   if (reach.dependsOnViews())
   {
-    // How many texels that is, only a view can tell. A wider border makes them fewer. The faces of
-    // a cube hold all casters together, and none needs what an area reaches beside it.
+    // Only a view determines this reach in texels. A wider border makes it smaller. The faces of a
+    // cube hold all casters together, so none needs the reach of an area beside it.
     const double areaAcross = views.layout == ViewLayout::Cube
       ? 0.0
       : reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred);
@@ -155,7 +155,7 @@ LightViews LightTechnique::layOut(
 }
 
 //------------------------------------------------------------------------------
-/// What maps of this frame are to be drawn from.
+/// Return the inputs of the maps of this frame.
 LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const MapStage& stage)
 {
   Bake wanted;
@@ -170,15 +170,15 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
   }
   wanted.key.emplace();
   wanted.key->add("its views", wanted.views);
-  wanted.key->add("how far around a point they are read", reach);
+  wanted.key->add("their reach", reach);
   wanted.key->add("its settings", valuesOf(this->info(), SettingsOf::Map, light));
   wanted.key->add(
     "the casters", std::pair(stage.occluders.topologyVersion, stage.occluders.positionsVersion));
-  wanted.key->add("who draws them", wanted.isDrawnOnGpu());
+  wanted.key->add("their rasterizer", wanted.isDrawnOnGpu());
   if (light.fittedToReceivers)
   {
     wanted.key->add("the receivers", stage.receiversNumber);
-    wanted.key->add("how they are fitted", std::pair(light.snap, light.splitLambda));
+    wanted.key->add("the settings of their fit", std::pair(light.snap, light.splitLambda));
   }
   return wanted;
 }
@@ -186,7 +186,7 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
 //------------------------------------------------------------------------------
 void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake wanted)
 {
-  this->baked_.key.reset(); // in case that there is no memory
+  this->baked_.key.reset(); // stays empty if memory runs out
   const bool onCpu = wanted.rasterizer && !wanted.isDrawnOnGpu();
   if (!onCpu)
   {

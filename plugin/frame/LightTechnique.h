@@ -22,25 +22,25 @@
 namespace gnomon
 {
 
-/// What the lights of a frame have their maps drawn from, and by whom.
+/// Inputs for baking the maps of a frame's lights.
 struct MapStage
 {
   const CameraView& camera;
   const Occluders& occluders;
-  OccluderBuffers& buffers;    ///< brought up to date with the occluders where a map is drawn
+  OccluderBuffers& buffers;    ///< updated to the occluders when a map is baked
   RasterizerChoice rasterizer; ///< of conservative maps
   ShaderLibrary& shaders;
   ///@{
-  /// What views are fitted to that await it (ShadowLight::fittedToReceivers).
+  /// For views fitted to receivers (ShadowLight::fittedToReceivers).
   const ReceiverTarget& receivers;
-  const glm::dmat4& centredFromView; ///< the camera's that they were drawn by
+  const glm::dmat4& centredFromView; ///< of the camera that drew them
   std::size_t receiversNumber;       ///< ReceiversValue::number
   ///@}
   FrameReport& report;
 };
 
-/// One light's technique, and its maps from frame to frame: what they were drawn from, and so
-/// whether they serve. BakeBackoff decides when to bake maps that the technique can do without.
+/// One light's technique, with its maps and their inputs, cached from frame to frame. BakeBackoff
+/// decides when to bake maps that the technique can do without.
 class LightTechnique
 {
 public:
@@ -49,7 +49,7 @@ public:
   const EstimatorEntry& estimator() const { return *this->estimator_; }
   const TechniqueInfo& info() const { return this->estimator_->info; }
   Technique& technique() const { return baseOf(this->technique_); }
-  /// The technique if it is of a kind; else null.
+  /// Return the technique if it is of a kind; else null.
   template <typename Kind>
   Kind* as() const
   {
@@ -57,37 +57,38 @@ public:
     return technique ? technique->get() : nullptr;
   }
 
-  /// States what the light's views are fitted to on a route, in the light and in the report: the
-  /// receivers that are drawn, which are the tightest, unless there is a reason not to.
-  /// @param translucentReceivers whether translucent surfaces receive
+  /// Choose the target of the views' fit on a route, and store it in the light and in the report.
+  /// The receivers that are drawn give the tightest fit. They are the target unless there is a
+  /// reason against it.
+  /// @param translucentReceivers true if translucent surfaces receive
   void chooseFit(
     ShadowLight& light, Route route, bool translucentReceivers, LightReport& report) const;
 
-  /// Has the maps drawn where those that there are do not serve, and they are worth it.
+  /// Bake the maps if they are stale and worth it.
   /// @throws TextureMemoryError that names the light, for maps without room
   void updateMaps(const ShadowLight& light, const MapStage& stage, LightReport& report);
-  /// Whether this frame's visibility is to be computed with the maps.
+  /// True if this frame's visibility uses the maps.
   bool usesMap() const { return this->usesMap_; }
 
-  /// Tells whether the last visibility would take shadow rays in much of the picture without a map:
-  /// other lights gain nothing by a new one.
+  /// Store whether the last visibility would trace shadow rays in much of the picture without a
+  /// map. Other lights gain nothing by a new map.
   void tellRays(bool tookMany) { this->takesRays_ = tookMany; }
 
-  /// How the views were laid out in this frame, and others may be: whether or not maps were drawn.
+  /// Return the layout of this frame's views, for other views, whether or not maps were baked.
   const ViewFitting& fitting() const { return this->fitting_; }
 
 private:
   /// The maps stage's value.
   struct Bake
   {
-    std::optional<ValueKey> key; ///< none: there are no maps, or they were given up half way
+    std::optional<ValueKey> key; ///< none: there are no maps, or baking failed half way
     LightViews views;
-    std::optional<CameraView> camera; ///< that the views were fitted to
-    /// Who draws a conservative map; none for other maps.
+    std::optional<CameraView> camera; ///< to which the views were fitted
+    /// The rasterizer of a conservative map; none for other maps.
     std::optional<RasterizerChoice> rasterizer;
     int castersLeftOut = 0;
 
-    /// What is wanted otherwise than these maps were baked from; empty where they serve.
+    /// Return the inputs that differ from those of these maps; empty if they can be reused.
     std::string changesTo(const Bake& wanted) const;
     void tell(LightReport& report) const;
     bool isDrawnOnGpu() const { return this->rasterizer && this->rasterizer->gpu; }
@@ -103,14 +104,14 @@ private:
   AnyTechnique technique_;
   ViewFitting fitting_;
   Bake baked_;
-  Bake wanted_;         ///< what optional maps were to be baked from in the last frame
+  Bake wanted_;         ///< the last frame's wanted inputs of optional maps
   BakeBackoff backoff_; ///< of optional maps
   bool usesMap_ = true;
-  bool takesRays_ = true; ///< many, as far as is known
+  bool takesRays_ = true; ///< assume many until it is known
   ReceiverFit receiverFit_;
 };
 
-/// Does a light's work; what it says of memory that is not there then names the light.
+/// Run a light's work. Errors about missing memory then name the light.
 template <typename Work>
 void namingLight(const ShadowLight& light, const Work& work)
 {

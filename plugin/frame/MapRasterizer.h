@@ -7,16 +7,16 @@
 namespace gnomon
 {
 
-/// Who draws conservative maps, and why.
+/// The rasterizer of conservative maps, and why.
 struct RasterizerChoice
 {
   bool gpu = false;   ///< false: the CPU
   std::string reason; ///< as a clause
 };
 
-/// Choose who draws the conservative maps of a frame.
+/// Return the rasterizer of a frame's conservative maps.
 /// @param gpuLacks CellTarget::whyUnsupported()
-/// @throws std::runtime_error where the GPU is asked for and lacks something
+/// @throws std::runtime_error if the GPU is asked for and lacks a feature
 RasterizerChoice chooseRasterizer(RasterizerWish wished, const std::string& gpuLacks);
 
 } // namespace gnomon

@@ -16,7 +16,7 @@ namespace gnomon
 namespace
 {
 
-/// The setting `map_size` is at most that.
+/// Upper bound of the setting `map_size`.
 constexpr int largestMap = 16384;
 
 double bytesOfMap(const LightNeed& light, int sizeTexels)
@@ -24,7 +24,7 @@ double bytesOfMap(const LightNeed& light, int sizeTexels)
   return light.bytesPerTexel * static_cast<double>(sizeTexels) * static_cast<double>(sizeTexels);
 }
 
-/// The largest map that fits; 0: none does.
+/// Return the side of the largest map that fits; 0 if none does.
 int fittingSize(const LightNeed& light, double left)
 {
   int size = light.mapSizeTexels;
@@ -35,7 +35,7 @@ int fittingSize(const LightNeed& light, double left)
   return bytesOfMap(light, size) > left ? 0 : size;
 }
 
-/// The lights' places, those first that give the most light.
+/// Return the lights' indices in descending order of their most light.
 std::vector<std::size_t> brightestFirst(const std::vector<LightNeed>& lights)
 {
   std::vector<std::size_t> order(lights.size());
@@ -45,8 +45,8 @@ std::vector<std::size_t> brightestFirst(const std::vector<LightNeed>& lights)
   return order;
 }
 
-/// Shares what is left of a budget among the maps of lights that show shadows.
-/// @return what is left then
+/// Share the rest of a budget among the maps of lights that show shadows.
+/// @return the remaining bytes
 double shareAmongMaps(const std::vector<LightNeed>& lights, const std::vector<std::size_t>& order,
   double left, std::vector<LightShare>& shares)
 {
@@ -70,7 +70,7 @@ bool haveMaps(const std::vector<LightShare>& shares)
     [](const LightShare& share) { return share.way == LightShare::Way::Map; });
 }
 
-/// The most light per unit of intensity that a light gives a point of a box.
+/// Return the most light per unit of intensity that a light gives a point of a box.
 double mostOfUnit(const ShadowLight& light, const Bounds& seen)
 {
   if (light.kind == LightKind::Directional || seen.empty())
@@ -103,7 +103,8 @@ MemoryShares shareMemory(
       return shares;
     }
   }
-  // Bits of hard lights take one image of two numbers, other lights an image a channel.
+  // Bits of hard lights share one image of two numbers. Other lights need an image for each
+  // channel.
   const auto ofPixels = [&](double bytes) { return bytes * static_cast<double>(pixels); };
   double left = budget - ofPixels(2.0 * sizeof(float));
   int bits = 0;
@@ -143,7 +144,7 @@ LightNeed needOf(const ShadowLight& light, const TechniqueInfo& info, const Boun
                                         : std::numeric_limits<double>::infinity();
   need.bytesPerPixel = info.bytesPerPixel;
   need.channels = light.texture ? 3 : 1;                                       // rays see textures
-  need.isPointwise = info.isPointwise() && !info.isSlow && !light.isHeadlight; // else on images
+  need.isPointwise = info.isPointwise() && !info.isSlow && !light.isHeadlight; // others need images
   need.isHard =
     info.exact && !light.area && !light.texture && light.of<EdgeSettings>().samples == 1;
   return need;

@@ -80,7 +80,7 @@ void RestingFrame::stop()
 void RestingFrame::onTimer(vtkObject*, unsigned long, void* self, void* timerId)
 {
   auto& of = *static_cast<RestingFrame*>(self);
-  // Recorded events are played without a number.
+  // Replayed events have no number.
   if (of.timer_ == 0 || !timerId || *static_cast<int*>(timerId) != of.timer_)
   {
     return;
@@ -90,7 +90,7 @@ void RestingFrame::onTimer(vtkObject*, unsigned long, void* self, void* timerId)
   const vtkSmartPointer<vtkRenderWindowInteractor> interactor = of.interactor_.GetPointer();
   if (window && interactor)
   {
-    // Observers of this frame may delete the pass, and `of` with it: drawn() takes that back.
+    // Observers of this frame may delete the pass, and `of` with it. drawn() resets the flag.
     of.draws_ = true;
     const double rate = window->GetDesiredUpdateRate();
     window->SetDesiredUpdateRate(interactor->GetStillUpdateRate());

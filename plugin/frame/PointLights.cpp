@@ -18,8 +18,8 @@ namespace gnomon
 namespace
 {
 
-/// Naming the member through a subclass gives access to it; the renderer's own function would tell
-/// all observers that the renderer was modified.
+/// Naming the member through a subclass gives access to it. The renderer's own function would
+/// notify all observers of a change.
 struct RendererAccess : vtkRenderer
 {
   static vtkLightCollection*& lights(vtkRenderer* renderer)
@@ -28,11 +28,11 @@ struct RendererAccess : vtkRenderer
   }
 };
 
-/// In place of black: shadow passes leave black lights out and rebuild their shaders for it. The
-/// eye cannot tell a light of this strength from none.
+/// Replaces black: shadow passes leave out black lights and rebuild their shaders for that. A light
+/// of this strength is invisible.
 constexpr double leastShine = 1e-9;
 
-/// Gives a point the colour of its light by a factor for each channel.
+/// Set a point's colour to its light's, times a factor for each channel.
 void colour(vtkLight* point, vtkLight* light, const glm::dvec3& shine)
 {
   const glm::dvec3 shown = glm::max(shine, leastShine);
@@ -42,7 +42,7 @@ void colour(vtkLight* point, vtkLight* light, const glm::dvec3& shine)
   point->SetSpecularColor(specular.x, specular.y, specular.z);
 }
 
-/// The same light, without area, at its centre.
+/// Return a copy of the light without area, at its centre.
 vtkSmartPointer<vtkLight> centreOf(vtkLight* light, const ShiningPoint& point)
 {
   auto centre = vtkSmartPointer<vtkLight>::New();
@@ -52,14 +52,14 @@ vtkSmartPointer<vtkLight> centreOf(vtkLight* light, const ShiningPoint& point)
   return centre;
 }
 
-/// Places a light in world coordinates.
+/// Place a light in world coordinates.
 void place(vtkLight* point, const ShadowLight& light, const glm::dvec3& offset)
 {
   point->SetTransformMatrix(nullptr);
   point->SetLightTypeToSceneLight();
   const bool positional = light.kind != LightKind::Directional;
   const glm::dvec3 position = positional ? light.positionWorld + offset : light.positionWorld;
-  // The area of a directional light lies at distance 1 from what it lights.
+  // The area of a directional light lies at distance 1 from the point it lights.
   const glm::dvec3 focalPoint =
     position + (positional ? light.directionWorld : light.directionWorld - offset);
   point->SetPosition(position.x, position.y, position.z);
@@ -90,7 +90,7 @@ PointedLight pointedLight(ShadowLight light)
   {
     pointed.centre.shine = light.texture->mean;
     const glm::dvec3 wanted = pointed.centre.shine * static_cast<double>(pointed.points.size());
-    // Without a point that has the channel, there is nothing to scale.
+    // If no point has the channel, there is nothing to scale.
     const glm::dvec3 scale =
       wanted / glm::mix(sum, glm::dvec3(1.0), glm::equal(sum, glm::dvec3(0.0)));
     for (ShiningPoint& point : pointed.points)
@@ -130,8 +130,8 @@ PointLights::PointLights(vtkRenderer* renderer, const std::vector<PointedLight>&
 PointLights::~PointLights()
 {
   RendererAccess::lights(this->renderer_) = this->own_;
-  // VTK sends lights to shaders again that are newer than what these have, by the times of the
-  // lights and of their collection.
+  // VTK sends lights to a shader if their times, or their collection's time, are newer than the
+  // shader's.
   this->own_->Modified();
 }
 

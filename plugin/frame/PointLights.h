@@ -18,34 +18,35 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// A point that an area light shines from.
+/// A point from which an area light shines.
 struct ShiningPoint
 {
   glm::dvec3 offset{ 0.0 }; ///< from the centre, as LightArea measures it
   glm::dvec3 shine{
     1.0
-  }; ///< its colour by the light's own; on the mean over all points, the mean of the light's texture
+  }; ///< its colour relative to the light's; the mean over all points is that of the light's
+     ///< texture
 };
 
-/// An area light, and the points that stand for it.
+/// An area light, and the points that replace it.
 struct PointedLight
 {
   ShadowLight light;
-  ShiningPoint centre; ///< that all of its light comes from where it is a single point
+  ShiningPoint centre; ///< replaces the light by a single point
   std::vector<ShiningPoint> points;
 };
 
-/// The light with pairedLightSamples(). Of a channel that the texture has and none of the points,
-/// they have nothing.
+/// Return the light with pairedLightSamples(). A channel that the texture has but none of the
+/// points is black.
 PointedLight pointedLight(ShadowLight light);
 
-/// For as long as this lives, a renderer has lights without areas in place of its area lights, in
-/// the same order. They stand at the centres, until they move over their areas together. Then the
-/// renderer has its own lights again, unchanged.
+/// While this lives, lights without areas replace a renderer's area lights, in the same order. They
+/// are at the centres until moveTo() moves them over their areas together. The destructor restores
+/// the renderer's own lights, unchanged.
 ///
-/// Each is as its area light is, but for where it shines from, and with what colour where the light
-/// has a texture. A spot's cone moves along with its point. A directional light turns about its
-/// position, and with it its box: about the middle of the near face.
+/// Each equals its area light except for its position and, if the light has a texture, its colour.
+/// A spot's cone moves along with its point. A directional light, and its box, turn about its
+/// position, the middle of the near face.
 class PointLights
 {
 public:
@@ -54,7 +55,7 @@ public:
   PointLights(const PointLights&) = delete;
   PointLights& operator=(const PointLights&) = delete;
 
-  /// Moves every light to its point of this number.
+  /// Move every light to its point of this index.
   void moveTo(std::size_t point);
 
 private:

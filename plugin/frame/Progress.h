@@ -6,9 +6,9 @@
 namespace gnomon
 {
 
-/// Tells a pass's observers of frames that refine what is shown: a ProgressEvent, whose call data
-/// is the share that is shown, with each of them, and an EndEvent with the one that completes it.
-/// @param before, shown the shares in [0, 1] of the frame before and of this one
+/// Notify a pass's observers of frames that refine the picture. Each sends a ProgressEvent, whose
+/// call data is the shown share. The one that completes the picture also sends an EndEvent.
+/// @param before, shown the shares in [0, 1] of the previous frame and of this one
 inline void tellProgress(vtkObject* pass, double before, double shown)
 {
   if (before < 1.0 || shown < 1.0)

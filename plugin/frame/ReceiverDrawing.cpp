@@ -32,8 +32,8 @@ namespace gnomon
 namespace
 {
 
-/// Hides from a prop's shaders all render passes but one, for as long as it lives: other passes may
-/// write outputs of their own.
+/// While it lives, hides all render passes but one from a prop's shaders, since other passes may
+/// write other outputs.
 class WithoutOtherPasses
 {
 public:
@@ -65,7 +65,7 @@ private:
 
 struct PropAccess : vtkProp
 {
-  /// Null where a prop has none; vtkProp's own function would make one.
+  /// Return null if a prop has none; vtkProp's own function would create one.
   static vtkShaderProperty* shaderProperty(vtkProp* prop)
   {
     return prop->*(&PropAccess::ShaderProperty);
@@ -92,8 +92,8 @@ bool anyPart(vtkProp* prop, const Predicate& holds)
   return false;
 }
 
-/// True if a mapper may have shaders that differ from VTK's template: its class is not one of those
-/// listed. Derived classes write outputs of their own (vtkSurfaceLICMapper) or draw labels.
+/// True if a mapper may have shaders that differ from VTK's template, as its class is not listed.
+/// Derived classes write other outputs (vtkSurfaceLICMapper) or draw labels.
 bool mayHaveOwnShaders(vtkMapper* mapper)
 {
   constexpr std::array<const char*, 9> usual = { "vtkOpenGLPolyDataMapper", "vtkDataSetMapper",
@@ -104,14 +104,15 @@ bool mayHaveOwnShaders(vtkMapper* mapper)
     [mapper](const char* name) { return std::strcmp(name, mapper->GetClassName()) == 0; });
 }
 
-/// Annotations in the window's plane and volumes receive nothing, and leave no depths.
+/// True for annotations in the window's plane and volumes, which receive nothing and leave no
+/// depths.
 bool isFlatOrVolume(vtkProp* prop)
 {
   return vtkActor2D::SafeDownCast(prop) || vtkVolume::SafeDownCast(prop);
 }
 
-/// Lets what is drawn reach the target's images, or its depths alone: a shader that does not write
-/// an output leaves anything there.
+/// Enable or disable writes to the target's images; depths are always written. A shader that does
+/// not write an output leaves it undefined.
 void writeReceivers(bool write)
 {
   const GLboolean mask = write ? GL_TRUE : GL_FALSE;
@@ -124,7 +125,7 @@ void writeReceivers(bool write)
 /// True if render passes can add to the shaders of a prop without parts.
 bool isLeafDrawnByPasses(vtkProp* leaf)
 {
-  // These draw internal props without passing their property keys on.
+  // These draw internal props without handing on their property keys.
   if (leaf->IsA("vtkAxisFollower") || leaf->IsA("vtkProp3DAxisFollower") ||
     leaf->IsA("vtkImageStack"))
   {
@@ -160,7 +161,7 @@ std::size_t hashOfShownProps(const vtkRenderState* s)
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* prop = s->GetPropArray()[i];
-    // A text that tells the frame's time is no other picture.
+    // Annotations, such as a text with the frame's time, do not change the receivers.
     if (!isFlatOrVolume(prop))
     {
       hashCombine(seed, prop);
@@ -172,7 +173,7 @@ std::size_t hashOfShownProps(const vtkRenderState* s)
       }
     }
   }
-  hashCombine(seed, vtkMapper::GetResolveCoincidentTopology()); // no prop has a time for it
+  hashCombine(seed, vtkMapper::GetResolveCoincidentTopology()); // no prop's time includes it
   return seed;
 }
 
@@ -219,8 +220,7 @@ bool drawnByPassesAlone(const vtkRenderState* s)
 void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec2& size,
   bool withPoints, ReceiverTarget& target)
 {
-  // VTK draws here and keeps its own record of the state, so the state is changed through that
-  // record.
+  // VTK draws here and tracks OpenGL's state, so state changes go through its copy.
   vtkRenderer* renderer = s->GetRenderer();
   vtkOpenGLState* state =
     vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
@@ -239,7 +239,7 @@ void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec
 
   target.begin(size.x, size.y, withPoints);
   state->PushFramebufferBindings();
-  state->ResetFramebufferBindings(); // VTK's record says the target, or debug builds warn
+  state->ResetFramebufferBindings(); // VTK's copy must name the target, or debug builds warn
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* const prop = s->GetPropArray()[i];

@@ -17,38 +17,38 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What props in view show of themselves as receivers: the same number means the same, by one
-/// camera and snapshot. No two numbers are the same where a prop has shaders of a user's own.
+/// Return a hash of the receivers that props in view show, with one camera and snapshot. Each call
+/// gives another number if a prop has shaders of a user's own.
 std::size_t hashOfShownProps(const vtkRenderState* s);
 
-/// Whether a prop has shaders of a user's own, a mapper that may have some, or shaders that other
-/// render passes add to.
+/// True if a prop has shaders of a user's own, a mapper that may have some, or shaders to which
+/// other render passes add.
 bool anyPropHasOwnShaders(const vtkRenderState* s);
 
-/// Whether a part of a prop has shaders of a user's own: they may move vertices by uniforms whose
+/// True if a part of a prop has shaders of a user's own. They may move vertices by uniforms, whose
 /// changes VTK does not time.
 bool hasOwnShaders(vtkProp* prop);
 
-/// What of a prop VTK draws by shaders that render passes add to.
+/// The parts of a prop that VTK draws by shaders to which render passes add.
 enum class ByPasses
 {
   All,
-  Nothing, ///< annotations and widgets, whose parts VTK does not tell of the passes
+  Nothing, ///< annotations and widgets, which do not hand the passes on to their parts
   Some     ///< an assembly of both
 };
 ByPasses drawnByPasses(vtkProp* prop);
-/// Whether that holds for all parts of all props of a picture.
+/// True if passes reach all parts of all props of a picture.
 bool drawnByPassesAlone(const vtkRenderState* s);
 
-/// Has VTK draw the opaque props into the target, whose size is set, each with the shaders of one
+/// Draw the opaque props by VTK into the target, whose size is set, each with the shaders of one
 /// pass alone.
-/// @param pass whose shaders write what the target takes
-/// @param withPoints whether that is points, too
+/// @param pass whose shaders write the target's images
+/// @param withPoints true if they write points, too
 /// @throws TextureMemoryError
 void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec2& size,
   bool withPoints, ReceiverTarget& target);
 
-/// Has VTK draw the opaque props that shaders of render passes draw (ByPasses::All).
+/// Draw by VTK the opaque props whose shaders render passes reach (ByPasses::All).
 void drawOpaque(const vtkRenderState* s);
 
 } // namespace gnomon

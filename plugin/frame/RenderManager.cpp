@@ -81,6 +81,11 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
   report.notes.insert(
     report.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
   report.leftOut = this->collector_.leftOut();
+  this->names_.clear();
+  if (this->frame_.wishes.keepVisibility)
+  {
+    this->names_ = surfaceNames(s->GetRenderer(), this->collector_.records());
+  }
   for (const Surface& surface : occluders.surfaces)
   {
     const std::size_t instances = surface.centredFromSource.size();

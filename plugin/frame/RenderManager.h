@@ -82,7 +82,7 @@ public:
   /// visibility (image route): fills the layers of the lights whose visibility is another one than
   /// the view has, and keeps a copy if asked to.
   /// @throws std::runtime_error for a tracer that there is not, or has no room
-  void computeVisibility() { this->visibility_.compute(); }
+  void computeVisibility() { this->visibility_.compute(this->names_); }
 
   /// shading and receivers (deferred route): between the two calls VTK draws its opaque props, lit
   /// and in shadow. Afterwards it is known which lights' visibility is another one than the view
@@ -127,6 +127,7 @@ private:
 
   Frame frame_;
   OccluderCollector collector_;
+  std::vector<SurfaceName> names_; ///< of the snapshot's surfaces, if visibility is kept
   OccluderBuffers buffers_;
   PassPrograms& programs_;
   VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, programs_.library };

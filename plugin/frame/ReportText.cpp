@@ -108,7 +108,7 @@ double numberOf(const Json& value)
 //------------------------------------------------------------------------------
 std::string textOf(const FrameReport& report)
 {
-  // Names of props may have any bytes.
+  // Names of props may contain any bytes.
   return jsonOf(report).dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

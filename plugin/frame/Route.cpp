@@ -40,8 +40,8 @@ RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs)
   if (needs.lights > mostInlineLights)
   {
     return { Route::Image,
-      "shaders would call the techniques of " + std::to_string(needs.lights) + " lights, and " +
-        std::to_string(mostInlineLights) + " are the most" };
+      "shaders can call the techniques of at most " + std::to_string(mostInlineLights) +
+        " lights, not " + std::to_string(needs.lights) };
   }
   if (needs.headlightOnSamples)
   {
@@ -52,10 +52,9 @@ RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs)
   if (!needs.slowTechnique.empty())
   {
     return { Route::Image,
-      "'" + needs.slowTechnique + "' takes longer for a point than receivers take to be drawn" };
+      "'" + needs.slowTechnique + "' takes longer per point than drawing receivers" };
   }
-  return { Route::Inline,
-    "all techniques are functions of the point, so that no prepass is needed" };
+  return { Route::Inline, "all techniques are functions of the point, so no prepass is needed" };
 }
 
 } // namespace gnomon

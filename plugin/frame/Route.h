@@ -12,45 +12,45 @@ namespace gnomon
 enum class Route
 {
   Inline, ///< VTK's fragment shader computes it
-  Image,  ///< it is computed for all pixels beforehand, and fetched
-  /// VTK's fragment shader gives each pixel's colour in light and in shadow, and which triangle it
-  /// shows; visibility, computed afterwards, chooses.
+  Image,  ///< a stage computes it for all pixels, and the shader fetches it
+  /// VTK's fragment shader writes each pixel's colour in light and in shadow, and its triangle.
+  /// Visibility is computed afterwards and selects.
   Deferred
 };
 
-/// Which route a frame takes, and why.
+/// A frame's route, and why.
 struct RouteChoice
 {
   Route route = Route::Inline;
   std::string reason; ///< as a clause
 };
 
-/// The most lights whose techniques VTK's shaders call. Each makes the program longer, which takes
-/// longer to compile, and binds its map to a texture unit. OpenGL promises 16 of them, and VTK's
-/// materials take some.
+/// The most lights whose techniques VTK's shaders call. Each makes the program longer to compile,
+/// and binds its map to a texture unit. OpenGL guarantees 16 units, and VTK's materials need some.
 inline constexpr std::size_t mostInlineLights = 8;
 
-/// What a frame's route depends on.
+/// The inputs of a frame's route.
 struct RouteNeeds
 {
-  std::string screenTechnique; ///< one that works on the screen; empty: there is none
+  std::string screenTechnique; ///< a technique that works on the screen; empty if there is none
   bool keepVisibility = false;
   std::size_t lights = 0; ///< that cast
-  /// Whether a headlight casts in a window with several samples per pixel. The inline route asks
-  /// for the centroid of the samples that a triangle covers, whether or not they are seen. Where
-  /// another surface hides the centroid from the camera, it hides it from a headlight, too: edges
-  /// would be dark in front of surfaces that are all lit.
+  /// True if a headlight casts in a window with several samples per pixel. The inline route uses
+  /// the centroid of the samples that a triangle covers, visible or not. A surface that hides the
+  /// centroid from the camera hides it from a headlight, too. So edges would be dark in front of
+  /// surfaces that are all lit.
   bool headlightOnSamples = false;
-  std::string slowTechnique;  ///< one whose points take long (TechniqueInfo::isSlow), in a window
-                              ///< with one sample per pixel; empty: there is none
-  std::string whyNotDeferred; ///< as a clause; empty: the deferred route can be taken
+  std::string slowTechnique;  ///< a technique that is slow at a point (TechniqueInfo::isSlow), with
+                              ///< one sample per pixel; empty if there is none
+  std::string whyNotDeferred; ///< as a clause; empty if the deferred route is possible
 };
 
-/// As people call it: "inline", "image", "deferred".
+/// Return its name for users: "inline", "image", "deferred".
 const char* nameOf(Route route);
 
-/// @param wished inline is not served for techniques that work on the screen, deferred not where
-/// there is a reason against it
+/// Return the route of a frame.
+/// @param wished inline is refused for techniques that work on the screen, deferred if there is a
+/// reason against it
 RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs);
 
 } // namespace gnomon

@@ -32,23 +32,23 @@ void replace(std::string& source, const std::string& search, const std::string& 
   vtkShaderProgram::Substitute(source, search, text, false);
 }
 
-/// What glGet calls the binding of a texture target.
+/// Return glGet's name for the binding of a texture target.
 GLenum bindingOf(GLenum target)
 {
   return target == GL_TEXTURE_2D_ARRAY ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D;
 }
 
-/// The expression of what a light's colour is multiplied by where nothing hides it.
+/// Return the expression of the factor of a light's colour if nothing hides the light.
 std::string litOf(const ShadedLight& shaded, int light)
 {
   return shaded.light.texture ? "gnomonLit" + std::to_string(light) : "1.0";
 }
 
-/// The expression of one light's visibility. On the image route, translucent surfaces compute
-/// theirs: the layers do not know them. On the deferred route opaque ones are drawn as lit.
+/// Return the expression of one light's visibility. On the image route, translucent surfaces
+/// compute it, as they are in no layer. The deferred route first draws opaque ones as lit.
 std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
 {
-  // What has one channel is seen as if the light were an even one.
+  // A visibility of one channel scales the mean colour of the light's texture.
   const std::string even = shaded.light.texture ? litOf(shaded, light) + " * " : "";
   const auto layer = [&](int channel)
   { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
@@ -66,7 +66,7 @@ std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
                           : fetched;
 }
 
-/// The declaration that multiplies a light's colour by its visibility, for what receives.
+/// Return the declaration that multiplies a light's colour by its visibility on props that receive.
 std::string multiplicationOf(const ShadedLight& shaded, int light, const std::string& visibility)
 {
   const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
@@ -75,8 +75,8 @@ std::string multiplicationOf(const ShadedLight& shaded, int light, const std::st
     lit + ", " + visibility + ", gnomonStrength" + std::to_string(light) + "));\n";
 }
 
-/// The declaration of a light's colour where it is hidden from what receives. Black as a constant
-/// spares the shader most of its second lighting.
+/// Return the declaration of a light's colour where receivers are in its shadow. Black as a
+/// constant saves the shader most of its second lighting.
 std::string darkeningOf(const ShadedLight& shaded, int light)
 {
   return shaded.light.strength < 1.0
@@ -84,8 +84,8 @@ std::string darkeningOf(const ShadedLight& shaded, int light)
     : "  vec3 lightColor" + std::to_string(shaded.light.shaderIndex) + " = vec3(0.0);\n";
 }
 
-/// Statements in front of VTK's lighting, where its shader draws a solid on a sprite: they set
-/// again what these have set for the sprite. Empty where triangles are drawn.
+/// Return statements before VTK's lighting for shaders that draw a solid on a sprite. They replace
+/// the sprite's values by the solid's. Empty for triangles.
 std::string moveToSolid(const std::string& fragmentShader, const std::string& uniformFlow)
 {
   const auto has = [&](const char* text) { return fragmentShader.find(text) != std::string::npos; };
@@ -99,7 +99,7 @@ std::string moveToSolid(const std::string& fragmentShader, const std::string& un
   if (uniformFlow.find("gnomonNormal") != std::string::npos)
   {
     moves += "  gnomonNormal = normalize(normalVCVSOutput);\n";
-    // vertexVC of points and lines is in their middle. ZCalcR is the radius at depth 1.
+    // vertexVC of points and lines is at their middle. ZCalcR is the radius at depth 1.
     moves += isImpostor
       ? "  gnomonPoint = vertexVC.xyz;\n"
       : "  gnomonPoint += gnomonNormal * ZCalcR * (cameraParallel == 1 ? 1.0 : -vertexVC.z);\n";
@@ -115,12 +115,13 @@ std::string moveToSolid(const std::string& fragmentShader, const std::string& un
   return moves;
 }
 
-/// With no more layers Mesa makes a branch of each element of the loop's array, which compiles
-/// longer than fetches one by one. First frames by fetches and by the loop, in s: of 14 lights 1.9
-/// and 2.9, of 16 2.4 and 1.2, of 20 3.9 and 1.7 (llvmpipe, `stack` under spots).
+/// Above this many layers, a loop is used. For fewer, Mesa makes a branch of each element of the
+/// loop's array, which compiles longer than separate fetches. First frames by fetches and by the
+/// loop, in s: with 14 lights 1.9 and 2.9, with 16 2.4 and 1.2, with 20 3.9 and 1.7 (llvmpipe,
+/// `stack` under spots).
 constexpr int mostFetchesOneByOne = 15;
 
-/// How many layers lights have.
+/// Return the number of the lights' layers.
 int layersOf(const std::vector<ShadedLight>& lights)
 {
   int layers = 0;
@@ -137,7 +138,7 @@ bool haveBits(const std::vector<ShadedLight>& lights)
     lights.begin(), lights.end(), [](const ShadedLight& shaded) { return shaded.bit != noBit; });
 }
 
-/// The names of a source's samplers by their type.
+/// Return the names of a source's samplers by type.
 std::map<std::string, std::vector<std::string>> samplersOf(const std::string& source)
 {
   static const std::regex declaration("uniform ([iu]?sampler\\w+) (\\w+);");
@@ -213,7 +214,7 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   }
   if (asksAtPoints)
   {
-    // Maps hold no translucent surface, unless it was asked to cast: so it hides no light from
+    // Maps hold no translucent surface, unless it was asked to cast. So it hides no light from
     // itself, and faces the light where VTK's own normal does.
     multiplications += "  vec3 gnomonPosition = " + position +
       ";\n  gnomonNormal = gnomonTranslucent == 1 ? normalVCVSOutput : gnomonNormal;\n"
@@ -265,7 +266,7 @@ bool passInstance(std::string& vertexShader, std::string& geometryShader)
   }
   replace(vertexShader, declaration, "flat out int gnomonInstanceVSOutput;\n" + declaration);
   replace(vertexShader, body, "gnomonInstanceVSOutput = gl_InstanceID;\n  " + body);
-  // Where there is a geometry shader, VTK has the fragment shader read its outputs instead.
+  // With a geometry shader, VTK makes the fragment shader read its outputs instead.
   replace(geometryShader, "//VTK::PrimID::Dec",
     "flat in int gnomonInstanceVSOutput[];\nflat out int gnomonInstanceGSOutput;\n"
     "//VTK::PrimID::Dec");
@@ -286,7 +287,7 @@ void ShaderManager::markShader(
   replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + declarationMarker);
   replace(
     fragmentShader, "//VTK::UniformFlow::Impl", uniformFlowMarker + "\n  //VTK::UniformFlow::Impl");
-  // VTK lights, then multiplies by textures. A user's own shaders need not have the latter's mark.
+  // VTK lights, then multiplies by textures. A user's own shaders may lack the texture mark.
   const std::string light = "//VTK::Light::Impl";
   const std::string texture = "//VTK::TCoord::Impl";
   const std::string& last = fragmentShader.find(texture) != std::string::npos ? texture : light;
@@ -306,8 +307,8 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
   std::string& fragmentShader, bool drawsReceivers, int corners)
 {
   ++this->rebuilds_;
-  // Unlit surfaces have no view coordinates and no lights to shadow; they only hide what is behind.
-  // Where no light casts, receivers alone are asked for, and need neither.
+  // Unlit surfaces have no view coordinates and no lights to shadow. They only hide other surfaces.
+  // If no light casts, only receivers are needed, which need neither.
   const bool receives =
     this->lights_.empty() || fragmentShader.find("vec4 vertexVC") != std::string::npos;
   std::string declarations;
@@ -329,7 +330,7 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
       geometryShader = numberingShader(vertexShader, corners);
       if (!geometryShader.empty())
       {
-        primitive = "gnomonPrimitiveVSOutput"; // VTK will have it read GSOutput
+        primitive = "gnomonPrimitiveVSOutput"; // VTK changes this to GSOutput
         declarations += "flat in int " + primitive + ";\n";
       }
     }
@@ -340,8 +341,8 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
       {
         declarations = "uniform int gnomonStage;\n";
       }
-      // VTK lights in both stages: code of a user's own may go on with what it computes, and VTK's
-      // discard cuts holes of textures by its alpha. The receivers stage draws no colour.
+      // VTK lights in both stages: a user's code may continue with the colour, and VTK's discard
+      // cuts holes of textures by its alpha. The receivers stage draws no colour.
       end = "if (gnomonStage == 1)\n  {\n" + end + "  }\n";
     }
     else if (receives)
@@ -350,7 +351,7 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
       end += "    gl_FragData[2] = gnomonInShadow;\n";
     }
   }
-  // VTK will put its #version line at this mark, which extensions must follow.
+  // VTK puts its #version line at this mark, and extensions must follow it.
   replace(fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n" + this->extensions_);
   replace(fragmentShader, declarationMarker, declarations);
   replace(fragmentShader, uniformFlowMarker, uniformFlow);
@@ -360,8 +361,8 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
 }
 
 //------------------------------------------------------------------------------
-/// Statements that compute gnomonInShadow, the fragment's colour with the light hidden. They are a
-/// copy of VTK's lighting between the marks, in a scope of its own.
+/// Return statements that compute gnomonInShadow, the fragment's colour with the light hidden. They
+/// are a copy of VTK's lighting between the marks, in a scope of its own.
 std::string ShaderManager::lightInShadow(const std::string& fragmentShader) const
 {
   const std::size_t begin = fragmentShader.find(beginMarker) + beginMarker.size();
@@ -371,7 +372,8 @@ std::string ShaderManager::lightInShadow(const std::string& fragmentShader) cons
 }
 
 //------------------------------------------------------------------------------
-/// @param primitive the expression of the number that the driver counts
+/// Return statements that write the receiver's outputs.
+/// @param primitive the expression of the driver's number
 std::string ShaderManager::writeReceiver(
   bool receives, bool instanced, const std::string& primitive) const
 {
@@ -435,8 +437,8 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
 }
 
 //------------------------------------------------------------------------------
-/// The receivers stage reads no texture, and maps need not be there yet. But samplers of different
-/// types must not share a unit, or OpenGL draws nothing.
+/// Bind empty textures. The receivers stage reads none, and maps may be missing. But samplers of
+/// different types must not share a unit, or OpenGL draws nothing.
 void ShaderManager::separateSamplers()
 {
   for (const auto& [type, names] : this->samplers_)
@@ -452,7 +454,7 @@ void ShaderManager::separateSamplers()
 }
 
 //------------------------------------------------------------------------------
-/// Binds what the lights' visibility is fetched from or computed with.
+/// Bind the images and maps of the lights' visibility.
 void ShaderManager::bindVisibility(const StageValues& values)
 {
   const auto add = [this](std::string name, const auto& value) {
@@ -499,7 +501,7 @@ bool ShaderManager::endStage()
   for (const BoundTexture& texture : this->bound_)
   {
     this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(texture.unit));
-    // VTK may have deleted what a free unit still had bound.
+    // VTK may have deleted the texture bound to a free unit.
     glBindTexture(texture.target, glIsTexture(texture.previous) ? texture.previous : 0);
     this->window_->GetState()->GetTextureUnitManager()->Free(texture.unit);
   }
@@ -513,7 +515,8 @@ bool ShaderManager::endStage()
 //------------------------------------------------------------------------------
 bool ShaderManager::setLayersOrigin(GLuint program)
 {
-  // Where VTK draws now: passes between this one and the props may have a framebuffer of their own.
+  // The present viewport: passes between this one and the props may have a framebuffer of their
+  // own.
   GLint viewport[4];
   this->window_->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   ShaderLibrary::setUniform(program, { "gnomonOrigin", glm::ivec2(viewport[0], viewport[1]) });

@@ -22,13 +22,14 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What the shaders of a frame have to do, besides their lights.
+/// The tasks of a frame's shaders, besides their lights.
 struct HookVariant
 {
   Route route = Route::Inline;
-  bool receiverPoints = false; ///< image route: the receivers stage draws points and normals, too
-  bool multisampled = false;   ///< pixels have several samples, of which a surface may have some
-  bool namesTriangles = true;  ///< not on the inline route: what pixels show may be drawn
+  bool receiverPoints = false; ///< image route: the receivers stage writes points and normals, too
+  bool multisampled = false;   ///< pixels have several samples, and a surface may cover some of
+                               ///< them
+  bool namesTriangles = true;  ///< not on the inline route: triangle numbers may be written
 };
 
 /// One casting light, as the shader hook needs it.
@@ -36,71 +37,71 @@ struct ShadedLight
 {
   ShadowLight light;
   int channels = 1; ///< of its visibility, a layer each (channelsOf())
-  int layer = 0;    ///< image route: of the visibility layers, its first
-  int bit = noBit;  ///< or of their image of bits
-  /// What the shader computes visibility with: on the inline route for all surfaces, on the image
-  /// route for translucent ones, since the layers show what is opaque. Null where nothing needs it.
+  int layer = 0;    ///< image route: its first visibility layer
+  int bit = noBit;  ///< or its bit in the image of bits
+  /// The technique that the shader calls: on the inline route for all surfaces, on the image route
+  /// for translucent ones, since the layers hold opaque ones. Null if none is needed.
   const PointwiseTechnique* pointwise = nullptr;
 };
 
-/// Has the shaders of VTK's glyphs pass the number of the instance on, as the fragment shader's
-/// `flat in int gnomonInstanceVSOutput`: gl_PrimitiveID counts within an instance. Called before
-/// VTK's replacements.
-/// @return false where nothing is drawn as instances
+/// Make the shaders of VTK's glyphs hand on the instance number, as the fragment shader's `flat in
+/// int gnomonInstanceVSOutput`: gl_PrimitiveID counts within an instance. Call it before VTK's
+/// replacements.
+/// @return false if the shaders draw no instances
 bool passInstance(std::string& vertexShader, std::string& geometryShader);
 
-/// The hook into VTK's lighting. In front of VTK's light loop it puts, per casting light N,
+/// The hook into VTK's lighting. Before VTK's light loop it puts, per casting light N,
 ///     vec3 lightColorN = lightColorN * (visibility of light N);
-/// Of a light with a texture that is a colour, and what is lit has the texture's mean.
-/// The local variable hides VTK's uniform of the same name, so that the loop, of whatever shading
-/// model and kind of light, works with the shadowed colour. Only the uniforms' names are relied on.
+/// For a light with a texture the visibility is a colour, and the texture's mean in full light. The
+/// local variable hides VTK's uniform of the same name, so VTK's loop works with the shadowed
+/// colour, for every shading model and kind of light. The hook relies on the uniforms' names alone.
 ///
-/// On the image route the same programs also serve the receivers stage: a uniform chooses, so that
-/// VTK need not rebuild any shader between the stages. On the deferred route they light each
-/// fragment twice, as if all of it were lit and as if none were, and say what it shows.
+/// On the image route the same programs also serve the receivers stage. A uniform selects the
+/// stage, so VTK rebuilds no shader between stages. On the deferred route they light each fragment
+/// twice, as if all of it were lit and as if none were, and write its triangle.
 class ShaderManager
 {
 public:
-  /// States what the frame's shaders must do. When it differs from the last frame's, VTK's mappers
+  /// Set the tasks of the frame's shaders. If they differ from the last frame's, VTK's mappers
   /// rebuild their shaders (stageTime() changes).
   void configure(const HookVariant& variant, const std::vector<ShadedLight>& lights);
   vtkMTimeType stageTime() const { return this->stageTime_.GetMTime(); }
 
   /// First and second half of the hook, around VTK's own replacements.
-  /// @param drawsReceivers whether this prop's shader must be able to say what receives
+  /// @param drawsReceivers true if this prop's shader must be able to write receivers
   /// @param corners of the primitives that it draws then; 0 if it draws none of the snapshot's
   void markShader(
     std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
   void fillShader(const std::string& vertexShader, std::string& geometryShader,
     std::string& fragmentShader, bool drawsReceivers, int corners);
 
-  /// From now on primitives are numbered by geometry shaders (TriangleNumbers.h); VTK's mappers
-  /// rebuild theirs.
+  /// Number primitives by geometry shaders from here on (TriangleNumbers.h). VTK's mappers rebuild
+  /// their shaders.
   void numberByGeometryShaders();
   bool numbersByGeometryShaders() const { return this->numbersByGeometryShaders_; }
 
-  /// The values that stay the same for all props of a stage.
+  /// The values that are constant for all props of a stage.
   struct StageValues
   {
     bool receiversStage = false; ///< receivers are drawn, alone or with the picture
     ReceiverSpace space;
     TextureBinding layers;      ///< image route: the visibility layers
-    TextureBinding bits;        ///< and their image of bits
-    glm::ivec2 layersSize{ 0 }; ///< and their size in pixels
-    TextureBinding depths;      ///< of the receivers that the layers are of
+    TextureBinding bits;        ///< image route: the image of bits
+    glm::ivec2 layersSize{ 0 }; ///< size of both in pixels
+    TextureBinding depths;      ///< of the layers' receivers
   };
-  /// Between beginStage and endStage VTK draws: textures are bound to units of their own. endStage
-  /// also ends a stage that has failed half way, and does nothing where there is none.
+  /// Bind textures to units of their own while VTK draws between beginStage and endStage. endStage
+  /// also ends a stage that has failed half way. It has no effect without a stage.
   /// @return endStage: false if something was drawn at another size than the layers have
   void beginStage(vtkOpenGLRenderWindow* window, const StageValues& values);
   bool endStage();
 
-  /// Sets the hook's uniforms of a program that is about to draw.
+  /// Set the hook's uniforms of a program that is about to draw.
   void setParameters(vtkShaderProgram* program, const Drawn& drawn);
 
-  /// Shaders rebuilt by VTK since the start.
+  /// Return the number of shaders that VTK has rebuilt since the start.
   int rebuilds() const { return this->rebuilds_; }
-  /// Of these, programs that were not there before.
+  /// Return how many of these were new programs.
   int newPrograms() const { return static_cast<int>(this->programs_.size()); }
 
 private:
@@ -116,8 +117,8 @@ private:
   std::string declarations_;
   std::map<std::string, std::vector<std::string>> samplers_; ///< of the declarations, by type
   std::string uniformFlow_;     ///< statements that must be in uniform control flow
-  std::string multiplications_; ///< and those in front of VTK's light loop
-  std::string darkenings_;      ///< deferred route: what stands there for the colour in shadow
+  std::string multiplications_; ///< and statements before VTK's light loop
+  std::string darkenings_;      ///< deferred route: the same for the colour in shadow
   bool numbersByGeometryShaders_ = false;
   vtkTimeStamp stageTime_;
   int rebuilds_ = 0;
@@ -127,12 +128,12 @@ private:
   vtkOpenGLRenderWindow* window_ = nullptr;
   glm::ivec2 layersSize_{ 0 };
   bool layersFit_ = true;
-  std::vector<Uniform> stageUniforms_; ///< with units in place of textures
+  std::vector<Uniform> stageUniforms_; ///< with units instead of textures
   struct BoundTexture
   {
     int unit;
     GLenum target;
-    GLuint previous; ///< what was bound there before
+    GLuint previous; ///< earlier binding of the unit
   };
   std::vector<BoundTexture> bound_;
   std::set<vtkShaderProgram*> upToDate_; ///< programs that have the stage's uniforms

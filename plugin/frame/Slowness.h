@@ -6,21 +6,21 @@ namespace gnomon
 {
 
 /// How much longer frames take than the model of costs says, by maps and by rays: the median of the
-/// last 30 each. Of the way that is not taken, old frames are forgotten one by one, so that a load
-/// that has passed is tried again.
+/// last 30 frames each. Each frame of one way also drops the oldest of the other, so that the other
+/// is tried again after a load has passed.
 class Slowness
 {
 public:
-  /// The way that a frame takes, and how long it is to take.
+  /// Begin a frame with its way and its modelled time.
   void begin(bool byMaps, double modelledMilliseconds);
-  /// Whether a frame has begun whose time tells something.
+  /// True if a frame has begun whose time counts.
   bool awaitsTime() const { return this->modelledMilliseconds_ > 0.0; }
-  /// A frame that compiles or builds tells nothing.
+  /// Drop a frame that compiles or builds, as its time does not count.
   void drop() { this->modelledMilliseconds_ = 0.0; }
   void end(double milliseconds);
 
   ///@{
-  /// A factor of the model; 1 where nothing is known.
+  /// Return the factor on the model; 1 if nothing is known.
   double ofMaps() const;
   double ofRays() const;
   ///@}

@@ -14,10 +14,10 @@ namespace gnomon
 namespace
 {
 
-/// Rays are taken at once where maps save less than that.
+/// Maps are used only if rays take more than this factor longer.
 constexpr double nearlyAsFast = 1.3;
 
-/// How many frames that move come at least between rays and maps, and at most.
+/// Least and most moving frames until rays and maps may switch.
 constexpr int leastPatience = 30;
 constexpr int mostPatience = 960;
 
@@ -28,10 +28,10 @@ constexpr int framesPerProbeOfMoved = 4;
 /// The most sets of pixels that are probed to decide whether a map keeps the error.
 constexpr int mostLooks = 4;
 
-/// The largest map that is taken for an error's sake.
+/// The largest side to which an error limit enlarges a map.
 constexpr int mostTexels = 4096;
 
-/// The samples of an area light at a step of its choice: square numbers. One is enough where
+/// Return the samples of an area light at a step of its choice: square numbers. One is enough if
 /// penumbrae are narrower than a pixel.
 int samplesOf(int step)
 {
@@ -52,7 +52,7 @@ CostFactors factorsOf(const FrameWishes& wishes)
     : defaultFactors(isSoftwareRenderer(name ? reinterpret_cast<const char*>(name) : ""));
 }
 
-/// Whether a surface shows shadows that no camera ray finds, as these meet what casts.
+/// True if a surface shows shadows but no probing camera ray finds it, as these meet casters only.
 bool isUnseenReceiver(const Surface& surface)
 {
   return surface.receives && !surface.casts && surface.triangleCount > 0;
@@ -112,14 +112,14 @@ void TechniqueChoice::choose(const std::function<void(CastingLight&)>& bake)
 }
 
 //------------------------------------------------------------------------------
-/// What changed since the frame before, and what there is.
+/// Return the changes since the last frame and the present counts.
 FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& hard)
 {
   std::size_t view = 0;
   hashView(view, this->frame_.camera, this->frame_.size);
   const std::pair casters(this->occluders_.topologyVersion, this->occluders_.positionsVersion);
   FrameCounters counters;
-  // What is there for the first time need not move again.
+  // The first frame's casters have not moved.
   counters.castersMoved = this->casters_.first != 0 && casters != this->casters_;
   counters.viewMoved = counters.castersMoved || view != this->view_;
   counters.triangles = this->frame_.report.triangles;
@@ -150,14 +150,14 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& har
     }
     known[light.sceneIndex] = choice;
   }
-  this->lights_ = std::move(known); // those of lights that are gone go, too
+  this->lights_ = std::move(known); // drops lights that are gone
   this->view_ = view;
   this->casters_ = casters;
   return counters;
 }
 
 //------------------------------------------------------------------------------
-/// Resets the hysteresis. Maps and samples that were finer than needed go one step down.
+/// Reset the hysteresis. Maps and samples that were finer than needed go one step down.
 void TechniqueChoice::rest()
 {
   this->patience_ = 0;
@@ -171,7 +171,7 @@ void TechniqueChoice::rest()
 }
 
 //------------------------------------------------------------------------------
-/// Chooses between maps and rays for lights with hard shadows.
+/// Choose between maps and rays for lights with hard shadows.
 void TechniqueChoice::chooseMoving(const std::vector<CastingLight*>& hard,
   const FrameCounters& counters, const std::function<void(CastingLight&)>& bake)
 {
@@ -231,7 +231,8 @@ void TechniqueChoice::chooseMoving(const std::vector<CastingLight*>& hard,
 }
 
 //------------------------------------------------------------------------------
-/// Why lights with hard shadows cannot take maps in this frame, as a clause; empty if they may.
+/// Return why lights with hard shadows cannot use maps in this frame, as a clause; empty if they
+/// may.
 std::string TechniqueChoice::whyNoMaps() const
 {
   const FrameWishes& wishes = this->frame_.wishes;
@@ -247,16 +248,16 @@ std::string TechniqueChoice::whyNoMaps() const
     static_cast<std::size_t>(mostLooks) * Probes::across * Probes::across;
   if (WrongProbes{ mostProbes, 0 }.mostShare() > wishes.maximumError)
   {
-    return "probes cannot show that so small an error is kept";
+    return "probes cannot show an error as small as the limit";
   }
   if (this->frame_.severalViews)
   {
-    return "several views are drawn, which are to look alike";
+    return "several views are drawn and must look alike";
   }
   if (this->frame_.lights.size() > mostInlineLights)
   {
-    return "shaders would ask the maps of " + std::to_string(this->frame_.lights.size()) +
-      " lights, and " + std::to_string(mostInlineLights) + " are the most";
+    return "shaders can read the maps of at most " + std::to_string(mostInlineLights) +
+      " lights, not " + std::to_string(this->frame_.lights.size());
   }
   const auto isOther = [](const CastingLight& casting)
   { return !casting.asked && !casting.own.info().isPointwise(); };
@@ -271,17 +272,17 @@ std::string TechniqueChoice::whyNoMaps() const
   if (std::any_of(
         this->occluders_.surfaces.begin(), this->occluders_.surfaces.end(), isUnseenReceiver))
   {
-    return "a surface shows shadows and casts none, which probes do not see";
+    return "a surface shows shadows but casts none, so probes miss it";
   }
   if (this->visibility_.tracerChoice().gpu)
   {
-    return "the GPU traces, which does not say what pixels show, so that no map can be probed";
+    return "the GPU tracer does not return what pixels show, so no map can be probed";
   }
   return {};
 }
 
 //------------------------------------------------------------------------------
-/// Why rays are taken though maps may be, as a clause; empty if they are not.
+/// Return why rays are used though maps may be, as a clause; empty if they are not.
 /// @param byMaps, byRays modelled milliseconds
 std::string TechniqueChoice::whyRaysAreFast(double byMaps, double byRays) const
 {
@@ -290,7 +291,7 @@ std::string TechniqueChoice::whyRaysAreFast(double byMaps, double byRays) const
   {
     return byRays <= nearlyAsFast * byMaps ? "they take nearly as little time as maps" : "";
   }
-  // Once maps have been taken, rays come back where there is time to spare, and not at once.
+  // After maps, rays return only with time to spare, and after some frames.
   constexpr double spared = 0.85;
   const bool stay = this->byMaps_ > 0 && this->byMaps_ < leastPatience;
   const double least = this->byMaps_ > 0 ? spared * budget : budget;
@@ -299,8 +300,8 @@ std::string TechniqueChoice::whyRaysAreFast(double byMaps, double byRays) const
 }
 
 //------------------------------------------------------------------------------
-/// Has a light take a map, the coarsest from the present step on that keeps the error.
-/// @return why there is none, as a clause; empty where it has one
+/// Shade a light by a map, the coarsest from the present step on that keeps the error.
+/// @return why there is none, as a clause; empty on success
 std::string TechniqueChoice::tryMap(
   CastingLight& casting, const std::function<void(CastingLight&)>& bake)
 {
@@ -341,9 +342,9 @@ std::string TechniqueChoice::tryMap(
     }
     if (!wrong)
     {
-      return "the tracer does not say what pixels show, so that no map can be probed";
+      return "the tracer does not return what pixels show, so no map can be probed";
     }
-    // Where nothing that is seen faces the light, nothing can be wrong.
+    // If no visible point faces the light, nothing can be wrong.
     choice.isProbed = wrong->asked == 0 || wrong->mostShare() <= limit;
     choice.mayBeCoarser =
       choice.step > 0 && WrongProbes{ wrong->asked, 4 * wrong->wrong }.mostShare() <= limit;
@@ -352,7 +353,7 @@ std::string TechniqueChoice::tryMap(
     {
       return {};
     }
-    // Wrong pixels are along edges, where they are as many as texels are wide.
+    // Wrong pixels lie along edges, and their number is in proportion to the texels' width.
     const double factor = std::max(wrong->share() / limit, 2.0);
     const int step = choice.step + static_cast<int>(std::log2(factor));
     if (step > mostSteps)
@@ -365,8 +366,8 @@ std::string TechniqueChoice::tryMap(
 }
 
 //------------------------------------------------------------------------------
-/// How wrong a light's map is, at as many pixels as it takes to know on which side of a limit.
-/// @return nothing where the tracer does not see the pixels
+/// Probe a light's map until it is clear on which side of a limit its error is.
+/// @return nothing if the tracer does not see the pixels
 std::optional<WrongProbes> TechniqueChoice::probe(const CastingLight& casting, double limit)
 {
   WrongProbes all;
@@ -392,7 +393,7 @@ std::optional<WrongProbes> TechniqueChoice::probe(const CastingLight& casting, d
 }
 
 //------------------------------------------------------------------------------
-/// Has an area light take the fewest samples, from the present step on, that keep the error.
+/// Choose the fewest samples of an area light, from the present step on, that keep the error.
 void TechniqueChoice::takeSamples(CastingLight& casting)
 {
   const double limit = this->frame_.wishes.maximumSoftError;
@@ -422,7 +423,7 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
 }
 
 //------------------------------------------------------------------------------
-/// Has an area light show as many samples at first as it had while it moved.
+/// Make an area light's first frame at rest show as many samples as in motion.
 void TechniqueChoice::refine(CastingLight& casting)
 {
   const int samples = this->lights_[casting.light.sceneIndex].samples;
@@ -430,9 +431,8 @@ void TechniqueChoice::refine(CastingLight& casting)
 }
 
 //------------------------------------------------------------------------------
-/// Finds pixels to probe: the same ones for all who ask in a frame, unless `looked_` says
-/// otherwise.
-/// @return false where the tracer does not see them
+/// Find pixels to probe: the same ones for all probes of a frame, unless `looked_` is false.
+/// @return false if the tracer does not see them
 bool TechniqueChoice::look()
 {
   if (!this->looked_)

@@ -21,45 +21,45 @@
 namespace gnomon
 {
 
-/// Chooses for lights that leave their technique to the pass (`auto`), between the lights and the
-/// route: exact ones while the picture rests, and while it moves what FrameWishes asks for.
+/// Chooses techniques for lights that leave theirs to the pass (`auto`), between the stages of
+/// lights and route. At rest they are exact. In motion they are as FrameWishes asks.
 ///
-/// While it moves, area lights take as few samples as the error allows. Lights with hard shadows
-/// take maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h).
-/// A map is compared with rays at some pixels (Probes.h) before it is shown, and again from time to
-/// time. It grows until its error is kept. If no map keeps it, all lights take rays, and maps are
-/// tried again after 30 frames at the earliest.
+/// In motion, area lights have as few samples as the error allows. Lights with hard shadows use
+/// maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h). A map
+/// is compared with rays at some pixels (Probes.h) before it is shown, and again from time to time.
+/// It grows until its error is kept. If no map keeps it, all lights use rays, and maps are tried
+/// again after 30 frames at the earliest.
 class TechniqueChoice
 {
 public:
-  /// @param occluders the snapshot, which lives as long as this
+  /// @param occluders the snapshot, which must outlive this
   TechniqueChoice(
     Frame& frame, const Occluders& occluders, VisibilityStage& visibility, ShaderLibrary& shaders);
 
-  /// Chooses for this frame.
+  /// Choose for this frame.
   /// @param bake bakes a light's map if it is stale
   void choose(const std::function<void(CastingLight&)>& bake);
 
-  /// Takes note of how long a frame took that has a time budget. OpenGL has finished it.
+  /// Record the time of a frame that has a time budget. OpenGL must have finished it.
   void endFrame(double milliseconds);
 
   std::size_t bytes() const { return this->probes_.bytes(); }
 
 private:
-  /// Where a light is: position, direction, half the cone.
+  /// A light's place: position, direction, half the cone.
   using Place = std::tuple<glm::dvec3, glm::dvec3, double>;
   /// The request that a choice answers: soft or hard, map side in texels, samples, error limit.
   using Asked = std::tuple<bool, int, int, double>;
   /// The state of one light's choice while the picture moves.
   struct LightChoice
   {
-    int step = 0;              ///< times 2 of its map's side, or 4 of its samples
-    int samples = 0;           ///< of an area light in the last frame that moved; 0: all
-    bool isProbed = false;     ///< whether that keeps the error
-    bool mayBeCoarser = false; ///< whether one step less would, too
+    int step = 0;              ///< doublings of its map's side, or quadruplings of its samples
+    int samples = 0;           ///< of an area light in the last moving frame; 0: all
+    bool isProbed = false;     ///< true if that keeps the error
+    bool mayBeCoarser = false; ///< true if one step less would keep it, too
     int sinceProbed = 0;       ///< frames
-    Place place{};             ///< in the frame before
-    Asked asked{};             ///< likewise
+    Place place{};             ///< in the last frame
+    Asked asked{};             ///< in the last frame
   };
 
   FrameCounters takeChanges(const std::vector<CastingLight*>& hard);
@@ -78,15 +78,15 @@ private:
   const Occluders& occluders_;
   VisibilityStage& visibility_;
   ShaderLibrary& shaders_;
-  std::map<int, LightChoice> lights_;               ///< by their places in the scene
-  std::size_t view_ = 0;                            ///< of the frame before, as a hash
-  std::pair<std::uint64_t, std::uint64_t> casters_; ///< of the frame before: their versions
-  int byRays_ = 0;                                  ///< frames in a row that took rays
-  std::string whyRays_;                             ///< and why, as a clause
-  int byMaps_ = 0;                                  ///< and maps
-  int patience_ = 0;                                ///< how many frames of rays come before maps
+  std::map<int, LightChoice> lights_;               ///< by their indices in the scene
+  std::size_t view_ = 0;                            ///< of the last frame, as a hash
+  std::pair<std::uint64_t, std::uint64_t> casters_; ///< their versions in the last frame
+  int byRays_ = 0;                                  ///< frames in a row by rays
+  std::string whyRays_;                             ///< why, as a clause
+  int byMaps_ = 0;                                  ///< frames in a row by maps
+  int patience_ = 0;                                ///< frames by rays until maps are tried
   Probes probes_;
-  bool looked_ = false; ///< whether the probes are this frame's
+  bool looked_ = false; ///< true if the probes are this frame's
   std::uint32_t looks_ = 0;
   Slowness slowness_;
 };

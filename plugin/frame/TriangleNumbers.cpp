@@ -78,7 +78,7 @@ std::string numberingShader(const std::string& vertexShader, int corners)
     const std::string type = part[2];
     const std::string input = part[3];
     const std::string extent = part[4];
-    // VTK has the fragment shader read ...GSOut... for each ...VSOut... of the vertex shader.
+    // VTK makes the fragment shader read ...GSOut... for each ...VSOut... of the vertex shader.
     const std::size_t mark = input.find("VSOut");
     if (mark == std::string::npos)
     {

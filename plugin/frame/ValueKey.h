@@ -9,13 +9,13 @@
 namespace gnomon
 {
 
-/// What a stage's value is made from: named parts. The same key means the same value, so a stage
-/// whose key is that of its last value reuses it.
+/// The named inputs of a stage's value. The same key means the same value, so a stage reuses its
+/// last value while its key is equal.
 class ValueKey
 {
 public:
-  /// Adds a part. Parts are the same if they are of the same type and equal by ==.
-  /// @param name as the report says it: "the camera"
+  /// Add a part. Parts are the same if they are of the same type and equal by ==.
+  /// @param name for the report: "the camera"
   template <typename Part>
   void add(const char* name, Part part)
   {
@@ -27,9 +27,9 @@ public:
       } };
   }
 
-  /// The names of the parts that are not as in another key.
+  /// Return the names of the parts that differ from another key.
   std::set<std::string> changedParts(const ValueKey& other) const;
-  /// The same as text: "the camera, the props"; empty if none.
+  /// Return the same as text: "the camera, the props"; empty if none.
   std::string changesFrom(const ValueKey& other) const;
 
 private:

@@ -37,46 +37,46 @@ inline constexpr const char* snapshotPart = "the snapshot";
 struct ReceiversValue
 {
   std::optional<ValueKey> key;             ///< none: there is no value
-  std::size_t number = 0;                  ///< of this image, among all that a renderer's views had
+  std::size_t number = 0;                  ///< number of this image among all of a renderer's views
   ReceiverTarget target;                   ///< image route
   DeferredPicture deferred;                ///< deferred route
-  std::vector<DrawnSurface> drawnSurfaces; ///< that the fragments name
-  ReceiverImages images;                   ///< on the CPU, once somebody reads them
-  std::size_t numberOfImages = 0;          ///< of which number these are
-  std::vector<glm::vec2> fragmentsBefore;  ///< of those that were read before
-  std::size_t numberBefore = 0;            ///< of which number these are
-  ReceiverPixels pixels;                   ///< where `onCpu` keeps them
+  std::vector<DrawnSurface> drawnSurfaces; ///< to which the fragments refer
+  ReceiverImages images;                   ///< on the CPU, once they are read
+  std::size_t numberOfImages = 0;          ///< `number` of these images
+  std::vector<glm::vec2> fragmentsBefore;  ///< of the images read before these
+  std::size_t numberBefore = 0;            ///< their `number`
+  ReceiverPixels pixels;                   ///< storage of `onCpu`, if it is used
   std::optional<Receivers> onCpu;          ///< made with `images`
-  std::optional<ReceiverBoxes> boxes;      ///< of `onCpu`, where it stores them
-  int framesTraced = 0;                    ///< in which lights were traced from them
+  std::optional<ReceiverBoxes> boxes;      ///< of `onCpu`, if it stores them
+  int framesTraced = 0;                    ///< frames that traced lights from them
 };
 
-/// The visibility stage's value for one light. The picture itself is in the view's layers.
+/// The visibility stage's value for one light. The image itself is in the view's layers.
 struct VisibilityValue
 {
   std::optional<ValueKey> key;    ///< none: there is no value
-  int samples = 0;                ///< of an area light that it was traced by, while it refines
-  LightReport report;             ///< what the frame that computed it says of the light
-  std::vector<std::string> notes; ///< and what it notes (FrameReport::notes)
+  int samples = 0;                ///< of an area light's image while it refines
+  LightReport report;             ///< the light's report from the frame that computed it
+  std::vector<std::string> notes; ///< its notes (FrameReport::notes)
   bool classified = false;
-  std::vector<std::uint8_t> classes; ///< each pixel's, where `classified`
+  std::vector<std::uint8_t> classes; ///< of each pixel, if `classified`
   ///@{
-  /// Of a light whose image may keep tiles. The image itself, unless it is a bit of the layers.
+  /// For a light whose image may reuse tiles. The image itself, unless it is a bit of the layers.
   std::vector<float> onCpu;
   TracedTiles tiles;
-  std::size_t receiversNumber = 0; ///< ReceiversValue::number of those that it was traced from
+  std::size_t receiversNumber = 0; ///< ReceiversValue::number of the traced receivers
   ///@}
 
-  /// Drops classes and tiles of the last image.
+  /// Drop classes and tiles of the last image.
   void dropTiles();
   std::size_t bytes() const;
 };
 
-/// What one view of a renderer keeps from frame to frame.
+/// One view's values, cached from frame to frame.
 struct ViewValues
 {
   ReceiversValue receivers;
-  TechniquesOfLights techniques; ///< whose maps are fitted to this view's camera
+  TechniquesOfLights techniques; ///< of lights whose maps are fitted to this view's camera
   VisibilityLayers layers;
   std::vector<VisibilityValue> visibility; ///< by casting light
 
@@ -87,8 +87,8 @@ struct ViewValues
 class RendererViews
 {
 public:
-  /// The values of the view that a renderer is about to draw. Views that have not been drawn for a
-  /// while are given up, since each has images of the picture's size.
+  /// Return the values of the view that a renderer is about to draw. Views that were not drawn for
+  /// a while are dropped, since each has images of the picture's size.
   ViewValues& of(vtkRenderer* renderer);
 
   std::size_t bytesOfImages() const;

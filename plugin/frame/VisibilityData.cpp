@@ -4,11 +4,14 @@
 
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkType.h>
 
+#include <cstdint>
 #include <string>
 
 namespace gnomon
@@ -17,9 +20,11 @@ namespace
 {
 
 /// Puts planes of numbers, top row first, into an array of as many components.
-template <typename Array>
+/// @param origin is added, to each component its own
+template <typename Array, typename Number>
 void addArray(vtkImageData* image, const VisibilityImages& images, const std::string& name,
-  const std::vector<const std::vector<float>*>& planes, const std::array<double, 3>& origin = {})
+  const std::vector<const std::vector<Number>*>& planes,
+  const std::array<typename Array::ValueType, 3>& origin = {})
 {
   vtkNew<Array> array;
   array->SetName(name.c_str());
@@ -35,7 +40,7 @@ void addArray(vtkImageData* image, const VisibilityImages& images, const std::st
       {
         array->SetTypedComponent(static_cast<vtkIdType>(y) * images.width + x,
           static_cast<int>(component),
-          static_cast<typename Array::ValueType>(origin[component % 3] + row[x]));
+          origin[component % 3] + static_cast<typename Array::ValueType>(row[x]));
       }
     }
   }
@@ -61,15 +66,17 @@ void fillImage(const VisibilityImages& images, vtkImageData* image)
     {
       planes.push_back(&images.visibility[i + channel]);
     }
-    addArray<vtkFloatArray>(
+    addArray<vtkFloatArray, float>(
       image, images, "light " + std::to_string(images.sceneIndices[i]), planes);
     i += channels;
   }
-  addArray<vtkDoubleArray>(image, images, "position",
+  addArray<vtkDoubleArray, float>(image, images, "position",
     { &images.positionX, &images.positionY, &images.positionZ }, images.origin);
-  addArray<vtkFloatArray>(
+  addArray<vtkFloatArray, float>(
     image, images, "normal", { &images.normalX, &images.normalY, &images.normalZ });
-  addArray<vtkFloatArray>(image, images, "coverage", { &images.coverage });
+  addArray<vtkFloatArray, float>(image, images, "coverage", { &images.coverage });
+  addArray<vtkIntArray, int>(image, images, "prop", { &images.prop });
+  addArray<vtkIdTypeArray, std::int64_t>(image, images, "cell", { &images.cell });
 }
 
 } // namespace gnomon

@@ -11,8 +11,8 @@ namespace gnomon
 
 struct VisibilityImages;
 
-/// Copies a frame's visibility into an image whose point (x, y, 0) is the pixel (x, y), counted from
-/// the bottom row. Its point data is what vtkGnomonShadowPass::GetVisibilityImage() says.
+/// Copy a frame's visibility into an image whose point (x, y, 0) is the pixel (x, y), counted from
+/// the bottom row. vtkGnomonShadowPass::GetVisibilityImage() lists the arrays of its point data.
 void fillImage(const VisibilityImages& images, vtkImageData* image);
 
 } // namespace gnomon

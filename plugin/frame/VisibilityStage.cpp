@@ -278,7 +278,7 @@ void VisibilityStage::judge()
 }
 
 //------------------------------------------------------------------------------
-void VisibilityStage::compute()
+void VisibilityStage::compute(const std::vector<SurfaceName>& names)
 {
   FrameReport& frameReport = this->frame_.report;
   ViewValues& view = *this->frame_.view;
@@ -325,12 +325,13 @@ void VisibilityStage::compute()
   }
   view.layers.uploadBits();
   const bool isKept = frameReport.visibilityComputed == 0 && this->imagesOf_ == &view &&
-    !this->images_.visibility.empty();
+    !this->images_.visibility.empty() && this->imageNames_ == names;
   if (this->frame_.wishes.keepVisibility && !isKept)
   {
-    this->images_ = keepVisibility(this->frame_.lights, view.visibility, view.layers,
-      this->receiversOnCpu().all(), this->occluders_.centreWorld);
+    const ReceiverPixels& receivers = this->receiversOnCpu().all();
+    this->images_ = keepVisibility(this->frame_.lights, view, receivers, this->occluders_, names);
     this->imagesOf_ = &view;
+    this->imageNames_ = names;
   }
 }
 

@@ -3,6 +3,7 @@
 #include "plugin/frame/Frame.h"
 #include "plugin/frame/FrameTracer.h"
 #include "plugin/frame/ValueKey.h"
+#include "plugin/scene/SurfaceNames.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
@@ -34,8 +35,9 @@ public:
   void findStale();
 
   /// Computes what is stale, and keeps a copy of all if asked to.
+  /// @param names of the snapshot's surfaces, if asked to
   /// @throws std::runtime_error for a tracer that there is not, or has no room
-  void compute();
+  void compute(const std::vector<SurfaceName>& names);
 
   ///@{
   /// The copy of the last frame that was asked for one.
@@ -81,6 +83,7 @@ private:
   ///@}
   VisibilityImages images_;
   const ViewValues* imagesOf_ = nullptr; ///< the view that they are of
+  std::vector<SurfaceName> imageNames_;  ///< and the names of its surfaces
 };
 
 } // namespace gnomon

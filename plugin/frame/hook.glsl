@@ -1,14 +1,14 @@
-// What the pass adds to the declarations of VTK's fragment shaders (GLSL 1.50). On the inline route
-// the lights' techniques follow, with their functions visibility_N; on the others
-// hook_receiver.glsl, and on the image route hook_image.glsl.
+// The pass's additions to the declarations of VTK's fragment shaders (GLSL 1.50). On the inline
+// route the lights' techniques follow, with their functions visibility_N. On the others
+// hook_receiver.glsl follows, and on the image route hook_image.glsl.
 
 uniform int gnomonReceives;    // 0: this prop shows no shadows
-uniform int gnomonTranslucent; // 1: drawn in the translucent pass, and on no layer
-uniform float gnomonFacetHeight; // how high curved surfaces are above the prop's facets, at most
+uniform int gnomonTranslucent; // 1: drawn in the translucent pass, and in no layer
+uniform float gnomonFacetHeight; // most height of curved surfaces above the prop's facets
 
-// The geometric normal of the triangle under this fragment, on the side that the camera sees. Must
-// be called in uniform control flow. Where the position does not change over the quad (a triangle
-// seen exactly edge-on) there is no plane; the direction to the camera stands in.
+// Return the geometric normal of the triangle under this fragment, on the side that the camera
+// sees. Must be called in uniform control flow. If the position is constant over the quad (a
+// triangle seen exactly edge-on) there is no plane, and the result is the direction to the camera.
 vec3 gnomonFaceNormal(vec3 positionView, bool parallelProjection)
 {
   vec3 toCamera = parallelProjection ? vec3(0.0, 0.0, 1.0) : -positionView;

@@ -1,5 +1,5 @@
-// The image route's fetch of hard shadows: a bit for each light, 1 where it arrives. Fetching a
-// layer for each of eight lights takes llvmpipe as long as drawing the picture.
+// The image route's fetch of hard shadows: one bit per light, 1 if its light arrives. On llvmpipe,
+// fetching eight lights' layers takes as long as drawing the picture.
 
 uniform usampler2D gnomonBits;
 

@@ -1,8 +1,8 @@
 // The image route's declarations: one visibility layer per casting light without a bit
-// (hook_bits.glsl). What follows says which pixel is fetched (hook_pixel.glsl,
-// hook_pixel_multisample.glsl), and fetches its layers one by one (hook_layer.glsl) or in a loop
+// (hook_bits.glsl). The next parts choose the pixel to fetch (hook_pixel.glsl,
+// hook_pixel_multisample.glsl), and fetch its layers one by one (hook_layer.glsl) or in a loop
 // (hook_layers.glsl).
 
 uniform sampler2DArray gnomonLayers;
-uniform ivec2 gnomonOrigin; // the window pixel that the layers' first pixel belongs to
-uniform int gnomonStage;    // 1: this is the receivers stage
+uniform ivec2 gnomonOrigin; // the window pixel of the layers' first pixel
+uniform int gnomonStage;    // 1: the receivers stage

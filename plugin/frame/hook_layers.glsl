@@ -1,6 +1,6 @@
-// The image route's fetch of many lights' visibility, in one loop. Its end is a uniform, so that
-// compilers cannot unroll it. llvmpipe compiles each fetch by itself: with twenty lights that would
-// be most of the first frame.
+// The image route's fetch of many lights' visibility, in one loop. Its end is a uniform, so
+// compilers cannot unroll it. llvmpipe compiles each fetch separately, which would be most of the
+// first frame with twenty lights.
 
 uniform int gnomonLayerCount;
 

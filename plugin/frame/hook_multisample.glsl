@@ -1,12 +1,12 @@
-// The inline route's declarations where a pixel has several samples. A triangle that covers some of
-// them need not cover the pixel's centre, and beyond its edge its plane runs on behind its
-// neighbours: the point to ask for is the centroid of the covered samples.
+// The inline route's declarations for pixels with several samples. A triangle that covers some of
+// them may not cover the pixel's centre, and its plane continues behind its neighbours. So
+// visibility is asked at the centroid of the covered samples.
 
-// The centroid in view coordinates: where its ray meets the triangle's plane, which the centre and
-// the normal give. The first argument is what VTK interpolates there. On most drivers that is the
-// centroid already. llvmpipe divides it by the centre's depth, which moves it along the ray; and a
-// mapper may have moved the centre (impostors). Where the plane holds the ray (a triangle seen
-// exactly edge-on) the centre stands in.
+// Return the centroid in view coordinates: where its ray meets the triangle's plane, which is given
+// by the centre and the normal. The first argument is VTK's interpolation at the centroid. Most
+// drivers return the centroid. llvmpipe divides it by the centre's depth, which moves it along the
+// ray. Also, a mapper may have moved the centre (impostors). If the plane contains the ray (a
+// triangle seen exactly edge-on), return the centre.
 vec3 gnomonCentroid(
   vec3 centroidView, vec3 centreView, vec3 normalView, bool parallelProjection)
 {

@@ -1,4 +1,4 @@
-// Which pixel's visibility is fetched, where a pixel has one sample.
+// The pixel to fetch, if a pixel has one sample.
 
 ivec2 gnomonLayerPixel()
 {

@@ -1,5 +1,5 @@
 //VTK::System::Dec
-// Passes primitives on as they are, with the number that the driver counts for geometry shaders.
+// Hands primitives on unchanged, with the number that the driver counts for geometry shaders.
 //GNOMON::Extensions
 
 //GNOMON::Layout

@@ -19,8 +19,8 @@ namespace gnomon
 namespace
 {
 
-// These actors draw through actors of their own, and say nothing of it: their members are read.
-// Naming them through a subclass gives access to them without a cast.
+// These actors draw by inner actors without getters, so their protected members are read. Naming
+// a member through a subclass gives access to it without a cast.
 struct FollowerAccess : vtkFollower
 {
   static vtkActor* device(vtkFollower* follower) { return follower->*(&FollowerAccess::Device); }
@@ -50,8 +50,8 @@ struct LodPropAccess : vtkLODProp3D
   static int selected(vtkLODProp3D* prop) { return prop->*(&LodPropAccess::SelectedLODIndex); }
 };
 
-/// The mapper that a vtkLODActor chooses: a level that was never timed, else the slowest that keeps
-/// the time, else the fastest.
+/// Return the mapper that a vtkLODActor chooses: a level that was never timed, else the slowest
+/// that keeps the time, else the fastest.
 vtkMapper* chosenLevel(vtkLODActor* actor)
 {
   const auto allowed = static_cast<float>(actor->GetAllocatedRenderTime()); // a float in VTK, too
@@ -80,8 +80,8 @@ vtkMapper* chosenLevel(vtkLODActor* actor)
   return best;
 }
 
-/// A vtkQuadricLODActor draws its coarse level in frames that must be as fast as interaction asks.
-/// In the first of them VTK has yet to make that level, and the full one stands in.
+/// Return a vtkQuadricLODActor's drawing. Frames that must be as fast as interaction asks have the
+/// coarse level. VTK makes that level in the first of them, which still has the full one.
 ActorDrawing quadricDrawing(vtkQuadricLODActor* actor, vtkMatrix4x4* matrix, vtkRenderer* renderer)
 {
   vtkActor* device = QuadricAccess::device(actor);
@@ -89,13 +89,13 @@ ActorDrawing quadricDrawing(vtkQuadricLODActor* actor, vtkMatrix4x4* matrix, vtk
   vtkRenderWindowInteractor* interactor = window ? window->GetInteractor() : nullptr;
   if (!interactor || device->IsA("vtkFollower"))
   {
-    return {}; // VTK needs an interactor here; and takes a follower for a plain actor
+    return {}; // VTK needs an interactor here, and treats a follower as a plain actor
   }
   const double rate = std::clamp(interactor->GetDesiredUpdateRate(), 1.0, 75.0);
   vtkMapper* coarse = QuadricAccess::coarse(actor);
   if (actor->GetAllocatedRenderTime() <= 1.1 / rate && coarse->GetNumberOfInputConnections(0) > 0)
   {
-    return { device, coarse, device->GetMatrix() }; // which VTK leaves where the full level stood
+    return { device, coarse, device->GetMatrix() }; // VTK does not move the device
   }
   return { device, actor->GetMapper(), matrix };
 }
@@ -111,8 +111,8 @@ ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* re
   }
   if (auto* follower = vtkFollower::SafeDownCast(actor))
   {
-    // An assembly moves its parts by a trick of which a follower makes another place; a
-    // vtkAxisFollower learns its matrix only while it is drawn.
+    // An assembly places its parts by PokeMatrix(), which puts a follower elsewhere. A
+    // vtkAxisFollower computes its matrix only while it is drawn.
     const bool served = matrix == actor->GetMatrix() && !actor->IsA("vtkAxisFollower");
     return served ? ActorDrawing{ FollowerAccess::device(follower), actor->GetMapper(), matrix }
                   : ActorDrawing{};
@@ -136,7 +136,7 @@ vtkProp3D* selectedLevel(vtkLODProp3D* prop)
   constexpr int notInUse = -1;
   if (!prop->GetAutomaticLODSelection())
   {
-    // VTK looks the ID up for props in view only, and those out of view cast, too.
+    // VTK looks up the ID only for props in view, but props out of view cast, too.
     const vtkLODProp3DEntry* const chosen = std::find_if(first, last,
       [prop](const vtkLODProp3DEntry& entry)
       { return entry.ID != notInUse && entry.ID == prop->GetSelectedLODID(); });

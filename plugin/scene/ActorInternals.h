@@ -14,23 +14,23 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What an actor draws in this frame.
+/// The actor, mapper and matrix of an actor's drawing in this frame.
 struct ActorDrawing
 {
-  vtkActor* actor = nullptr; ///< whom VTK hands to a render pass; null for an actor not served
+  vtkActor* actor = nullptr; ///< as VTK hands it to a render pass; null if not supported
   vtkMapper* mapper = nullptr;
   vtkMatrix4x4* matrix = nullptr;
 };
 
-/// Looks through actors that draw by way of one of their own: followers, and the actors with levels
-/// of detail, whose level for this frame is found as they will find it, from the time that the
-/// renderer has allocated to them.
+/// Return an actor's drawing, also for actors that draw by inner actors: followers and actors with
+/// levels of detail. The level is the one that VTK will choose in this frame, from the time that
+/// the renderer has allocated to the actor.
 ///
 /// @param matrix the actor's, or that of its path below an assembly
 ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* renderer);
 
-/// The level that a vtkLODProp3D draws in this frame. For one that chooses by itself and was never
-/// in view, the best of its levels; null if it has none.
+/// Return the level that a vtkLODProp3D draws in this frame; null if it has none. A prop that
+/// chooses by itself and was never in view has its best level.
 vtkProp3D* selectedLevel(vtkLODProp3D* prop);
 
 } // namespace gnomon

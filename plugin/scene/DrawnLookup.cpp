@@ -22,7 +22,7 @@ namespace gnomon
 namespace
 {
 
-/// Names a surface among those of a prop, by a shallow copy of its data as well.
+/// Return the identity of a surface among those of a prop. A shallow copy of its data has the same.
 auto identityOf(const DrawnLookup::HeldSurface& surface)
 {
   return std::pair(surface.cells, identityOf(surface.data, surface.cells));
@@ -68,7 +68,7 @@ std::size_t DrawnLookup::PlaceHash::operator()(const Place& place) const
   {
     for (int row = 0; row < 4; ++row)
     {
-      // std::hash gives 0.0 and -0.0, which are equal, the same value.
+      // std::hash is equal for 0.0 and -0.0, which compare equal.
       hashCombine(seed, place.worldFromModel[column][row]);
     }
   }
@@ -151,16 +151,16 @@ const DrawnLookup::HeldSurfaces* DrawnLookup::heldBy(vtkProp* prop) const
   auto found = this->heldAt_.find({ actor, worldFromModel });
   if (found == this->heldAt_.end())
   {
-    // A glyph mapper draws the blocks of a composite data set for an actor that it makes anew.
+    // For a composite data set, a glyph mapper draws the blocks with a temporary actor.
     found = this->heldAt_.find({ actor->GetMapper(), worldFromModel });
   }
   return found != this->heldAt_.end() ? &this->held_[found->second] : nullptr;
 }
 
 //------------------------------------------------------------------------------
-/// The surface that is made of these cells. Helpers and parts of mappers draw shallow copies of
-/// what is held. Where several glyphs share the cells, VTK draws them in the order in which they
-/// are held.
+/// Return the surface that is made of these cells, or null. Helpers and parts of mappers draw
+/// shallow copies of its data. VTK draws glyphs that share the cells in the order in which they are
+/// held.
 const DrawnLookup::HeldSurface* DrawnLookup::match(
   const HeldSurfaces& held, vtkPolyData* data, SurfaceCells cells)
 {
@@ -211,8 +211,8 @@ Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluder
   }
 
   Drawn& drawn = answer->second;
-  // Another level of detail than was foreseen receives, too. Drawing the receivers changes the
-  // times by which VTK chooses levels, so it may shade another one than it drew there.
+  // An unexpected level of detail receives, too. Drawing the receivers changes the times by which
+  // VTK chooses levels, so VTK may shade another level than it drew there.
   drawn.receives = occluders.surfaces[held->front().surface].receives;
   DrawnSurface drawnSurface;
   for (const DrawCall& call : drawCalls(mapper, *cells))

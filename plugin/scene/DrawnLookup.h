@@ -26,23 +26,23 @@ namespace gnomon
 
 struct Occluders;
 
-/// What the hook needs to know of a surface that VTK is about to draw.
+/// The hook's facts about a surface that VTK is about to draw.
 struct Drawn
 {
-  int index = -1; ///< into the drawn surfaces; -1 when the snapshot does not hold it
+  int index = -1; ///< into the drawn surfaces; -1 if the snapshot does not hold it
   bool receives = false;
   bool translucent = false;
-  float facetHeight = 0.0f;                ///< the largest of its surfaces'
-  std::uint32_t primitivesPerInstance = 0; ///< for a surface that is drawn as instances
+  float facetHeight = 0.0f;                ///< largest of its surfaces' heights
+  std::uint32_t primitivesPerInstance = 0; ///< of a surface that VTK draws as instances; else 0
 };
 
-/// How many corners the primitives have that a mapper is about to draw as a surface; 0 if it draws
-/// something else. While VTK builds a program, or hands it to a render pass.
+/// Return the number of corners of the primitives that a mapper is about to draw as a surface; 0 if
+/// it draws something else. Valid while VTK builds a program or hands it to a render pass.
 int cornersOfPrimitives(vtkAbstractMapper* mapper, vtkProp* prop);
 
-/// Finds the snapshot's surfaces again when VTK draws them. VTK names a mapper (of a composite data
-/// set or of glyphs, one of the mapper's helpers) and a prop, which has its matrix at that moment:
-/// an actor that hangs in an assembly several times is drawn with another matrix each time.
+/// Finds the snapshot's surfaces when VTK draws them. VTK names a mapper and a prop with its
+/// present matrix. For composite data and glyphs the mapper is one of the mapper's helpers. An
+/// actor that hangs in an assembly several times is drawn with a different matrix each time.
 class DrawnLookup
 {
 public:
@@ -51,31 +51,32 @@ public:
   {
     vtkPolyData* data = nullptr;
     SurfaceCells cells = SurfaceCells::Polygons;
-    std::uint32_t surface = 0; ///< Occluders::surfaces index
+    std::uint32_t surface = 0; ///< index into Occluders::surfaces
     bool isGlyph = false;
     std::uint32_t instances = 1;
   };
 
-  /// Forgets all surfaces.
+  /// Remove all surfaces.
   void clear();
-  /// Takes over the opaque surfaces, at least one, that a prop draws with a mapper at a place;
-  /// glyphs in the order in which they are drawn.
+  /// Add the opaque surfaces, at least one, that a prop draws with a mapper at a place. Glyphs are
+  /// in the order in which VTK draws them.
   void add(const vtkProp* actor, const vtkMapper* mapper, const glm::dmat4& worldFromModel,
     std::vector<HeldSurface> held);
 
-  /// Empties the list of drawn surfaces.
+  /// Clear the list of drawn surfaces.
   /// @param translucentReceivers as in DrawnProps
   void beginFrame(const std::vector<const vtkProp*>& translucentReceivers);
-  /// What VTK is about to draw. The lines and points of a mapper are not held; the surfaces of the
-  /// translucent pass are not looked for in the snapshot.
+  /// Return the facts about the surface that VTK is about to draw. A mapper's lines and points are
+  /// not held. Surfaces of the translucent pass are not looked up in the snapshot.
   Drawn find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders);
   const std::vector<DrawnSurface>& drawnSurfaces() const { return this->drawnSurfaces_; }
 
-  /// Memory that this holds.
+  /// Return the bytes of memory in use.
   std::size_t bytes() const;
 
 private:
-  /// Who draws, and where: an actor, or for actors that VTK makes as it draws, their mapper.
+  /// The drawer and its matrix. The drawer is an actor, or the mapper of actors that VTK makes
+  /// while it draws.
   struct Place
   {
     const void* drawer;
@@ -92,7 +93,7 @@ private:
   };
   using HeldSurfaces = std::vector<HeldSurface>;
 
-  /// What find() was asked since the last beginFrame().
+  /// A call of find() since the last beginFrame().
   struct Question
   {
     const HeldSurfaces* held;
@@ -113,7 +114,7 @@ private:
   const HeldSurface* match(const HeldSurfaces& held, vtkPolyData* data, SurfaceCells cells);
 
   std::vector<HeldSurfaces> held_;
-  std::unordered_map<Place, std::size_t, PlaceHash> heldAt_; ///< numbers in held_
+  std::unordered_map<Place, std::size_t, PlaceHash> heldAt_; ///< indices into held_
   std::unordered_map<Question, Drawn, QuestionHash> answers_;
   std::unordered_set<const vtkProp*> translucentReceivers_;
   std::unordered_set<const HeldSurface*> taken_; ///< glyphs whose helper is known

@@ -52,13 +52,13 @@ namespace gnomon
 namespace
 {
 
-/// Nearly every prop is one; IsA() and casts compare with all base classes.
+/// True for nearly every prop. IsA() and casts compare with all base classes, which costs more.
 bool isPlainActor(vtkProp* prop)
 {
   return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
 }
 
-/// Whether VTK draws lines or points of a polydata.
+/// True if VTK draws lines or points of a polydata.
 bool hasLinesOrPoints(const DrawnBlock& block)
 {
   return block.data->GetNumberOfVerts() + block.data->GetNumberOfLines() > 0;
@@ -71,7 +71,7 @@ bool hasSurfaces(const DrawnBlock& block)
     [&block](SurfaceCells kind) { return cellCount(block.data, kind) > 0; });
 }
 
-/// A block of solids at the points of a polydata.
+/// Return a block of solids at the points of a polydata.
 DrawnBlock solidsBlock(vtkMapper* mapper, vtkPolyData* data, SurfaceCells cells)
 {
   DrawnBlock block;
@@ -81,7 +81,7 @@ DrawnBlock solidsBlock(vtkMapper* mapper, vtkPolyData* data, SurfaceCells cells)
   return block;
 }
 
-/// Whether a user's code changes the shaders that place an actor's vertices.
+/// True if a user's code changes the shaders that place an actor's vertices.
 bool mayMoveVertices(vtkActor* actor)
 {
   vtkShaderProperty* code = actor->GetShaderProperty();
@@ -93,15 +93,24 @@ bool mayMoveVertices(vtkActor* actor)
   return may;
 }
 
-/// Whether a prop was told to cast: a translucent one does so only then.
+/// True if a prop was told to cast. Only then does a translucent prop cast.
 bool askedToCast(vtkProp* viewProp)
 {
   vtkInformation* keys = viewProp->GetPropertyKeys();
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
 }
 
-/// Has blocks say which normals VTK shades their triangles with: not where it is told to shade them
-/// flat, nor where shader code of a user's own moves them.
+/// True if a light changes how a prop looks. The outlines that VTK's interactor styles put around
+/// what is picked reflect nothing.
+bool showsLight(vtkProperty* property)
+{
+  return property->GetLighting() &&
+    (property->GetInterpolation() == VTK_PBR || property->GetDiffuse() > 0.0 ||
+      property->GetSpecular() > 0.0);
+}
+
+/// Set the normals with which VTK shades a block's triangles. Flat or unlit properties have none.
+/// The caller skips props whose vertices a user's shader code may move.
 void takeNormals(vtkActor* actor, DrawnBlock& block)
 {
   if (actor->GetProperty()->GetInterpolation() != VTK_FLAT && actor->GetProperty()->GetLighting())
@@ -110,8 +119,8 @@ void takeNormals(vtkActor* actor, DrawnBlock& block)
   }
 }
 
-/// Reads what a prop was told of shadows. Assemblies replace the property keys of their parts by
-/// their own when they draw.
+/// Read a prop's shadow keys. While an assembly draws, its property keys replace those of its
+/// parts.
 void takeKeys(DrawnProp& prop)
 {
   if (prop.viewProp->GetPropertyKeys())
@@ -122,7 +131,7 @@ void takeKeys(DrawnProp& prop)
   }
 }
 
-/// Whether a prop that is no actor could show a shadow.
+/// True if a prop that is not an actor could show a shadow.
 bool isLit(vtkProp* leaf)
 {
   if (auto* slice = vtkImageSlice::SafeDownCast(leaf))
@@ -133,8 +142,8 @@ bool isLit(vtkProp* leaf)
   return leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly") && !isText;
 }
 
-/// Whether VTK draws nothing of a prop because it has no bounds: a mapper of solids takes them from
-/// cells, and draws points.
+/// True if VTK culls a prop for lack of bounds. A mapper of solids computes its bounds from cells,
+/// although it draws points.
 bool isCulled(vtkProp* viewProp, vtkMapper* mapper, MapperKind kind)
 {
   vtkPolyData* data =
@@ -177,9 +186,10 @@ private:
   PropMemory& memory_;
   DrawnProps drawn_;
   std::unordered_set<vtkMapper*> updated_;
-  std::map<std::string, int> skipped_; ///< what was left out, and how often
-  std::map<std::string, int> uncut_;   ///< why props cast as if textures had no holes, how often
-  int moved_ = 0;                      ///< props whose vertices shader code may move
+  std::map<std::string, int> skipped_; ///< props left out, with their number
+  std::map<std::string, int>
+    uncut_;       ///< why props cast without a texture's holes, with their number
+  int moved_ = 0; ///< number of props whose vertices shader code may move
 };
 
 //------------------------------------------------------------------------------
@@ -203,7 +213,7 @@ void Finder::addViewProp(vtkProp* viewProp)
   auto* follower = vtkProp3DFollower::SafeDownCast(viewProp);
   if (follower)
   {
-    follower->GetBounds(); // has it place its prop, as before it is drawn
+    follower->GetBounds(); // makes the follower place its prop, as VTK does before drawing
   }
   if (!follower && !viewProp->IsA("vtkAssembly") && !viewProp->IsA("vtkPropAssembly"))
   {
@@ -215,7 +225,7 @@ void Finder::addViewProp(vtkProp* viewProp)
   while (vtkAssemblyPath* path = viewProp->GetNextPath())
   {
     vtkAssemblyNode* node = path->GetLastNode();
-    // As when drawing, only the leaf's own visibility counts below the view prop.
+    // As in VTK's drawing, only the leaf's own visibility counts below the view prop.
     if (node->GetViewProp()->GetVisibility())
     {
       this->addLeaf(viewProp, number, node->GetViewProp(), node->GetMatrix());
@@ -225,7 +235,7 @@ void Finder::addViewProp(vtkProp* viewProp)
 }
 
 //------------------------------------------------------------------------------
-/// Adds a prop as addLeaf() would, which was asked in an earlier frame.
+/// Add a prop as addLeaf() would, from the answers of an earlier frame.
 void Finder::addPlain(const PlainProp& plain)
 {
   DrawnProp prop;
@@ -251,7 +261,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     {
       if (vtkProp3D* level = selectedLevel(levels))
       {
-        this->addLeaf(viewProp, path, level, matrix); // it is drawn where its owner is
+        this->addLeaf(viewProp, path, level, matrix); // VTK draws it where its owner is
       }
     }
     else if (auto* slice = vtkImageSlice::SafeDownCast(leaf); slice && askedToCast(viewProp))
@@ -271,7 +281,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   {
     return;
   }
-  const bool lit = actor->GetProperty()->GetLighting();
+  const bool lit = showsLight(actor->GetProperty());
   const bool asPoints = actor->GetProperty()->GetRepresentation() == VTK_POINTS;
   const bool pointsAreSpheres = actor->GetProperty()->GetRenderPointsAsSpheres();
   const bool sizedInPixels = pointsAreSpheres || drawsTubes(actor->GetProperty());
@@ -294,7 +304,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   MapperKind kind = kindOf(mapper);
   if (!this->serves(mapper, kind) || !this->updateInput(mapper, kind))
   {
-    return; // VTK complains of a mapper without input itself
+    return; // VTK itself reports a mapper without input
   }
   if (isCulled(viewProp, mapper, kind))
   {
@@ -324,7 +334,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   prop.worldFromModel = toGlm(drawing.matrix);
   prop.clipPlanes = clipPlanesOf(drawing.mapper);
   takeKeys(prop);
-  prop.receives = prop.receives && kind != MapperKind::Splats; // which VTK does not light
+  prop.receives = prop.receives && kind != MapperKind::Splats; // VTK does not light splats
   const char* uncutReason = nullptr;
   const TextureCutout cutout =
     this->memory_.cutouts.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
@@ -364,7 +374,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   };
   const std::size_t before = this->drawn_.props.size();
   const bool opaque = actor->HasOpaqueGeometry();
-  // A plain prop is one or the other, and VTK takes as long to answer either.
+  // A plain prop is either opaque or translucent, and VTK takes equally long to answer either.
   const bool eitherOr = isPlain && kind == MapperKind::PlainPolyData;
   const bool translucent = eitherOr ? !opaque : actor->HasTranslucentPolygonalGeometry() != 0;
   if (opaque)
@@ -398,7 +408,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
 }
 
 //------------------------------------------------------------------------------
-/// Adds the rectangle of an image that is asked to cast; VTK draws it in the opaque pass.
+/// Add the rectangle of an image that is asked to cast. VTK draws it in the opaque pass.
 void Finder::addImage(
   vtkProp* viewProp, std::size_t path, vtkImageSlice* slice, vtkMatrix4x4* matrix)
 {
@@ -430,7 +440,7 @@ void Finder::addImage(
 }
 
 //------------------------------------------------------------------------------
-/// Whether the snapshot can hold what a mapper draws; if not, it is noted.
+/// True if the snapshot can hold a mapper's surfaces; if not, count it as left out.
 bool Finder::serves(vtkMapper* mapper, MapperKind kind)
 {
   const char* reason = reasonAgainst(mapper, kind);
@@ -442,7 +452,7 @@ bool Finder::serves(vtkMapper* mapper, MapperKind kind)
 }
 
 //------------------------------------------------------------------------------
-/// Lists what a mapper draws for an actor in one of the two passes.
+/// List the blocks that a mapper draws for an actor in one of the two passes.
 void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
   const glm::dmat4& worldFromModel, bool translucent)
 {
@@ -489,7 +499,7 @@ void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
 }
 
 //------------------------------------------------------------------------------
-/// Adds the solids that a mapper draws, where the snapshot can hold them.
+/// Add a mapper's solids if the snapshot can hold them.
 void Finder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
 {
   const std::optional<DrawnSolids> drawn = drawnSolids(mapper);
@@ -503,7 +513,7 @@ void Finder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
 }
 
 //------------------------------------------------------------------------------
-/// Notes how large spheres at vertices and tubes along lines are in the last blocks.
+/// Store the radii of spheres at vertices and tubes along lines in the last blocks.
 void Finder::takePixelSizes(vtkActor* actor, std::size_t firstBlock)
 {
   const PixelSizes sizes = pixelSizes(actor->GetProperty(), this->renderer_);
@@ -522,8 +532,8 @@ void Finder::takePixelSizes(vtkActor* actor, std::size_t firstBlock)
 }
 
 //------------------------------------------------------------------------------
-/// Brings what a mapper draws up to date.
-/// @return whether there is anything
+/// Update a mapper's input.
+/// @return true if there is any
 bool Finder::updateInput(vtkMapper* mapper, MapperKind kind)
 {
   if (mapper->GetNumberOfInputConnections(0) == 0)
@@ -553,9 +563,7 @@ DrawnProps Finder::take()
   }
   if (this->moved_ > 0)
   {
-    this->drawn_.notes.push_back(
-      "vertices cast from where the data has them, not from where shader "
-      "code may move them (" +
+    this->drawn_.notes.push_back("shadows ignore shader code that may move vertices (" +
       std::to_string(this->moved_) + (this->moved_ == 1 ? " prop)" : " props)"));
   }
   return std::move(this->drawn_);
@@ -566,7 +574,7 @@ DrawnProps Finder::take()
 //------------------------------------------------------------------------------
 glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 {
-  return glm::transpose(glm::make_mat4(&matrix->Element[0][0])); // VTK's go row by row
+  return glm::transpose(glm::make_mat4(&matrix->Element[0][0])); // VTK's elements go row by row
 }
 
 //------------------------------------------------------------------------------

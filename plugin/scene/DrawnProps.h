@@ -28,79 +28,80 @@ namespace gnomon
 struct CutoutMask;
 struct PropMemory;
 
-/// A VTK matrix as GLM's: the same transformation.
+/// Return a VTK matrix as a GLM matrix of the same transformation.
 glm::dmat4 toGlm(vtkMatrix4x4* matrix);
 
-/// One polydata of a prop, drawn once where the prop is, or as a glyph many times.
+/// One polydata of a prop. VTK draws it once where the prop is, or many times as a glyph.
 struct DrawnBlock
 {
   vtkPolyData* data = nullptr;
-  vtkDataSet* glyphPoints = nullptr; ///< for a glyph: the points that it is drawn at
-  int glyphSource = 0;               ///< and its place in the mapper's table of sources
-  vtkPolyData* drawnAs = nullptr;    ///< what VTK draws in its place; null: the data itself
+  vtkDataSet* glyphPoints = nullptr; ///< for a glyph: the points at which VTK draws it
+  int glyphSource = 0;               ///< for a glyph: its index in the mapper's table of sources
+  vtkPolyData* drawnAs = nullptr;    ///< VTK draws it in the data's place; null: the data itself
   vtkMapper* solids = nullptr;       ///< the mapper, if it draws a solid at each point and no cells
-  SurfaceCells solidCells = SurfaceCells::Spheres; ///< and which
+  SurfaceCells solidCells = SurfaceCells::Spheres; ///< kind of these solids
   ///@{
-  /// Where vertex cells are drawn as spheres, or lines as tubes: their radius, which is affine over
-  /// the world, as the camera sees all in the same number of pixels. Zero where they are not.
+  /// Radius of spheres at vertex cells and of tubes along lines: an affine function of the world
+  /// position, as each has a constant number of pixels. Zero if VTK draws none.
   glm::dvec4 pointRadiusFromWorld{ 0.0 };
   glm::dvec4 lineRadiusFromWorld{ 0.0 };
   ///@}
-  bool drawsTriangles = true; ///< whether polygons and strips are drawn as such
-  /// The points' normals, where VTK shades triangles with them; else null.
+  bool drawsTriangles = true; ///< true if VTK draws polygons and strips as such
+  /// The points' normals if VTK shades triangles with them; else null.
   vtkDataArray* normals = nullptr;
-  /// Of the texture that cuts holes into it; null where none does.
+  /// Coordinates of the texture that cuts holes into it; null if none does.
   vtkDataArray* textureCoordinates = nullptr;
 };
 
 /// One leaf prop on one path of a view prop, with the surfaces that VTK draws of it in the opaque
-/// pass, or in the translucent one. Pointers are valid until the scene is next changed.
+/// or in the translucent pass. Pointers are valid until the scene changes.
 struct DrawnProp
 {
   vtkProp* viewProp = nullptr; ///< the renderer's prop: the actor itself, or the assembly above it
-  std::size_t path = 0;        ///< the path's number among the view prop's paths
-  vtkActor* actor = nullptr;   ///< whom VTK hands to a render pass: followers and the like have one
+  std::size_t path = 0;        ///< index among the view prop's paths
+  vtkActor* actor = nullptr;   ///< as VTK hands it to a render pass: for followers, an inner one
   vtkMapper* mapper = nullptr;
   glm::dmat4 worldFromModel{ 1.0 };
-  /// The mapper's clipping planes in world coordinates: (n, d), n.x + d >= 0 where it draws.
+  /// The mapper's clipping planes in world coordinates, as (n, d). VTK draws where n.x + d >= 0.
   std::vector<glm::dvec4> clipPlanes;
 
   bool casts = true;
   bool receives = true;
   bool oneSided = false;
-  bool translucent = false; ///< it is here because it was asked to cast
+  bool translucent = false; ///< listed because it was asked to cast
 
-  std::shared_ptr<const CutoutMask> cutout; ///< what a texture leaves of its blocks; null for all
+  std::shared_ptr<const CutoutMask> cutout; ///< a texture's holes in its blocks; null for none
   glm::mat4 textureTransform{ 1.0f };       ///< of the cut-out's coordinates (s, t, 0, 1)
 
-  std::size_t firstBlock = 0; ///< into DrawnProps::blocks
+  std::size_t firstBlock = 0; ///< index into DrawnProps::blocks
   std::size_t blockCount = 0;
 };
 
 struct DrawnProps
 {
   std::vector<DrawnProp> props;
-  /// What the props draw: one for vtkPolyDataMapper and vtkDataSetMapper, any number for mappers of
-  /// composite data, where each polydata is there once, and for vtkGlyph3DMapper; atoms and bonds
-  /// for vtkMoleculeMapper.
+  /// The blocks of all props. vtkPolyDataMapper and vtkDataSetMapper have one. Mappers of composite
+  /// data and vtkGlyph3DMapper have any number, each polydata once. vtkMoleculeMapper has atoms and
+  /// bonds.
   std::vector<DrawnBlock> blocks;
-  /// Actors whose translucent surfaces receive: whom VTK hands to a render pass.
+  /// Actors whose translucent surfaces receive, as VTK hands them to a render pass.
   std::vector<const vtkProp*> translucentReceivers;
-  /// Kinds of props that are visible and lit, and yet left out, each once.
+  /// Kinds of props that are visible and lit but left out, each once.
   std::vector<std::string> leftOut;
-  /// The same with how many they are, and what shadows do not show of the others, each a sentence.
+  /// Sentences: each kind left out with its number of props, and effects that shadows of other
+  /// props do not show.
   std::vector<std::string> notes;
 };
 
-/// The radius of what is sized in pixels; zero of all else.
+/// Return the radius of cells that are sized in pixels; zero for others.
 glm::dvec4 radiusFromWorld(const DrawnBlock& block, SurfaceCells cells);
 
-/// What VTK draws of a block.
+/// Return the kinds of cells that VTK draws of a block.
 const std::vector<SurfaceCells>& cellsOf(const DrawnBlock& block);
 
-/// Lists what a renderer's opaque pass draws as surfaces, and the translucent surfaces that are
-/// asked to cast, in the camera's view or not. Brings the inputs of mappers up to date first, as
-/// VTK does when it draws.
+/// List the surfaces that a renderer's opaque pass draws, and the translucent surfaces that are
+/// asked to cast. Props out of the camera's view are included. Updates the inputs of mappers first,
+/// as VTK does when it draws.
 ///
 /// @param memory the same for all frames of the renderer
 DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory);

@@ -6,8 +6,8 @@
 namespace gnomon
 {
 
-/// Begins a frame of a table whose entries have a mark `asked`: takes out those that were not asked
-/// for since the last call, and takes the mark from the others.
+/// Begin a frame of a table whose entries have a flag `asked`: remove the entries without it, and
+/// clear it in the others.
 template <typename Table>
 void forgetUnasked(Table& table)
 {

@@ -26,8 +26,8 @@ namespace
 
 using Quaternion = vtkQuaternion<double>;
 
-/// The arrays that a mapper takes from a data set, or null where it takes none. VTK shows them to
-/// subclasses only.
+/// Arrays that a mapper reads from a data set, null if it reads none. Only subclasses have access
+/// to them.
 struct ArrayAccess : vtkGlyph3DMapper
 {
   static vtkDataArray* mask(vtkGlyph3DMapper* mapper, vtkDataSet* points)
@@ -48,8 +48,8 @@ struct ArrayAccess : vtkGlyph3DMapper
   }
 };
 
-/// The mapper's table of sources: polydata or trees of them. Empty where VTK draws nothing, or only
-/// the line that stands in for a source.
+/// Return the mapper's table of sources: polydata or trees of them. It is empty if VTK draws
+/// nothing, or only the line that replaces a missing source.
 std::vector<vtkDataObject*> sourcesOf(vtkGlyph3DMapper* mapper)
 {
   std::vector<vtkDataObject*> sources;
@@ -76,7 +76,7 @@ std::vector<vtkDataObject*> sourcesOf(vtkGlyph3DMapper* mapper)
   return complete ? sources : std::vector<vtkDataObject*>();
 }
 
-/// The data sets at whose points the mapper draws.
+/// Return the data sets at whose points the mapper draws.
 std::vector<vtkDataSet*> pointSetsOf(vtkGlyph3DMapper* mapper)
 {
   std::vector<vtkDataSet*> sets;
@@ -108,7 +108,7 @@ std::vector<vtkDataSet*> pointSetsOf(vtkGlyph3DMapper* mapper)
   return sets;
 }
 
-/// A point's scale, of which VTK makes no 0.
+/// Return a point's scale. Like VTK, it replaces 0 by a tiny number.
 glm::dvec3 scaleOf(vtkGlyph3DMapper* mapper, vtkDataArray* array, vtkIdType point)
 {
   glm::dvec3 scale(1.0);
@@ -147,8 +147,8 @@ Quaternion aboutAxis(int axis, double degrees)
   return Quaternion(elements.data());
 }
 
-/// Turns +x to a direction, by half a turn around the direction's bisector with +x. The zero vector
-/// turns nothing.
+/// Return the rotation of +x to a direction, half a turn around the bisector of the two. The zero
+/// vector gives the identity.
 Quaternion towards(const glm::dvec3& direction)
 {
   if (direction.y == 0.0 && direction.z == 0.0)
@@ -184,7 +184,7 @@ glm::dmat3 orientationOf(vtkGlyph3DMapper* mapper, vtkDataArray* array, vtkIdTyp
   return glm::transpose(glm::make_mat3(&rows[0][0]));
 }
 
-/// Whether VTK takes the orientation array for what the mode asks for; if not, it draws nothing.
+/// True if the orientation array fits the mode. If not, VTK draws nothing.
 bool orientable(vtkGlyph3DMapper* mapper, vtkDataArray* array)
 {
   const int components = mapper->GetOrientationMode() == vtkGlyph3DMapper::QUATERNION ? 4 : 3;
@@ -245,7 +245,7 @@ std::vector<glm::mat4> glyphInstances(vtkGlyph3DMapper* mapper, vtkDataSet* poin
     int chosen = 0;
     if (indices)
     {
-      // A norm that no int holds (NaN too) becomes the first source, as on x86.
+      // A norm beyond int's range (NaN too) selects the first source, as on x86.
       const double norm = vtkMath::Norm(indices->GetTuple(point), indices->GetNumberOfComponents());
       chosen =
         norm <= std::numeric_limits<int>::max() ? std::min(static_cast<int>(norm), lastSource) : 0;

@@ -9,7 +9,7 @@
 namespace gnomon
 {
 
-/// Mixes a value's hash into that of a whole.
+/// Combine a value's hash with that of a whole.
 template <typename Value>
 void hashCombine(std::size_t& seed, const Value& value)
 {

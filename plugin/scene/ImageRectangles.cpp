@@ -20,8 +20,8 @@ namespace gnomon
 namespace
 {
 
-// The mapper draws by an actor of its own, which is a protected member. Naming it through a
-// subclass gives access to it without a cast.
+// The mapper's inner actor is a protected member. Naming it through a subclass gives access to it
+// without a cast.
 struct SliceMapperAccess : vtkOpenGLImageSliceMapper
 {
   static vtkActor* actor(vtkOpenGLImageSliceMapper* mapper)
@@ -37,7 +37,7 @@ struct SliceMapperAccess : vtkOpenGLImageSliceMapper
   }
 };
 
-/// The triangles of vtkOpenGLImageSliceMapper::RenderPolygon.
+/// Return the triangles of vtkOpenGLImageSliceMapper::RenderPolygon.
 vtkSmartPointer<vtkPolyData> makeRectangle()
 {
   auto rectangle = vtkSmartPointer<vtkPolyData>::New();
@@ -51,7 +51,7 @@ vtkSmartPointer<vtkPolyData> makeRectangle()
   return rectangle;
 }
 
-/// Moves the corners, if they are elsewhere.
+/// Move the corners if they differ.
 void place(vtkPoints* points, const std::array<double, 12>& corners)
 {
   bool moved = false;

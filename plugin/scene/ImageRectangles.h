@@ -16,29 +16,31 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What a vtkImageSlice shows its image on.
+/// The rectangle on which a vtkImageSlice shows its image.
 struct ImageRectangle
 {
-  vtkActor* actor = nullptr;    ///< whom VTK hands to a render pass; null: it is not served
-  vtkPolyData* drawn = nullptr; ///< what that actor draws; VTK writes it again in every frame
+  vtkActor* actor = nullptr;    ///< the actor that VTK hands to a render pass; null if not
+                                ///< supported
+  vtkPolyData* drawn = nullptr; ///< that actor's polydata, which VTK writes in every frame
   vtkPolyData* data = nullptr;  ///< the same cells, which change only when the rectangle does
 };
 
-/// Finds the rectangles of image slices, and keeps them while they are asked for.
+/// Finds the rectangles of image slices, and caches them while they are in use.
 class ImageRectangles
 {
 public:
-  /// Begins a frame: what was not asked for since the last call is forgotten.
+  /// Begin a frame: drop rectangles that nothing asked for since the last call.
   void beginFrame();
 
-  /// Brings the slice's mapper up to date first, as VTK does when it draws. Slices by
-  /// vtkImageSliceMapper are served; large images, which VTK draws in pieces, by one rectangle.
+  /// Return a slice's rectangle. Updates the slice's mapper first, as VTK does when it draws.
+  /// Supports slices by vtkImageSliceMapper. A large image, which VTK draws in pieces, has one
+  /// rectangle.
   ImageRectangle find(vtkImageSlice* slice);
 
   std::size_t bytes() const;
 
 private:
-  /// The pointer to the slice names, it is not followed.
+  /// The pointer to the slice is only an identity and is never dereferenced.
   struct Known
   {
     vtkSmartPointer<vtkPolyData> data;

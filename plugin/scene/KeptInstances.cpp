@@ -36,8 +36,8 @@ bool isAffine(const glm::dmat4& matrix)
   return matrix[0].w == 0.0 && matrix[1].w == 0.0 && matrix[2].w == 0.0 && matrix[3].w == 1.0;
 }
 
-/// Whether floats tell the vertices of an instance apart: whether it is larger than the spacing of
-/// floats where it is.
+/// True if an instance is larger than the spacing of floats where it is, so that floats can
+/// distinguish its vertices.
 bool isVisible(const glm::mat4x3& instance, const glm::dvec3& extentSource)
 {
   const glm::dmat4x3 matrix(instance);

@@ -23,7 +23,7 @@ namespace gnomon
 namespace
 {
 
-/// What a mapper draws by the program that is for triangles.
+/// Return the kind of cells that a mapper draws with its program for triangles.
 SurfaceCells cellsOfTriangles(vtkOpenGLPolyDataMapper* mapper)
 {
   if (std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") == 0) // nearly always
@@ -35,11 +35,11 @@ SurfaceCells cellsOfTriangles(vtkOpenGLPolyDataMapper* mapper)
                                               : SurfaceCells::Polygons;
 }
 
-// VTK tells a render pass neither which primitives a program draws nor where their numbers start,
-// and the numbers depend on what happened before: a mapper that has cell colours or was picked
-// counts polygon triangles exactly, else it takes one triangle per corner less two, skipped ones
-// included. So the mapper's own members are read. Naming them through a subclass gives access to
-// them without a cast.
+// VTK tells a render pass neither which primitives a program draws nor the number of the first one.
+// That number depends on history: a mapper that has cell colours or was picked counts polygon
+// triangles exactly. Others count one triangle per corner less two, including skipped ones. So the
+// mapper's own members are read. Naming them through a subclass gives access to them without a
+// cast.
 struct MapperAccess : vtkOpenGLPolyDataMapper
 {
   static std::optional<SurfaceCells> cells(vtkOpenGLPolyDataMapper* mapper)
@@ -119,7 +119,8 @@ struct MoleculeMapperAccess : vtkOpenGLMoleculeMapper
   }
 };
 
-/// A point array that VTK reads as floats without looking at its type; null for another one.
+/// Return a point array that VTK reads as floats without looking at its type; null for other
+/// arrays.
 vtkFloatArray* floatsOf(vtkPolyData* data, const char* name, int components)
 {
   vtkDataArray* array = name ? data->GetPointData()->GetArray(name) : nullptr;
@@ -130,7 +131,8 @@ vtkFloatArray* floatsOf(vtkPolyData* data, const char* name, int components)
 
 struct DataSetMapperAccess : vtkDataSetMapper
 {
-  /// What vtkDataSetMapper::Render() does before the inner mapper is told of colours and planes.
+  /// Return the inner mapper, prepared as by vtkDataSetMapper::Render(), without colours and
+  /// planes.
   static vtkPolyDataMapper* inner(vtkDataSetMapper* mapper)
   {
     vtkPolyDataMapper*& inner = mapper->*(&DataSetMapperAccess::PolyDataMapper);
@@ -222,7 +224,7 @@ std::vector<vtkMapper*> solidMappers(vtkOpenGLMoleculeMapper* mapper)
 //------------------------------------------------------------------------------
 const char* coordinatesArray(vtkAbstractMapper* mapper, const std::string& texture)
 {
-  // What draws the blocks of composite data is not told of such arrays.
+  // Helpers that draw the blocks of composite data do not receive these arrays.
   auto* openGl = vtkOpenGLPolyDataMapper::SafeDownCast(mapper);
   return openGl && blockDrawing(openGl) == BlockDrawing::None
     ? MapperAccess::coordinatesArray(openGl, texture)

@@ -55,7 +55,7 @@ void runInput(vtkMapper* mapper, MapperKind kind)
     mapper->Update(); // all of its inputs
     return;
   }
-  // A trivial producer stands for data that was set by hand: there is nothing to run.
+  // A trivial producer holds data that was set by hand, so there is no filter to run.
   vtkAlgorithm* input = mapper->GetInputAlgorithm();
   if (input->IsA("vtkTrivialProducer"))
   {

@@ -32,7 +32,7 @@ SnapshotChange OccluderCollector::collect(vtkRenderer* renderer, bool readsNorma
 }
 
 //------------------------------------------------------------------------------
-/// Makes the snapshot's surfaces findable by prop and matrix.
+/// Index the snapshot's surfaces by prop and matrix.
 void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
 {
   this->lookup_.clear();

@@ -43,6 +43,14 @@ public:
   SnapshotChange collect(vtkRenderer* renderer, bool readsNormals = false);
 
   const Occluders& occluders() const { return this->surfaces_.occluders(); }
+  /// One for each of the snapshot's surfaces.
+  const std::vector<SurfaceRecord>& records() const { return this->surfaces_.records(); }
+
+  /// The renderer's prop that a surface of the snapshot is of; only to be compared.
+  const vtkProp* propOf(std::size_t surface) const
+  {
+    return this->surfaces_.records()[surface].key.viewProp;
+  }
 
   /// What the last collect() left out although it may be visible and opaque (mappers that are not
   /// served), and what it could not do for a surface, in words.

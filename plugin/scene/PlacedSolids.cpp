@@ -30,7 +30,7 @@ glm::dvec3 tupleOf(vtkFloatArray* array, vtkIdType point)
   return { tuple[0], tuple[1], tuple[2] };
 }
 
-/// A matrix that turns the z axis to a vector's direction, with the columns across of this length.
+/// Return a matrix that maps z to `halfAxis`, and x and y to vectors of length `radius` across it.
 glm::dmat3 alongAxis(const glm::dvec3& halfAxis, double radius)
 {
   const glm::dvec3 axis = glm::normalize(halfAxis);
@@ -38,7 +38,7 @@ glm::dmat3 alongAxis(const glm::dvec3& halfAxis, double radius)
   return { radius * x, radius * glm::cross(axis, x), halfAxis };
 }
 
-/// What takes the unit solid of a mapper to a point's, but for its place.
+/// Return the linear part of the matrix from a mapper's unit solid to a point's solid.
 glm::dmat3 linearOf(const DrawnSolids& drawn, const glm::dmat3& turn, vtkIdType point)
 {
   if (drawn.cells == SurfaceCells::Spheres)
@@ -49,7 +49,7 @@ glm::dmat3 linearOf(const DrawnSolids& drawn, const glm::dmat3& turn, vtkIdType 
   return alongAxis(turn * (0.5 * size.x * tupleOf(drawn.directions, point)), size.y);
 }
 
-/// The points of a block in the world.
+/// The points of a block in world coordinates.
 class WorldPoints
 {
 public:
@@ -58,7 +58,7 @@ public:
     , worldFromModel_(worldFromModel)
   {
   }
-  /// Not a number for a point that is not there.
+  /// Return a point's position; NaN for a missing point.
   glm::dvec3 operator[](vtkIdType point) const
   {
     glm::dvec3 model(std::numeric_limits<double>::quiet_NaN());
@@ -75,13 +75,13 @@ private:
   const glm::dmat4& worldFromModel_;
 };
 
-/// A unit solid's image: its matrix, and where its middle is.
+/// Return a unit solid's matrix to its place.
 glm::dmat4x3 placed(const glm::dmat3& linear, const glm::dvec3& middle)
 {
   return { linear[0], linear[1], linear[2], middle };
 }
 
-/// Calls visit(matrix to the world) for each solid of a mapper of solids.
+/// Call visit(matrix to the world) for each solid of a mapper of solids.
 template <typename Visit>
 void visitMapperSolids(
   const DrawnBlock& block, const glm::dmat4& worldFromModel, const Visit& visit)
@@ -94,7 +94,7 @@ void visitMapperSolids(
   }
 }
 
-/// The same for each sphere that a mapper's splats show.
+/// Call visit(matrix to the world) for each sphere that a mapper's splats show.
 template <typename Visit>
 void visitSplats(const DrawnBlock& block, const glm::dmat4& worldFromModel, const Visit& visit)
 {
@@ -106,14 +106,14 @@ void visitSplats(const DrawnBlock& block, const glm::dmat4& worldFromModel, cons
   }
 }
 
-/// The same for each that is sized in pixels.
+/// Call visit(matrix to the world) for each solid that is sized in pixels.
 template <typename Visit>
 void visitPixelSolids(
   const DrawnBlock& block, SurfaceCells cells, const glm::dmat4& worldFromModel, const Visit& visit)
 {
   const WorldPoints points(block.data, worldFromModel);
   const glm::dvec4 radius = radiusFromWorld(block, cells);
-  // Behind the camera there is none.
+  // Behind the camera the radius is 0.
   const auto radiusAt = [&](const glm::dvec3& world)
   { return std::max(0.0, glm::dot(radius, glm::dvec4(world, 1.0))); };
   const bool spheres = cells == SurfaceCells::PointSpheres;
@@ -142,7 +142,7 @@ bool isKept(const std::vector<glm::dvec4>& clipPlanes, const glm::dvec3& world)
     [&](const glm::dvec4& plane) { return glm::dot(plane, glm::dvec4(world, 1.0)) >= 0.0; });
 }
 
-/// Of numbers that are not finite, the sum is not either.
+/// A sum with a non-finite number is not finite.
 bool hasFiniteNumbers(const glm::mat4x3& matrix)
 {
   const glm::dvec3 sum = glm::dmat4x3(matrix) * glm::dvec4(1.0);
@@ -171,7 +171,7 @@ PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
     const bool finite = hasFiniteNumbers(rounded);
     const bool kept = finite && isInside && hasSize(rounded);
     result.leftOutNonFinite += finite ? 0 : 1;
-    // What a plane cuts off, or lies behind the camera, is no fault of the data.
+    // Solids cut off by a plane or behind the camera are no fault of the data.
     const bool isFault = isInside && !areSizedInPixels(cells);
     result.leftOutVanished += finite && !kept && isFault ? 1 : 0;
     result.centredFromSource.push_back(kept ? rounded : glm::mat4x3(0.0f));

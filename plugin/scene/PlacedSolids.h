@@ -12,19 +12,19 @@ namespace gnomon
 {
 
 /// @file
-/// Where the solids of impostor mappers are, as VTK's shaders place them: an actor's matrix moves
-/// and turns them, and leaves their radii and lengths as they are.
+/// Places the solids of impostor mappers like VTK's shaders: an actor's matrix moves and turns them
+/// but leaves their radii and lengths.
 
-/// The solids of a block, in the order in which VTK draws them. Those without a size are left out,
-/// and those whose middle a plane cuts off. A tube has the radius of its middle all along.
+/// Return the solids of a block, in VTK's order. Solids without a size are left out, and those with
+/// the middle cut off by a plane. A tube has the radius of its middle along its whole length.
 /// @param cells solids
-/// @param clipPlanes in world coordinates, as DrawnProp has them
+/// @param clipPlanes in world coordinates, as in DrawnProp
 PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
   const glm::dmat4& worldFromModel, const std::vector<glm::dvec4>& clipPlanes,
   const glm::dvec3& centreWorld);
 
-/// The box around them where no matrix moves them; around their middles alone where the camera says
-/// how large they are.
+/// Return the box around a block's solids in model coordinates. Solids sized by the camera count by
+/// their middles alone.
 Bounds boundsOfSolids(const DrawnBlock& block, SurfaceCells cells);
 
 } // namespace gnomon

@@ -20,7 +20,7 @@ const PlainProp* PlainProps::next(vtkProp* prop)
     this->props_.emplace_back();
   }
   PlainProp& known = this->props_[this->next_++];
-  // In the order in which they hold each other: one that has not changed still holds the next.
+  // Checked in order of ownership: an unchanged object still holds the next one.
   const bool same = known.actor == prop && known.actor->GetMTime() == known.actorTime &&
     known.mapper->GetMTime() == known.mapperTime &&
     known.producer->GetMTime() == known.producerTime && known.code->GetMTime() == known.codeTime;

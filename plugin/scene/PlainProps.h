@@ -19,16 +19,14 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// An actor that draws a polydata, which was set by hand, as an opaque surface without textures,
-/// clipping planes and shader code that moves vertices: what nearly every prop of a scene with many
-/// is.
+/// An actor that draws a polydata, which was set by hand, as an opaque surface. It has no textures,
+/// no clipping planes and no shader code that moves vertices. Most props of large scenes are plain.
 ///
-/// VTK takes thousands of instructions to say so, and leads through twenty objects. What it says
-/// follows from the actor, its property, its shader code, its mapper with its colours and its list
-/// of planes, the producer that stands for the polydata, and the polydata with its arrays. Each
-/// has, or hands on, the time of its last change. No two times are the same, and an object that
-/// gets another part gets another time. So while these are the same, so are the objects, and what
-/// VTK would say.
+/// Asking VTK for these facts takes thousands of instructions and visits twenty objects. The facts
+/// follow from the actor, its property, its shader code, its mapper with its colours and its list
+/// of planes, the producer of the polydata, and the polydata with its arrays. Each has, or hands
+/// on, the time of its last change. No two times are equal, and an object that gets another part
+/// gets another time. So while these times are the same, the objects and VTK's answers are, too.
 struct PlainProp
 {
   vtkActor* actor = nullptr;
@@ -42,28 +40,28 @@ struct PlainProp
   vtkMTimeType codeTime = 0;
 };
 
-/// Remembers from one frame to the next which props are plain ones. Pointers are followed only
-/// where times show that what holds them has not changed.
+/// Caches from frame to frame which props are plain. It dereferences a pointer only if times show
+/// that its owner has not changed.
 class PlainProps
 {
 public:
-  /// Begins a frame, in which all props of a renderer are asked for, in its order.
+  /// Begin a frame. Each frame must ask for all props of a renderer, in its order.
   void beginFrame() { this->next_ = 0; }
 
-  /// The renderer's next prop, if it is as it was remembered in the last frame; else null.
+  /// Return the renderer's next prop if it is unchanged since the last frame; else null.
   const PlainProp* next(vtkProp* prop);
 
-  /// Remembers the prop that was last asked for, if it is a plain one. VTK has just said that it is
+  /// Store the prop of the last call of next(), if it is a plain one. VTK has just called it
   /// opaque, and everything is up to date.
   void remember(vtkActor* actor);
 
-  /// Ends a frame: what was not asked for is forgotten.
+  /// End a frame: drop props beyond the last one asked for.
   void endFrame() { this->props_.resize(this->next_); }
 
   std::size_t bytes() const;
 
 private:
-  std::vector<PlainProp> props_; ///< in the renderer's order; empty for the others
+  std::vector<PlainProp> props_; ///< in the renderer's order; empty for other props
   std::size_t next_ = 0;
 };
 

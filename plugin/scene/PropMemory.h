@@ -9,7 +9,7 @@
 namespace gnomon
 {
 
-/// What findDrawnProps() keeps of a renderer's props from frame to frame.
+/// findDrawnProps()'s caches of a renderer's props.
 struct PropMemory
 {
   PlainProps plainProps;

@@ -23,7 +23,7 @@ namespace gnomon
 namespace
 {
 
-/// An object, and when it was last changed.
+/// Hash an object and the time of its last change.
 template <typename Object>
 void hashObject(std::size_t& seed, Object* object)
 {
@@ -31,7 +31,7 @@ void hashObject(std::size_t& seed, Object* object)
   hashCombine(seed, object ? object->GetMTime() : 0);
 }
 
-/// Surfaces: what shadows follow from.
+/// Hash the surfaces, on which shadows depend.
 void hashDrawn(std::size_t& seed, const DrawnProps& drawn)
 {
   for (const DrawnProp& prop : drawn.props)
@@ -63,7 +63,7 @@ void hashDrawn(std::size_t& seed, const DrawnProps& drawn)
   }
 }
 
-/// Everything else about props that they have times for: colours, textures, annotations, volumes.
+/// Hash the other changes of props that have times: colours, textures, annotations, volumes.
 void hashProp(std::size_t& seed, vtkProp* prop)
 {
   hashCombine(seed, prop);
@@ -78,7 +78,7 @@ void hashProp(std::size_t& seed, vtkProp* prop)
   }
 }
 
-/// A renderer's own times also tell of selections, and of whoever draws.
+/// Hash the renderer's other settings. Its own MTime also changes with selections and drawing.
 void hashSurroundings(std::size_t& seed, vtkRenderer* renderer)
 {
   for (const double* triple : { renderer->GetBackground(), renderer->GetBackground2(),
@@ -96,7 +96,7 @@ void hashSurroundings(std::size_t& seed, vtkRenderer* renderer)
   hashCombine(seed, renderer->GetUseImageBasedLighting());
   hashObject(seed, renderer->GetEnvironmentTexture());
   hashCombine(seed, renderer->GetTwoSidedLighting());
-  hashCombine(seed, renderer->GetUseShadows()); // which shadow passes may obey
+  hashCombine(seed, renderer->GetUseShadows()); // passes may obey it
 }
 
 void hashLight(std::size_t& seed, vtkLight* light)

@@ -13,12 +13,12 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// Tells whether a renderer's scene is as it was: its props, in the camera's view or not, its
-/// lights and its background.
+/// Hashes a renderer's scene: its props, in the camera's view or not, its lights and its
+/// background.
 class ShownScene
 {
 public:
-  /// The same number means the same scene.
+  /// Return the scene's hash. The same number means the same scene.
   std::size_t hash(vtkRenderer* renderer);
 
 private:

@@ -15,7 +15,7 @@ namespace gnomon
 namespace
 {
 
-/// Whether a window's other renderers are drawn by the same pass.
+/// True if the same pass draws other renderers of the window.
 bool sharesPass(vtkRenderer* renderer)
 {
   vtkRendererCollection* const all = renderer->GetRenderWindow()->GetRenderers();

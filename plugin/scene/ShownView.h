@@ -15,32 +15,32 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// The picture that a render state asks for, in pixels: the renderer's part of the window, or the
-/// whole framebuffer that an outer pass hands in.
+/// Return the size of a render state's picture, in pixels: the renderer's part of the window, or
+/// the whole framebuffer that an outer pass hands in.
 glm::ivec2 sizeOf(const vtkRenderState* s);
 
-/// Where that is in the framebuffer that is bound.
+/// Return the origin of that picture in the bound framebuffer, in pixels.
 glm::ivec2 originOf(const vtkRenderState* s);
 
 ///@{
-/// A renderer's camera, with places relative to a point before anything becomes float.
+/// Return a renderer's camera. Positions are relative to a point before they become floats.
 /// @param centreWorld the origin of centred coordinates
 glm::dmat4 centredFromView(vtkRenderer* renderer, const glm::dvec3& centreWorld); ///< rigid
 CameraView cameraOf(vtkRenderer* renderer, const glm::dvec3& centreWorld);
 ///@}
 
-/// Adds a camera, and the size of its picture, to a hash.
+/// Add a camera and the size of its picture to a hash.
 void hashView(std::size_t& seed, const CameraView& camera, const glm::ivec2& size);
 
-/// Whether a pass, which is asked in every frame, draws several views: one eye or tile at a time,
-/// or several renderers.
+/// Tells whether a pass draws several views: one eye or tile at a time, or several renderers. The
+/// pass must ask in every frame.
 class ViewCount
 {
 public:
   bool areSeveral(vtkRenderer* renderer);
 
 private:
-  /// Which the frame before was drawn for; only compared.
+  /// renderer of the previous frame; only compared
   const vtkRenderer* before_ = nullptr;
 };
 

@@ -12,14 +12,14 @@ namespace gnomon
 namespace
 {
 
-/// Takes over where a surface's normals are now, and how high its facets.
+/// Set the matrix of a surface's normals and the height of its facets.
 void takeFacets(const SurfaceRecord& record, Surface& surface)
 {
   surface.centredFromNormals = glm::mat3(record.worldFromModel);
   double scale = 0.0;
   if (record.facetHeight > 0.0f)
   {
-    // A function of where the surface is now alone, as all of the snapshot.
+    // Depends only on the surface's present place, like the rest of the snapshot.
     for (const glm::mat4& instance : record.modelFromInstance)
     {
       scale =
@@ -88,7 +88,7 @@ SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted)
 }
 
 //------------------------------------------------------------------------------
-/// Sets the centre to that of the present box; true if it moved.
+/// Set the centre to that of the present box; true if it moved.
 bool SnapshotSurfaces::updateCentre(const std::vector<WantedSurface>& wanted)
 {
   Bounds boundsWorld;
@@ -123,7 +123,7 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::updateSurface(
     {
       return Outcome::Same;
     }
-    if (record.clipPlanes.empty()) // what is cut at planes has other triangles once it moves
+    if (record.clipPlanes.empty()) // moving changes the triangles of a clipped surface
     {
       ++change.retransformed;
       if (this->transformAgain(wanted))
@@ -140,8 +140,8 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::updateSurface(
 }
 
 //------------------------------------------------------------------------------
-/// Computes a surface's positions again where they are. False if another set of triangles would
-/// have to be dropped than before: then the surface must be read again.
+/// Compute a surface's positions at its new place. False if this changes which triangles are
+/// dropped: then the surface must be read again.
 bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
 {
   Surface& surface = this->occluders_.surfaces[wanted.old];
@@ -178,8 +178,8 @@ bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
 }
 
 //------------------------------------------------------------------------------
-/// Takes over where a surface's instances are now. False, and nothing is taken, if others are left
-/// out than before, or the other side is the front: then the surface counts as another.
+/// Store the new places of a surface's instances. False, without any change, if other instances are
+/// left out or the front side changes. Then the surface counts as another one.
 bool SnapshotSurfaces::moveInstances(std::size_t index, PlacedInstances& placed)
 {
   Surface& surface = this->occluders_.surfaces[index];
@@ -196,7 +196,7 @@ bool SnapshotSurfaces::moveInstances(std::size_t index, PlacedInstances& placed)
 }
 
 //------------------------------------------------------------------------------
-/// Writes a fresh surface over its old self if the triangles are the same.
+/// Overwrite a surface in place by its fresh copy if the triangles are the same.
 SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
 {
   Surface& surface = this->occluders_.surfaces[wanted.old];
@@ -245,7 +245,7 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
 }
 
 //------------------------------------------------------------------------------
-/// Rebuilds the list from fresh surfaces and copies of the unchanged ones.
+/// Rebuild the list from fresh surfaces and copies of the unchanged ones.
 void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
 {
   const Occluders& old = this->occluders_;
@@ -293,7 +293,7 @@ void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
       entry.topologyVersion = this->newVersion();
       entry.positionsVersion = this->newVersion();
       records.push_back(std::move(fresh.record));
-      surface.fresh.reset(); // its memory is not needed twice
+      surface.fresh.reset(); // frees memory early
     }
     else
     {
@@ -318,7 +318,7 @@ void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
 }
 
 //------------------------------------------------------------------------------
-/// Takes over the props' flags and what their textures cut out; true if one changed.
+/// Store the props' flags and cut-outs; true if one changed.
 bool SnapshotSurfaces::updateFlags(const std::vector<WantedSurface>& wanted)
 {
   bool changed = false;
@@ -338,7 +338,7 @@ bool SnapshotSurfaces::updateFlags(const std::vector<WantedSurface>& wanted)
 }
 
 //------------------------------------------------------------------------------
-/// Boxes and counts over all surfaces.
+/// Compute boxes and counts over all surfaces.
 void SnapshotSurfaces::summarise()
 {
   this->occluders_.castersCentred = Bounds();

@@ -11,12 +11,12 @@
 namespace gnomon
 {
 
-/// What one update of the snapshot did.
+/// The result of one update of the snapshot.
 struct SnapshotChange
 {
-  int extracted = 0;     ///< surfaces whose mapper's input was read
-  int retransformed = 0; ///< surfaces whose centred positions were computed again
-  bool any = false;      ///< whether any surface is new, gone, changed or moved
+  int extracted = 0;     ///< surfaces that were read from their mapper's input
+  int retransformed = 0; ///< surfaces whose centred positions were recomputed
+  bool any = false;      ///< true if any surface is new, gone, changed or moved
 };
 
 /// The surfaces in the snapshot, with a record of each. An update leaves unchanged surfaces alone,
@@ -24,16 +24,16 @@ struct SnapshotChange
 class SnapshotSurfaces
 {
 public:
-  /// Makes the snapshot hold these surfaces, in this order.
+  /// Make the snapshot hold these surfaces, in this order.
   SnapshotChange update(std::vector<WantedSurface>& wanted);
 
   const Occluders& occluders() const { return this->occluders_; }
-  /// One for each of the snapshot's surfaces.
+  /// Return the records, one for each of the snapshot's surfaces.
   const std::vector<SurfaceRecord>& records() const { return this->records_; }
   std::size_t bytes() const;
 
 private:
-  /// What became of a surface since the last frame.
+  /// A surface's change since the last frame.
   enum class Outcome
   {
     Same,

@@ -16,7 +16,7 @@ namespace gnomon
 namespace
 {
 
-/// Whether a matrix keeps lengths: VTK draws solids at the lengths that they have before it.
+/// True if a matrix preserves lengths. VTK draws solids with their lengths before the matrix.
 bool keepsLengths(const glm::dmat4& matrix)
 {
   const glm::dmat3 linear(matrix);

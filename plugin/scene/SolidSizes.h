@@ -17,22 +17,22 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// Why the snapshot cannot hold the solids that a mapper draws; null if it can.
-/// @param drawn nothing where VTK cannot read the mapper's arrays
+/// Return why the snapshot cannot hold a mapper's solids; null if it can.
+/// @param drawn nothing if VTK cannot read the mapper's arrays
 const char* reasonAgainstSolids(
   const std::optional<DrawnSolids>& drawn, vtkMapper* mapper, const glm::dmat4& worldFromModel);
 
-/// Whether a property has lines drawn as tubes, as vtkOpenGLPolyDataMapper::DrawingTubes() says.
+/// True if a property draws lines as tubes, as in vtkOpenGLPolyDataMapper::DrawingTubes().
 bool drawsTubes(vtkProperty* property);
 
-/// The radii of what is sized in pixels, as DrawnBlock has them.
+/// Radii of solids that are sized in pixels, as in DrawnBlock.
 struct PixelSizes
 {
   glm::dvec4 pointRadiusFromWorld{ 0.0 };
   glm::dvec4 lineRadiusFromWorld{ 0.0 };
 };
 
-/// Those of the shader of vtkOpenGLPolyDataMapper.
+/// Return the radii of vtkOpenGLPolyDataMapper's shader.
 PixelSizes pixelSizes(vtkProperty* property, vtkRenderer* renderer);
 
 } // namespace gnomon

@@ -20,7 +20,7 @@ namespace gnomon
 namespace
 {
 
-/// A component of a tuple; its length where there is no such component.
+/// Return a component of a tuple; the tuple's length if there is no such component.
 double componentOf(vtkDataArray* array, vtkIdType point, int component)
 {
   const int count = array->GetNumberOfComponents();
@@ -36,7 +36,7 @@ double componentOf(vtkDataArray* array, vtkIdType point, int component)
   return std::sqrt(square);
 }
 
-/// The points that VTK draws splats at: those of vertex cells, or all where there are none.
+/// Return the points at which VTK draws splats: those of vertex cells, or all if there are none.
 std::vector<vtkIdType> drawnPoints(vtkPolyData* data)
 {
   std::vector<vtkIdType> points;

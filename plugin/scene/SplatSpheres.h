@@ -18,23 +18,24 @@ namespace gnomon
 /// Splats of a vtkPointGaussianMapper whose shader code cuts discs out of them. They show spheres
 /// without any light, so they cast as spheres and receive nothing.
 
-/// Why a mapper's splats cast as no spheres; null if they do.
+/// Return why a mapper's splats do not cast as spheres; null if they do.
 const char* reasonAgainstSplats(vtkPointGaussianMapper* mapper);
 
-/// The polydata whose points a mapper draws.
+/// Return the polydata at whose points a mapper draws.
 /// @param mapper whose input is up to date
 std::vector<vtkPolyData*> splatBlocks(vtkPointGaussianMapper* mapper);
 
-/// When the mapper of a block's solids, or what it takes their sizes from, changed last.
+/// Return the time of the last change of a block's mapper of solids, or of the inputs for their
+/// sizes.
 vtkMTimeType sizesTime(vtkMapper* solids);
 
 struct SplatSphere
 {
   vtkIdType point;
-  double radius; ///< in the world: an actor's matrix does not change it
+  double radius; ///< in world units: an actor's matrix does not change it
 };
 
-/// The spheres of a block: the discs' radii are where a splat's offset has length 1, as
+/// Return the spheres of a block. A disc's radius is where a splat's offset has length 1, as
 /// vtkOpenGLPointGaussianMapper places its corners.
 std::vector<SplatSphere> splatSpheres(vtkPointGaussianMapper* mapper, vtkPolyData* data);
 

@@ -12,7 +12,7 @@ namespace gnomon
 namespace
 {
 
-/// A polygon's corner, with what is affine on the polygon.
+/// A polygon's corner, with quantities that are affine on the polygon.
 struct Corner
 {
   glm::dvec3 position;
@@ -25,18 +25,18 @@ double distance(const glm::dvec4& plane, const Corner& corner)
   return glm::dot(glm::dvec3(plane), corner.position) + plane.w;
 }
 
-/// Where the edge between a point inside a plane and one outside meets it. Always computed from the
-/// inside, so that triangles that share an edge are cut at the same point.
+/// Return where the edge from a point inside a plane to one outside meets it. It is always computed
+/// from the inside, so triangles that share an edge are cut at the same point.
 Corner cut(const glm::dvec4& plane, const Corner& inside, const Corner& outside)
 {
   const double in = distance(plane, inside);
-  const double out = distance(plane, outside); // below 0 <= in, so that they differ
+  const double out = distance(plane, outside); // out < 0 <= in, so they differ
   const double share = in / (in - out);
   return { inside.position + (outside.position - inside.position) * share,
     inside.textureCoordinates + (outside.textureCoordinates - inside.textureCoordinates) * share };
 }
 
-/// The part of a convex polygon inside a plane (Sutherland and Hodgman).
+/// Return the part of a convex polygon inside a plane (Sutherland and Hodgman).
 Polygon clip(const Polygon& polygon, const glm::dvec4& plane)
 {
   Polygon result;

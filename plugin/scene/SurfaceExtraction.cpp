@@ -32,8 +32,8 @@ bool finite(const glm::vec3& v)
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Calls worker(array) with the points' real type where it is float or double, whatever the memory
-/// layout; any other array is read through vtkDataArray, as doubles.
+/// Call worker(array) with the points' real type if that is float or double, in any memory layout.
+/// Other arrays are read through vtkDataArray, as doubles.
 template <typename Worker>
 void withPoints(vtkDataArray* points, Worker& worker)
 {
@@ -64,7 +64,7 @@ struct Triangulator
       {
         this->triangles.emplace_back(DrawnTriangles::missingVertex);
       }
-      // Compared in the array's own type, where NaN differs from itself, as VTK does.
+      // Compared in the array's own type, where NaN differs from itself, as in VTK.
       else if (this->kind == SurfaceCells::Strips ||
         (points[a] != points[b] && points[a] != points[c] && points[b] != points[c]))
       {
@@ -129,8 +129,8 @@ void readVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfVe
   withPoints(data->GetPoints()->GetData(), reader);
 }
 
-/// Renumbers triangles from points to the vertices that they use. Between calls, all of
-/// vertexOfPoint is missingVertex; only the entries in use are set and reset.
+/// Renumber triangles from points to the vertices that they use. Between calls, all of
+/// vertexOfPoint is missingVertex. Only the entries in use are set and reset.
 void compact(
   DrawnTriangles& drawn, std::size_t pointCount, std::vector<std::uint32_t>& vertexOfPoint)
 {
@@ -238,8 +238,8 @@ vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells)
   {
     return data->GetMTime();
   }
-  // The object's own time, which Modified() and every Set method raise; the override adds point and
-  // cell data.
+  // The object's own time, which Modified() and every Set method raise. vtkPolyData's override adds
+  // point and cell data.
   return std::max({ data->vtkObject::GetMTime(), data->GetPoints()->GetMTime(),
     data->GetPoints()->GetData()->GetMTime(), cellArray(data, cells)->GetMTime() });
 }
@@ -275,7 +275,7 @@ void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfV
   readVertices(data, pointOfVertex, vertexCount,
     [&](std::size_t vertex, const glm::dvec3& position)
     {
-      // w is 1 but for a projective user matrix; w = 0 divides to a non-finite vertex.
+      // w differs from 1 only for a projective user matrix. With w = 0 the vertex is not finite.
       const glm::dvec4 world = worldFromModel * glm::dvec4(position, 1.0);
       positionsCentred[vertex] = glm::vec3(glm::dvec3(world) / world.w - centreWorld);
     });
@@ -320,7 +320,7 @@ std::vector<glm::vec2> readTextureCoordinates(vtkDataArray* array, const glm::ma
       const auto t = static_cast<float>(two ? array->GetComponent(point, 1) : 0.0);
       const glm::vec4 transformed = transform * glm::vec4(s, t, 0.0f, 1.0f);
       const glm::vec2 result = glm::vec2(transformed) / transformed.w;
-      // With a single component VTK keeps to it after the transformation, too.
+      // An array of one component keeps one component after the transformation, as in VTK.
       const glm::vec2 kept(result.x, two ? result.y : 0.0f);
       coordinates[vertex] = std::isfinite(kept.x) && std::isfinite(kept.y) ? kept : glm::vec2(0.0f);
     }
@@ -344,8 +344,8 @@ Defect defectOf(const glm::uvec3& triangle, const glm::vec3* positionsCentred)
   }
   const glm::dvec3 ab = glm::dvec3(b) - glm::dvec3(a);
   const glm::dvec3 ac = glm::dvec3(c) - glm::dvec3(a);
-  // The cross product of points on a line is not exactly 0 once its products round: its rounding
-  // error is below 2 epsilon |ab| |ac| per component.
+  // On collinear points the computed cross product is not exactly 0. Its rounding error is below 2
+  // epsilon |ab| |ac| per component.
   constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
   const double area = glm::length(glm::cross(ab, ac));
   return area > rounding * glm::length(ab) * glm::length(ac) ? Defect::None : Defect::ZeroArea;

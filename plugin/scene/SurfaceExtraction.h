@@ -21,8 +21,8 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What VTK draws of a polydata as surfaces. Each kind has a range of primitive numbers of its own,
-/// and becomes a surface of its own in the snapshot.
+/// Kinds of cells that VTK draws as surfaces. Each kind has its own range of primitive numbers, and
+/// becomes its own surface in the snapshot.
 enum class SurfaceCells
 {
   Polygons,
@@ -33,54 +33,54 @@ enum class SurfaceCells
   LineTubes     ///< one along each part of a line, likewise
 };
 
-/// Whether the camera says how large they are.
+/// True if the camera determines their size.
 inline bool areSizedInPixels(SurfaceCells cells)
 {
   return cells == SurfaceCells::PointSpheres || cells == SurfaceCells::LineTubes;
 }
 
-/// What the points of a kind are drawn as; none where cells are drawn as triangles.
+/// Return the solid that VTK draws at the points of a kind; none if cells are drawn as triangles.
 Solid solidOf(SurfaceCells cells);
 
-/// The number of cells of a kind, or of solids.
+/// Return the number of cells of a kind, or of solids.
 vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells);
 
-/// Names the points and the cells of a kind: those of a shallow copy are the same.
+/// Return the identity of the points and the cells of a kind. A shallow copy has the same.
 std::pair<const void*, const void*> identityOf(vtkPolyData* data, SurfaceCells cells);
 
-/// When the points or the cells last changed. Unlike vtkPolyData::GetMTime() it leaves out the
-/// point and cell data: new colours are no new shape. Of spheres and sticks it does not,
-/// since arrays hold their sizes.
+/// Return when the points or the cells last changed. Unlike vtkPolyData::GetMTime() it excludes
+/// point and cell data, as new colours do not change the shape. For spheres and sticks it includes
+/// them, since arrays hold their sizes.
 vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells);
 
-/// The triangles that VTK draws of a polydata, in its order: polygons fanned from their first
-/// vertex, strips with every other triangle turned, polygon triangles with two equal vertices left
-/// out (as vtkOpenGLIndexBufferObject builds them).
+/// The triangles that VTK draws of a polydata, in its order. Polygons are fanned from their first
+/// vertex, and every other triangle of a strip is reversed. Polygon triangles with two equal
+/// vertices are left out (as in vtkOpenGLIndexBufferObject).
 struct DrawnTriangles
 {
-  std::vector<glm::uvec3>
-    triangles; ///< vertex numbers; `missingVertex` for a point that is not there
+  std::vector<glm::uvec3> triangles; ///< vertex numbers; `missingVertex` for a missing point
   std::uint32_t vertexCount = 0;
-  /// The point of each vertex, in order of first use; empty when every point is used and vertex n
-  /// is point n.
+  /// The point of each vertex, in order of first use. Empty if every point is used and vertex n is
+  /// point n.
   std::vector<std::uint32_t> pointOfVertex;
   Bounds boundsModel; ///< box around the finite vertices, in model coordinates
 
   static constexpr std::uint32_t missingVertex = 0xffffffffu;
 };
 
+/// Return the triangles that VTK draws of a polydata's cells of a kind.
 /// @param vertexOfPoint scratch memory, the same for many calls: blocks of one data set may share a
-/// large point array, and none of them has to pay for all of it
-/// @param cellOfTriangle where not null, becomes each triangle's cell, counted among its kind
+/// large point array, and this saves each of them the cost of all of it
+/// @param cellOfTriangle if not null, receives each triangle's cell, counted among its kind
 DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint, std::vector<std::uint32_t>* cellOfTriangle = nullptr);
 
-/// Why a drawn triangle has no place in the snapshot.
+/// Why the snapshot leaves out a drawn triangle.
 enum class Defect : std::uint8_t
 {
   None,
   NonFinite, ///< a vertex is not finite, too large for a float, or missing
-  ZeroArea   ///< its vertices lie on a line
+  ZeroArea   ///< its vertices are collinear
 };
 
 /// A drawn triangle that the snapshot leaves out.
@@ -95,28 +95,28 @@ struct DroppedTriangle
   }
 };
 
-/// Writes centred positions of a surface's vertices: worldFromModel * point - centreWorld in double
-/// precision, rounded once to float. Points that are not finite stay so.
+/// Write the centred positions of a surface's vertices: worldFromModel * point - centreWorld in
+/// double precision, rounded once to float. Points that are not finite stay so.
 void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfVertex,
   std::size_t vertexCount, const glm::dmat4& worldFromModel, const glm::dvec3& centreWorld,
   glm::vec3* positionsCentred);
 
-/// A surface's texture coordinates, one for each of its vertices, as VTK's vertex shader makes them
-/// of an array with one or two components: transform * (s, t, 0, 1) over its last component, in
-/// float. What is not finite, or not in the array, becomes 0.
+/// Return a surface's texture coordinates, one for each of its vertices. As in VTK's vertex shader,
+/// they are transform * (s, t, 0, 1) divided by its last component, in float. The array has one or
+/// two components. Missing and non-finite values become 0.
 std::vector<glm::vec2> readTextureCoordinates(vtkDataArray* array, const glm::mat4& transform,
   const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount);
 
-/// A surface's normals, one for each of its vertices, in model coordinates; none if the array has
-/// too few.
+/// Return a surface's normals, one for each of its vertices, in model coordinates; none if the
+/// array has too few.
 std::vector<glm::vec3> readNormals(
   vtkDataArray* array, const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount);
 
-/// What is wrong with a triangle at these positions.
+/// Return the defect of a triangle at these positions.
 Defect defectOf(const glm::uvec3& triangle, const glm::vec3* positionsCentred);
 
-/// Sets the vertices that are not finite to zero. No kept triangle refers to them; this keeps NaN
-/// out of buffers and boxes.
+/// Set non-finite vertices to zero. No triangle of the snapshot refers to them; this keeps NaN out
+/// of buffers and boxes.
 void clearNonFinite(glm::vec3* positionsCentred, std::size_t vertexCount);
 
 } // namespace gnomon

@@ -36,7 +36,7 @@ std::vector<glm::vec2> repeated(const std::vector<glm::vec2>& numbers, std::size
   return result;
 }
 
-/// Normals as each of these matrices turns them.
+/// Return the normals turned by each of the matrices.
 std::vector<glm::vec3> turned(
   const std::vector<glm::vec3>& normals, const std::vector<glm::mat4>& matrices)
 {
@@ -53,7 +53,7 @@ std::vector<glm::vec3> turned(
   return result;
 }
 
-/// The largest height of a polydata's facets, in its own coordinates.
+/// Return the largest height of a polydata's facets, in its own coordinates.
 float facetHeight(vtkPolyData* data, const DrawnTriangles& drawn,
   const std::vector<glm::vec3>& normals, const std::vector<std::uint32_t>& pointOfVertex)
 {
@@ -67,8 +67,8 @@ float facetHeight(vtkPolyData* data, const DrawnTriangles& drawn,
   return largestHeightOf(positions, drawn.triangles, normals);
 }
 
-/// Repeats a glyph's triangles for each of its instances, each with vertices and texture
-/// coordinates of its own. None, if that would be too many.
+/// Repeat a glyph's triangles for each of its instances, each with its own vertices and texture
+/// coordinates. Too many triangles become none.
 void expandInstances(FreshSurface& fresh)
 {
   std::vector<glm::uvec3>& triangles = fresh.triangles;
@@ -99,7 +99,7 @@ void expandInstances(FreshSurface& fresh)
   fresh.pointNormals = turned(fresh.pointNormals, fresh.record.modelFromInstance);
 }
 
-/// Takes the triangles that have a defect out of a fresh surface.
+/// Remove the triangles that have a defect from a fresh surface.
 void dropDefects(FreshSurface& fresh)
 {
   const std::size_t drawnCount = fresh.triangles.size();
@@ -128,7 +128,7 @@ void dropDefects(FreshSurface& fresh)
   fresh.triangles.resize(keptCount);
 }
 
-/// Computes what a surface that is kept as instances needs; false if it cannot be.
+/// Compute the source and the instances of a surface; false if it cannot be held as instances.
 bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3& centreWorld)
 {
   SurfaceRecord& record = fresh.record;
@@ -148,7 +148,7 @@ bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3&
   return true;
 }
 
-/// The mesh of solids, and the box around them before their actor's matrix.
+/// Return the mesh of solids, and the box around them before their actor's matrix.
 FreshSurface readSolids(const DrawnBlock& block, SurfaceCells cells)
 {
   const auto count = static_cast<std::size_t>(cellCount(block.data, cells));
@@ -189,7 +189,7 @@ vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceC
   }
   if (block.glyphPoints)
   {
-    // When VTK computes the instances again.
+    // The time at which VTK recomputes the instances.
     auto* mapper = static_cast<vtkGlyph3DMapper*>(prop.mapper);
     vtkObject* attributes = mapper->GetBlockAttributes();
     time = std::max({ time, mapper->GetMTime(), block.glyphPoints->GetMTime(),

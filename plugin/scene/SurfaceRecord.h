@@ -25,12 +25,12 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What a surface is, from one frame to the next. The pointers name; they are not followed.
+/// A surface's identity from frame to frame. The pointers are never dereferenced.
 struct SurfaceKey
 {
   const vtkProp* viewProp;
   std::size_t path;
-  const vtkProp* actor; ///< who draws it
+  const vtkProp* actor; ///< the actor that draws it
   bool translucent;
   const vtkPolyData* data;
   const vtkDataSet* glyphPoints;
@@ -63,7 +63,7 @@ struct SurfaceKeyHash
   }
 };
 
-/// What a surface's texture coordinates were read from. The array only names.
+/// Source of a surface's texture coordinates. The array is never dereferenced.
 struct CoordinatesSource
 {
   const vtkDataArray* array = nullptr; ///< null without a cut-out
@@ -78,10 +78,10 @@ struct CoordinatesSource
 };
 CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& block);
 
-/// What a surface's normals were read from. The array only names.
+/// Source of a surface's normals. The array is never dereferenced.
 struct NormalsSource
 {
-  const vtkDataArray* array = nullptr; ///< null where they are not read
+  const vtkDataArray* array = nullptr; ///< null if they are not read
   vtkMTimeType time = 0;
 
   bool operator==(const NormalsSource& other) const
@@ -91,24 +91,24 @@ struct NormalsSource
 };
 NormalsSource normalsSource(const DrawnProp& prop, const DrawnBlock& block);
 
-/// What is remembered of a surface beside its place in the snapshot.
+/// A surface's cached state beside its triangles in the snapshot.
 struct SurfaceRecord
 {
   SurfaceKey key;
   vtkMTimeType shapeTime = 0;
   glm::dmat4 worldFromModel{ 1.0 };
   std::vector<glm::dvec4> clipPlanes;
-  glm::dvec4 radiusFromWorld{ 0.0 }; ///< of what is sized in pixels
+  glm::dvec4 radiusFromWorld{ 0.0 }; ///< of solids sized in pixels
   CoordinatesSource coordinates;
   NormalsSource normals;
-  float facetHeight = 0.0f;                 ///< Surface::facetHeight, where the normals are
+  float facetHeight = 0.0f;                 ///< Surface::facetHeight, in the normals' coordinates
   std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles, of one instance
-  /// Where the polydata is drawn in its prop's model coordinates: once as it is, or as a glyph at
-  /// any number of places.
+  /// The places of the polydata in its prop's model coordinates: one as it is, any number as a
+  /// glyph.
   std::vector<glm::mat4> modelFromInstance{ glm::mat4(1.0f) };
-  bool tooManyTriangles = false; ///< more than the bound, so that it has none
-  /// Whether the snapshot keeps it as instances, of a source whose coordinates have their origin at
-  /// this point of the polydata's.
+  bool tooManyTriangles = false; ///< more than the bound, so it has none
+  /// True if the snapshot holds it as instances of a source. The origin of source coordinates is
+  /// sourceCentre in the polydata.
   bool keptAsInstances = false;
   glm::dvec3 sourceCentre{ 0.0 };
   Bounds boundsSource;              ///< in source coordinates
@@ -119,13 +119,13 @@ struct SurfaceRecord
   Bounds boundsCentred;
 };
 
-/// A surface that was read from its polydata, and is not in the snapshot yet. Vertices count from
+/// A surface that was read from its polydata and is not in the snapshot yet. Vertices count from
 /// the surface's first.
 struct FreshSurface
 {
   SurfaceRecord record;
   std::size_t vertexCount = 0;               ///< of one instance
-  std::vector<glm::vec3> positionsCentred;   ///< in source coordinates if it is kept as instances
+  std::vector<glm::vec3> positionsCentred;   ///< in source coordinates if held as instances
   std::vector<glm::vec2> textureCoordinates; ///< as in Surface; of one instance until it is placed
   std::vector<glm::vec3> pointNormals;       ///< as in Surface
   PlacedInstances instances;
@@ -133,7 +133,7 @@ struct FreshSurface
   std::vector<std::uint32_t> triangleOfDrawn;
 };
 
-/// The box around the vertices that triangles use.
+/// Return the box around the vertices that triangles use.
 template <typename Triangle>
 Bounds boundsOf(Triangle first, Triangle last, const glm::vec3* positions)
 {
@@ -148,40 +148,40 @@ Bounds boundsOf(Triangle first, Triangle last, const glm::vec3* positions)
   return bounds;
 }
 
-/// The box around a transformed box.
+/// Return the box around a transformed box.
 Bounds transformed(const Bounds& box, const glm::dmat4& matrix);
 
-/// When the shape of a surface last changed, or the instances that it is drawn as.
+/// Return when the shape of a surface, or its instances, last changed.
 vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells);
 
-/// Reads a surface from its polydata, without the positions; of glyphs, the source. These are to be
-/// kept as instances where that is cheaper and no clipping planes cut them.
+/// Read a surface from its polydata, without the positions. For glyphs, read the source. Glyphs are
+/// held as instances if that is cheaper and no clipping planes cut them.
 ///
 /// @param vertexOfPoint as for triangulate()
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint);
 
-/// Whether VTK draws a surface where its record says, and as large.
+/// True if VTK draws a surface at the place and in the size of its record.
 bool isWhere(const SurfaceRecord& record, const DrawnProp& prop, const DrawnBlock& block);
 
-/// Computes a fresh surface's positions, and leaves out what the snapshot does not hold. Glyphs
-/// that are not kept as instances, or cannot be, are expanded to the triangles of all of them.
+/// Compute a fresh surface's positions, and remove triangles that the snapshot does not hold.
+/// Glyphs that are not, or cannot be, held as instances are expanded to the triangles of all of
+/// them.
 void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& block,
   const glm::dvec3& centreWorld);
 
-/// Computes the matrices of the instances that a surface is kept as, where its record says that its
-/// prop is; nothing as above.
+/// Compute the matrices of a surface's instances from its record's place. Nothing if rays and maps
+/// cannot use them (KeptInstances.h).
 std::optional<PlacedInstances> placeKeptInstances(
   const SurfaceRecord& record, const DrawnBlock& block, const glm::dvec3& centreWorld);
 
-/// Takes over to a record where its instances are.
+/// Store the places of a surface's instances in its record.
 ///
 /// @param positionsSource the surface's vertices, as many as vertexCount
 void recordPlaces(const PlacedInstances& placed, const glm::vec3* positionsSource,
   std::size_t vertexCount, SurfaceRecord& record);
 
-/// Computes the centred positions of all instances of a surface, as many as its record has, where
-/// its record says that its prop is.
+/// Compute the centred positions of all instances in a surface's record, from the record's place.
 void placeInstances(const DrawnBlock& block, const SurfaceRecord& record, std::size_t vertexCount,
   const glm::dvec3& centreWorld, glm::vec3* positionsCentred);
 

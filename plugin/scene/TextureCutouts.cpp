@@ -31,7 +31,7 @@ namespace gnomon
 namespace
 {
 
-/// VTK reads the array that the texture's user has chosen, and shows it to subclasses only.
+/// VTK reads the array that the texture's user has chosen. Only subclasses have access to it.
 struct TextureAccess : vtkTexture
 {
   static vtkDataArray* texels(vtkTexture* texture, vtkImageData* image)
@@ -41,10 +41,11 @@ struct TextureAccess : vtkTexture
   }
 };
 
-/// The sides that any OpenGL of version 4.1 and later serves. VTK resamples larger ones.
+/// The side that every OpenGL since version 4.1 supports. VTK resamples larger images.
 constexpr int largestSide = 16384;
 
-/// How many texels VTK makes of an image, along both directions; zero where it makes none.
+/// Return the number of texels that VTK makes of an image along both directions; zero if it makes
+/// none.
 glm::ivec2 sizeOf(vtkImageData* image, vtkDataArray* texels)
 {
   glm::ivec3 size(0);
@@ -61,8 +62,8 @@ glm::ivec2 sizeOf(vtkImageData* image, vtkDataArray* texels)
   return flat && count <= texels->GetNumberOfTuples() ? used : glm::ivec2(0);
 }
 
-/// The colours that VTK hands to OpenGL, as vtkOpenGLTexture makes them: those with three or four
-/// components as they are, where their type allows it; all others as RGBA from the lookup table.
+/// Return the colours that VTK hands to OpenGL, as in vtkOpenGLTexture. Three or four components
+/// pass unchanged if their type allows it. Others become RGBA by the lookup table.
 vtkSmartPointer<vtkDataArray> colorsOf(vtkTexture* texture, vtkDataArray* texels)
 {
   const int mode = texture->GetColorMode();
@@ -76,7 +77,7 @@ vtkSmartPointer<vtkDataArray> colorsOf(vtkTexture* texture, vtkDataArray* texels
   vtkSmartPointer<vtkScalarsToColors> colors = texture->GetLookupTable();
   if (!colors)
   {
-    colors = vtkSmartPointer<vtkLookupTable>::New(); // VTK's, too, has no colour without alpha
+    colors = vtkSmartPointer<vtkLookupTable>::New(); // like VTK's, always with alpha
   }
   return vtk::TakeSmartPointer<vtkDataArray>(colors->MapScalars(texels, mode, -1));
 }
@@ -96,7 +97,7 @@ TextureWrap wrapOf(vtkTexture* texture)
   }
 }
 
-/// Null where nothing is cut out.
+/// Return a texture's mask; null if it cuts nothing out.
 std::shared_ptr<const CutoutMask> readMask(
   vtkTexture* texture, vtkDataArray* texels, glm::ivec2 size)
 {
@@ -135,7 +136,7 @@ std::shared_ptr<const CutoutMask> readMask(
   return holes ? std::make_shared<const CutoutMask>(std::move(mask)) : nullptr;
 }
 
-/// The textures of a property that its materials read by name, not as colours to blend.
+/// True for textures that materials read by name, not as colours to blend.
 bool isSpecial(const std::string& name)
 {
   static const std::array<const char*, 7> special = { "albedoTex", "normalTex", "materialTex",
@@ -144,7 +145,7 @@ bool isSpecial(const std::string& name)
     special.begin(), special.end(), [&](const char* other) { return name == other; });
 }
 
-/// Whether the alpha of a texture that is not the first changes that of the first.
+/// True if a texture that is not the first changes the alpha of the first.
 bool blendsAlpha(vtkTexture* texture)
 {
   switch (texture->GetBlendingMode())
@@ -161,8 +162,8 @@ bool blendsAlpha(vtkTexture* texture)
 
 using NamedTexture = std::pair<std::string, vtkTexture*>;
 
-/// The textures whose alpha counts, in VTK's order. Physically based shading looks at the albedo
-/// texture only, other shading at whatever else is flat.
+/// Return the textures whose alpha counts, in VTK's order. Physically based shading uses the albedo
+/// texture only, other shading all other flat textures.
 std::vector<NamedTexture> texturesWithAlpha(vtkActor* actor)
 {
   vtkProperty* property = actor->GetProperty();
@@ -192,8 +193,8 @@ std::vector<NamedTexture> texturesWithAlpha(vtkActor* actor)
   return textures;
 }
 
-/// What VTK's vertex shader transforms texture coordinates by. The actor's own texture sets that
-/// key for as long as it is drawn.
+/// Return the matrix by which VTK's vertex shader transforms texture coordinates. The actor's own
+/// texture sets that key while VTK draws the actor.
 glm::mat4 transformOf(vtkActor* actor, vtkInformation* keys)
 {
   const double* rows = nullptr;
@@ -213,7 +214,7 @@ glm::mat4 transformOf(vtkActor* actor, vtkInformation* keys)
   return transform;
 }
 
-/// Why a mapper's or a property's way with textures is not served; null if it is.
+/// Return why the textures of a mapper or a property are not supported; null if they are.
 const char* unservedReason(vtkActor* actor, vtkMapper* mapper)
 {
   auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper);
@@ -237,7 +238,7 @@ void TextureCutouts::beginFrame()
 }
 
 //------------------------------------------------------------------------------
-/// A texture's mask as it is now.
+/// Return a texture's mask in its present state.
 const TextureCutouts::Known& TextureCutouts::known(vtkTexture* texture)
 {
   Known& known = this->known_[texture];
@@ -260,7 +261,7 @@ const TextureCutouts::Known& TextureCutouts::known(vtkTexture* texture)
     vtkDataArray* texels = image ? TextureAccess::texels(texture, image) : nullptr;
     const glm::ivec2 size = texels ? sizeOf(image, texels) : glm::ivec2(0);
     auto mask = texels ? readMask(texture, texels, size) : nullptr;
-    if (!mask || !known.mask || !(*mask == *known.mask)) // other colours are no other holes
+    if (!mask || !known.mask || !(*mask == *known.mask)) // other colours may have the same holes
     {
       known.mask = std::move(mask);
     }

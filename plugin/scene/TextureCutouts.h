@@ -25,34 +25,34 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What VTK cuts out of an actor's surface by a texture.
+/// The holes that VTK cuts into an actor's surface by a texture.
 struct TextureCutout
 {
-  std::shared_ptr<const CutoutMask> mask; ///< null where nothing is cut out
+  std::shared_ptr<const CutoutMask> mask; ///< null if nothing is cut out
   std::string texture;                    ///< its name in VTK's shader
   glm::mat4 transform{ 1.0f };            ///< of its texture coordinates (s, t, 0, 1)
 };
 
-/// Reads the alpha of textures, and keeps what it read while it is asked for.
+/// Reads the alpha of textures, and caches it while it is in use.
 class TextureCutouts
 {
 public:
-  /// Begins a frame: what was not asked for since the last call is forgotten.
+  /// Begin a frame: drop masks that nothing asked for since the last call.
   void beginFrame();
 
-  /// What VTK cuts out of an actor's surface. VTK may call the surface opaque all the same: where
-  /// no texel is half transparent, and with any albedo texture. Brings the texture's input up to
-  /// date, as VTK does when it draws.
+  /// Return the holes in an actor's surface. VTK may still call the surface opaque: if no texel is
+  /// half transparent, and with any albedo texture. Updates the texture's input, as VTK does when
+  /// it draws.
   ///
-  /// @param keys those that the actor has while it is drawn
-  /// @param reason set where a cut-out is not served, to the reason; the mask is null then
+  /// @param keys those that the actor has while VTK draws it
+  /// @param reason receives why a cut-out is not supported; then the mask is null
   TextureCutout find(vtkActor* actor, vtkMapper* mapper, vtkInformation* keys, const char*& reason);
 
-  /// Memory of the masks.
+  /// Return the bytes of memory of the masks.
   std::size_t bytes() const;
 
 private:
-  /// A texture's mask as of a time; the pointer to the texture names, it is not followed.
+  /// A texture's mask at a time. The pointer to the texture is never dereferenced.
   struct Known
   {
     vtkMTimeType time = 0;
@@ -65,7 +65,7 @@ private:
   std::unordered_map<const vtkTexture*, Known> known_;
 };
 
-/// The array that holds a surface's coordinates of a texture; null where VTK has none, and draws
+/// Return the array of a surface's coordinates for a texture; null if VTK has none and draws
 /// without the texture.
 vtkDataArray* textureCoordinates(vtkMapper* mapper, const std::string& texture, vtkPolyData* data);
 

@@ -33,7 +33,7 @@ std::vector<WantedSurface> wantedSurfaces(
     }
   }
 
-  // Most frames list the same surfaces again; only if not, look up what each one was.
+  // Most frames list the same surfaces in the same order. Only other frames need the lookup.
   std::unordered_map<SurfaceKey, std::size_t, SurfaceKeyHash> oldOfKey;
   for (std::size_t i = 0; i < wanted.size(); ++i)
   {

@@ -10,19 +10,19 @@
 namespace gnomon
 {
 
-/// One surface that the snapshot shall hold after this frame.
+/// One surface of the snapshot after this frame.
 struct WantedSurface
 {
   SurfaceKey key;
   DrawnBlock block;
   const DrawnProp* prop;
-  std::size_t old = none;              ///< its number in the snapshot so far
-  std::unique_ptr<FreshSurface> fresh; ///< set while it waits to be put into the snapshot
+  std::size_t old = none;              ///< its present index in the snapshot
+  std::unique_ptr<FreshSurface> fresh; ///< set until it is put into the snapshot
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 };
 
-/// Lists the surfaces of drawn props, each with its number in the snapshot if it is there already.
+/// List the surfaces of drawn props, each with its index in the snapshot if it is there already.
 ///
 /// @param drawn must outlive the list
 /// @param records of the snapshot's surfaces

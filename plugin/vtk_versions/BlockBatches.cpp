@@ -15,9 +15,9 @@ namespace gnomon
 namespace
 {
 
-// VTK tells a render pass neither which blocks a batch draws nor where the numbers of their
-// primitives start, so its own members are read. Naming them through a subclass gives access
-// without a cast.
+// VTK tells a render pass neither which blocks a batch draws nor the first numbers of their
+// primitives, so its own members are read. Naming them through a subclass gives access without a
+// cast.
 struct BatchAccess : vtkOpenGLBatchedPolyDataMapper
 {
   static const auto& blocks(vtkOpenGLBatchedPolyDataMapper* batch)
@@ -30,15 +30,15 @@ struct BatchAccess : vtkOpenGLBatchedPolyDataMapper
   }
 };
 
-/// Gives the blocks of a batch primitive numbers of their own. Until 9.4 VTK counts them through the
+/// Give the blocks of a batch separate primitive numbers. Until 9.4 VTK counts them through the
 /// blocks. Later it counts cell colours or edges alone: blocks without these start at one number,
-/// and no pixel can tell its block. VTK reads the starts again for each draw call, and hardware
-/// selection takes the same ones back.
+/// and no pixel can tell its block. VTK reads the starts for each draw call, and hardware selection
+/// applies them in reverse.
 void separateNumbers(vtkOpenGLBatchedPolyDataMapper* batch)
 {
   if (BatchAccess::hasEdges(batch))
   {
-    return; // the numbers are separate, and places in a texture
+    return; // the numbers are separate, and index a texture
   }
   vtkIdType next = 0;
   for (const auto& [address, block] : BatchAccess::blocks(batch))

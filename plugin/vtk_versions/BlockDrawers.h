@@ -2,7 +2,7 @@
 
 #include "plugin/vtk_versions/CompositeMappers.h"
 
-// What draws blocks in VTK's releases, each with the functions that CompositeMappers.h asks for.
+// The drawers of blocks in VTK's releases, each with the functions that CompositeMappers.h needs.
 namespace gnomon
 {
 
@@ -14,12 +14,12 @@ std::optional<std::vector<DrawCall>> helperDrawCalls(vtkAbstractMapper* mapper, 
 #endif
 
 #if GNOMON_VTK_HAS_BLOCK_BATCHES
-/// True for vtkCompositePolyDataMapper where it draws blocks in batches.
+/// True for vtkCompositePolyDataMapper if it draws blocks in batches.
 bool hasBlockBatches(vtkMapper* mapper);
 std::vector<vtkPolyData*> blocksOfBatches(vtkActor* actor, vtkMapper* mapper, bool translucent);
 std::optional<std::vector<DrawCall>> batchDrawCalls(vtkAbstractMapper* mapper, int primitiveType);
 #else
-/// True for vtkCompositePolyDataMapper where it has a polydata mapper a block.
+/// True for vtkCompositePolyDataMapper if it has a polydata mapper for each block.
 bool hasBlockParts(vtkMapper* mapper);
 std::vector<vtkPolyData*> blocksOfParts(vtkMapper* mapper, bool translucent);
 #endif

@@ -3,11 +3,11 @@
 
 #if GNOMON_VTK_HAS_BLOCK_HELPERS
 
-// vtkCompositeMapperHelper2.h does not include these two, which it needs.
+// vtkCompositeMapperHelper2.h needs these two but does not include them.
 #include "vtkColor.h"
 #include GNOMON_VTK_GL_HEADER
 
-// VTK 9.3 and 9.4 still have these classes and call them deprecated.
+// VTK 9.3 and 9.4 have these classes, marked as deprecated.
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 
 #include "vtkCompositeMapperHelper2.h"
@@ -21,9 +21,8 @@ namespace gnomon
 namespace
 {
 
-// VTK tells a render pass neither which blocks a helper draws nor where the numbers of their
-// primitives start, so its own member is read. Naming it through a subclass gives access without a
-// cast.
+// VTK tells a render pass neither which blocks a helper draws nor the first numbers of their
+// primitives, so its own member is read. Naming it through a subclass gives access without a cast.
 struct HelperAccess : vtkCompositeMapperHelper2
 {
   using Blocks = std::map<vtkPolyData*, vtkCompositeMapperHelperData*>;

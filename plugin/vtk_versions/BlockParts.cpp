@@ -20,7 +20,8 @@ bool hasBlockParts(vtkMapper* mapper)
 }
 
 //------------------------------------------------------------------------------
-/// The colours alone say in which pass a polydata is drawn: its mapper has a shallow copy of it.
+/// Return the blocks of one pass. Only the colours determine a polydata's pass: its mapper has a
+/// shallow copy of it.
 std::vector<vtkPolyData*> blocksOfParts(vtkMapper* mapper, bool translucent)
 {
   std::vector<vtkPolyData*> parts;

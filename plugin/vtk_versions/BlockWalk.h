@@ -19,13 +19,13 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What a block's scalars are, and what colours them.
+/// A block's scalars and their colours.
 struct BlockScalars
 {
   BlockScalars(vtkMapper* mapper, bool perBlock);
-  /// Takes what a composite data set's attributes set for one of its objects.
+  /// Copy the settings of a composite data set's attributes for one of its objects.
   void takeFrom(vtkCompositeDataDisplayAttributes* attributes, vtkDataObject* object);
-  /// True if no colour of the scalars is translucent, or none is shown.
+  /// True if no colour of the scalars is translucent, or if scalars are not shown.
   bool areOpaque(vtkPolyData* data) const;
 
   bool shown;
@@ -38,17 +38,17 @@ struct BlockScalars
   vtkScalarsToColors* colours;
 };
 
-/// Walks a composite data set as VTK's BuildRenderValues does: the innermost setting on the way to
-/// a block counts, so that a visible block may hang below a hidden one. A block that appears twice
-/// is drawn once, with the settings of its last place.
+/// Walks a composite data set like VTK's BuildRenderValues. The innermost setting on the way to a
+/// block counts, so a visible block may hang below a hidden one. A block that appears twice is
+/// drawn once, with the settings of its last place.
 class BlockWalk
 {
 public:
-  /// @param scalarsPerBlock whether the mapper lets attributes set a block's scalars
+  /// @param scalarsPerBlock true if the mapper lets attributes set a block's scalars
   BlockWalk(vtkActor* actor, vtkMapper* mapper, vtkCompositeDataDisplayAttributes* attributes,
     bool scalarsPerBlock);
 
-  /// The polydata that one of the passes draws, in the order of the tree.
+  /// Return the polydata that one of the passes draws, in the order of the tree.
   std::vector<vtkPolyData*> drawn(bool translucent) const;
 
 private:

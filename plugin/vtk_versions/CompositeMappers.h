@@ -20,27 +20,27 @@ namespace gnomon
 enum class BlockDrawing
 {
   None,   ///< it draws no composite data sets
-  Shared, ///< block by block, out of buffers that blocks share
-  Parts   ///< by one polydata mapper a block
+  Shared, ///< block by block, from buffers that blocks share
+  Parts   ///< by one polydata mapper for each block
 };
 BlockDrawing blockDrawing(vtkMapper* mapper);
 
-/// The polydata that a mapper of composite data draws for an actor, each one once, in the order of
-/// the tree: what the opaque pass draws, or what the translucent pass draws.
+/// Return the polydata that a mapper of composite data draws for an actor in the opaque or the
+/// translucent pass. Each is listed once, in the order of the tree.
 ///
 /// @param mapper whose blockDrawing() is not None
 std::vector<vtkPolyData*> drawnBlocks(vtkActor* actor, vtkMapper* mapper, bool translucent);
 
-/// One draw call of a mapper that is about to draw: the first of its triangles has the primitive
-/// number `firstPrimitive`, by gl_PrimitiveID + PrimitiveIDOffset.
+/// One draw call of a mapper that is about to draw. Its first triangle has the primitive number
+/// `firstPrimitive`, as gl_PrimitiveID + PrimitiveIDOffset.
 struct DrawCall
 {
   vtkPolyData* data = nullptr;
   std::uint32_t firstPrimitive = 0;
 };
 
-/// The draw calls of the mapper that draws blocks inside one of composite data, in order of
-/// firstPrimitive; nothing for any other mapper.
+/// Return the draw calls of the mapper that draws blocks inside one of composite data, in order of
+/// firstPrimitive. Nothing for other mappers.
 ///
 /// @param primitiveType vtkOpenGLPolyDataMapper::PrimitiveTris or PrimitiveTriStrips
 std::optional<std::vector<DrawCall>> blockDrawCalls(vtkAbstractMapper* mapper, int primitiveType);

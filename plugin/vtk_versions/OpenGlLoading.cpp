@@ -16,7 +16,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 std::string loadOpenGl(vtkOpenGLRenderWindow* /*window*/)
 {
-  // glad's own search asks libGL, which knows no function before GLX has made a context.
+  // glad's own search uses libGL, which knows no function until GLX has made a context.
   const int version = gladLoadGLUserPtr(
     [](void*, const char* name) -> GLADapiproc { return eglGetProcAddress(name); }, nullptr);
   return version > 0 ? "" : "EGL names none";
@@ -43,7 +43,7 @@ struct WindowAccess : vtkOpenGLRenderWindow
 //------------------------------------------------------------------------------
 std::string loadOpenGl(vtkOpenGLRenderWindow* window)
 {
-  // GLEW built for GLX loads the functions, and only then complains that there is no X display.
+  // GLEW built for GLX loads the functions, then reports that there is no X display.
   const GLenum result = glewInit();
   const bool loaded = result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY;
   WindowAccess::isLoaded(window) = loaded;

@@ -11,11 +11,11 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// Loads the functions of the OpenGL context that is current, one of EGL's, for a window.
-/// @return why that failed; empty if it did not
+/// Load the functions of the current OpenGL context, one of EGL's, for a window.
+/// @return why that failed; empty on success
 std::string loadOpenGl(vtkOpenGLRenderWindow* window);
 
-/// Tells a window that OpenGL's functions are loaded.
+/// Tell a window that OpenGL's functions are loaded.
 void noteLoaded(vtkOpenGLRenderWindow* window);
 
 } // namespace gnomon

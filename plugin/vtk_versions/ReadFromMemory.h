@@ -13,7 +13,7 @@
 namespace gnomon
 {
 
-/// Reads a picture from the bytes of its file, for programs that receive pictures.
+/// Read a picture from the bytes of its file, for programs that receive pictures.
 inline void readFromMemory(vtkImageReader2* reader, const std::string& bytes)
 {
 #if GNOMON_VTK_HAS_STREAMS

@@ -14,7 +14,7 @@ namespace gnomon
 namespace
 {
 
-/// Draws nothing: it calls a function when it is its turn among the opaque props.
+/// Draws nothing. It calls a function when VTK draws it among the opaque props.
 class CallingProp : public vtkProp
 {
 public:
@@ -86,8 +86,8 @@ AroundOpaque::~AroundOpaque()
 }
 
 //------------------------------------------------------------------------------
-/// Calls a function unless it was, or an earlier one has failed: VTK's code, through which no error
-/// should fly, is around it.
+/// Call a function unless it was called, or an earlier one has failed. Its errors are caught, since
+/// VTK's code around it must not see exceptions.
 void AroundOpaque::call(std::size_t which)
 {
   if (this->called_ != which || this->error_)

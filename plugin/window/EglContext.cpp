@@ -15,11 +15,11 @@ namespace gnomon
 namespace
 {
 
-/// Versions to fall back on, best first. VTK needs 3.2, maps 4.3.
+/// Versions to fall back on, best first. VTK needs 3.2, maps need 4.3.
 constexpr std::array<std::pair<int, int>, 8> coreVersions{ { { 4, 5 }, { 4, 4 }, { 4, 3 }, { 4, 2 },
   { 4, 1 }, { 4, 0 }, { 3, 3 }, { 3, 2 } } };
 
-/// Where a context can live.
+/// A place for a context.
 struct Candidate
 {
   std::string name;
@@ -115,8 +115,8 @@ std::vector<Candidate> listCandidates(int deviceIndex)
   return candidates;
 }
 
-/// Keeps an EGL display initialised. EGL gives every window the same display, so that the last one
-/// to go terminates it.
+/// Holds an EGL display initialised. EGL gives every window the same display, so the last user
+/// terminates it.
 class DisplayUse
 {
 public:
@@ -229,7 +229,7 @@ struct EglContext::Handles
     if (!contains(
           eglQueryString(this->display.get(), EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
     {
-      // Nothing is drawn into it, but such drivers make no context current without a surface.
+      // Nothing is drawn into it, but these drivers make no context current without a surface.
       const std::array<EGLint, 5> size{ EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE };
       this->surface = eglCreatePbufferSurface(this->display.get(), config, size.data());
     }

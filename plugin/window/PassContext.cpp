@@ -9,13 +9,13 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-bool PassContext::enter(vtkRenderPass* pass, vtkRenderer* renderer, std::pair<int, int> least)
+std::string PassContext::enter(
+  vtkRenderPass* pass, vtkRenderer* renderer, std::pair<int, int> least)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (!window)
   {
-    vtkErrorWithObjectMacro(pass, "The renderer has no OpenGL render window.");
-    return false;
+    return "The renderer has no OpenGL render window.";
   }
   window->MakeCurrent();
   if (window != this->window_ || window->GetContextCreationTime() > this->checked_.GetMTime())
@@ -25,16 +25,13 @@ bool PassContext::enter(vtkRenderPass* pass, vtkRenderer* renderer, std::pair<in
     this->checked_.Modified();
     std::pair<int, int> version;
     window->GetOpenGLVersion(version.first, version.second);
-    this->serves_ = version >= least;
-    if (!this->serves_)
-    {
-      vtkErrorWithObjectMacro(pass,
-        "Shadows need OpenGL " << least.first << "." << least.second << ", and this context has "
-                               << version.first << "." << version.second
-                               << ". The scene is drawn without shadows.");
-    }
+    const auto text = [](const std::pair<int, int>& number)
+    { return std::to_string(number.first) + "." + std::to_string(number.second); };
+    this->whyNot_ = version >= least ? ""
+                                     : "Shadows need OpenGL " + text(least) +
+        ", and this context has " + text(version) + ". The scene is drawn without shadows.";
   }
-  return this->serves_;
+  return this->whyNot_;
 }
 
 //------------------------------------------------------------------------------

@@ -7,6 +7,8 @@
 #include <vtkWeakPointer.h>
 
 #include <functional>
+#include <string>
+#include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderPass;
@@ -24,9 +26,8 @@ public:
   /// releases what it holds in that one (vtkRenderPass::ReleaseGraphicsResources).
   ///
   /// @param least the version of OpenGL that the pass takes: major, minor
-  /// @return whether Gnomon can draw there. Where it cannot, the pass has told its observers why: a
-  /// context that does not serve, the first time that it is met.
-  bool enter(vtkRenderPass* pass, vtkRenderer* renderer, std::pair<int, int> least);
+  /// @return why Gnomon cannot draw there, a sentence; empty if it can
+  std::string enter(vtkRenderPass* pass, vtkRenderer* renderer, std::pair<int, int> least);
 
   vtkOpenGLRenderWindow* window() const { return this->window_; }
 
@@ -38,7 +39,7 @@ public:
 private:
   vtkWeakPointer<vtkOpenGLRenderWindow> window_;
   vtkTimeStamp checked_;
-  bool serves_ = false;
+  std::string whyNot_;
 };
 
 } // namespace gnomon

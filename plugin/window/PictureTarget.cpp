@@ -18,7 +18,7 @@ namespace gnomon
 namespace
 {
 
-/// Copies the colours of a framebuffer's part, sample by sample.
+/// Copy the colours of a framebuffer's part, sample by sample.
 void copyColours(GLuint from, GLuint to, const glm::ivec2& origin, const glm::ivec2& size)
 {
   const GlStateGuard guard;
@@ -52,8 +52,8 @@ void PictureTarget::resize(vtkOpenGLRenderWindow* window, const glm::ivec2& size
   {
     return;
   }
-  this->size_ = glm::ivec2(0);  // in case that there is no memory
-  this->framebuffer_ = nullptr; // what it had makes room
+  this->size_ = glm::ivec2(0);  // stays 0 if memory runs out
+  this->framebuffer_ = nullptr; // free the old memory first
   requireRoomForPicture(size.x, size.y, samples);
   vtkOpenGLState* state = window->GetState();
   GLint texture = 0;

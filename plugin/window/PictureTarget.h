@@ -18,24 +18,24 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// Of each pixel of the framebuffer that is bound; 0 where a pixel is not split.
+/// Return the samples per pixel of the bound framebuffer; 0 if pixels are not split.
 int samplesOfBoundFramebuffer();
 
-/// Where a render pass draws a picture of 32-bit floats in place of the framebuffer that it is
-/// given, with as many samples per pixel.
+/// Target in which a render pass draws a picture of 32-bit floats instead of its framebuffer, with
+/// as many samples per pixel.
 class PictureTarget
 {
 public:
-  /// Lays itself out as the framebuffer that is bound is laid out.
+  /// Resize to `size`, with the bound framebuffer's samples per pixel.
   /// @throws TextureMemoryError
   void resize(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
 
-  /// Has a pass draw, in front of the colours that are in the framebuffer that is bound where the
-  /// renderer keeps them. The state of OpenGL is afterwards as it was.
+  /// Make a pass draw into this target. If the renderer preserves colours, start from a copy of the
+  /// bound framebuffer's. Restores OpenGL's state.
   /// @param origin of the picture in that framebuffer
   void draw(vtkRenderPass* pass, const vtkRenderState* s, const glm::ivec2& origin);
 
-  /// What was drawn last.
+  /// Return the last drawn picture.
   DrawnPicture picture() const;
 
 private:

@@ -82,7 +82,7 @@ TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   {
     return {};
   }
-  return { block.surface, surface.firstTriangle + triangle, instance };
+  return { block.surface, surface.firstTriangle + triangle, instance, drawn };
 }
 
 //------------------------------------------------------------------------------

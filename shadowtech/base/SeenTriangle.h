@@ -26,6 +26,7 @@ struct TriangleOfFragment
   std::uint32_t surface = notFound;
   std::uint32_t triangle = notFound;
   std::uint32_t instance = 0;
+  std::uint32_t primitive = 0; ///< VTK's number, counted from the surface's or instance's first
 
   bool operator==(const TriangleOfFragment& other) const
   {

@@ -205,7 +205,7 @@ public:
   virtual void bake(const MapInput&) {}
   /// Drop the light's maps. Called if they are stale and not baked (TechniqueInfo::mapIsOptional).
   virtual void dropMaps() {}
-  /// Return the bytes on the GPU of the baked maps, and of all else that the technique caches for
+  /// Return the bytes on the GPU of the baked maps, and of everything that the technique caches for
   /// the light.
   virtual std::size_t bytesOfMaps() const { return 0; }
 };

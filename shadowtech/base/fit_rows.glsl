@@ -13,8 +13,8 @@
 
 mat3 fetchHomography(sampler2D fits, int view, int row)
 {
-  return mat3(texelFetch(fits, ivec2(view, row), 0).xyz, texelFetch(fits, ivec2(view, row + 1), 0).xyz,
-    texelFetch(fits, ivec2(view, row + 2), 0).xyz);
+  return mat3(texelFetch(fits, ivec2(view, row), 0).xyz,
+    texelFetch(fits, ivec2(view, row + 1), 0).xyz, texelFetch(fits, ivec2(view, row + 2), 0).xyz);
 }
 
 #endif

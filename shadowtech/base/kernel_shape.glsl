@@ -8,7 +8,8 @@ mat2 homographyJacobian(mat3 homography, vec2 at)
 {
   vec3 image = homography * vec3(at, 1.0);
   vec2 place = image.xy / image.z;
-  return mat2(homography[0].xy - place * homography[0].z, homography[1].xy - place * homography[1].z) /
+  return mat2(homography[0].xy - place * homography[0].z,
+           homography[1].xy - place * homography[1].z) /
     image.z;
 }
 

@@ -178,7 +178,8 @@ vec2 texelOf_LIGHT(int view, vec2 across)
 vec2 acrossOf_LIGHT(int view, vec2 texel)
 {
   vec4 fit = fitOf_LIGHT(view);
-  return acrossBeforeFit_LIGHT(view, (texel - fit.zw) / fit.xy); // not 0 where anything is on the map
+  // Not 0 where anything is on the map.
+  return acrossBeforeFit_LIGHT(view, (texel - fit.zw) / fit.xy);
 }
 
 // Return a point's across coordinates.
@@ -233,8 +234,8 @@ bool holds_LIGHT(vec2 texel, float border)
 ViewPoint onOwnFace_LIGHT(vec3 positionLight, vec3 normalLight)
 {
   int face = cubeFaceOf(positionLight);
-  return ViewPoint(cubeFaceFromLight(face, positionLight), cubeFaceFromLight(face, normalLight), face,
-    viewOfFace_LIGHT[face], vec2(0.0), 0.0);
+  return ViewPoint(cubeFaceFromLight(face, positionLight),
+    cubeFaceFromLight(face, normalLight), face, viewOfFace_LIGHT[face], vec2(0.0), 0.0);
 }
 #endif
 
@@ -307,7 +308,8 @@ float blendIntoNext_LIGHT(ViewPoint point, out ViewPoint next)
     return 0.0;
   }
   vec2 inside = min(point.texel, viewSize_LIGHT - point.texel) - viewBorder_LIGHT;
-  float width = SPLIT_BLEND_LIGHT * (viewSize_LIGHT - 2.0 * viewBorder_LIGHT); // the border is less than half
+  // The border is less than half.
+  float width = SPLIT_BLEND_LIGHT * (viewSize_LIGHT - 2.0 * viewBorder_LIGHT);
   return clamp(1.0 - min(inside.x, inside.y) / width, 0.0, 1.0);
 }
 #endif

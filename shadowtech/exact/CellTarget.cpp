@@ -110,7 +110,7 @@ std::string CellTarget::whyUnsupported()
   if (!GNOMON_HAS_GL(VERSION_4_3))
   {
     const GLubyte* version = glGetString(GL_VERSION);
-    return std::string("baking conservative maps on the GPU takes OpenGL 4.3, whose shaders have "
+    return std::string("baking conservative maps on the GPU needs OpenGL 4.3, whose shaders have "
                        "double precision, and this is ") +
       (version ? reinterpret_cast<const char*>(version) : "none");
   }

@@ -26,7 +26,8 @@ bool meets(SegmentRecord border, int x, int y)
     return false;
   }
   Part part = Part(0.0lf, 1.0lf);
-  return keepRow(part, border, y) && isIn(columnsOf(border, part), x) && keepColumn(part, border, x);
+  return keepRow(part, border, y) && isIn(columnsOf(border, part), x) &&
+    keepColumn(part, border, x);
 }
 
 void walkRow(uint shape, int y)

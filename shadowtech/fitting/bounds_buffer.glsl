@@ -32,9 +32,11 @@ bool isEmpty(int box)
 }
 vec3 lowerOf(int box)
 {
-  return vec3(ofKey(leastKeys[6 * box]), ofKey(leastKeys[6 * box + 1]), ofKey(leastKeys[6 * box + 2]));
+  return vec3(
+    ofKey(leastKeys[6 * box]), ofKey(leastKeys[6 * box + 1]), ofKey(leastKeys[6 * box + 2]));
 }
 vec3 upperOf(int box)
 {
-  return -vec3(ofKey(leastKeys[6 * box + 3]), ofKey(leastKeys[6 * box + 4]), ofKey(leastKeys[6 * box + 5]));
+  return -vec3(
+    ofKey(leastKeys[6 * box + 3]), ofKey(leastKeys[6 * box + 4]), ofKey(leastKeys[6 * box + 5]));
 }

@@ -25,6 +25,7 @@ void main()
   }
   for (int row = 3; row < textureSize(warps, 0).y; ++row)
   {
-    imageStore(viewFits, ivec2(0, TEXEL_FROM_ACROSS_ROW + row - 3), texelFetch(warps, ivec2(chosen, row), 0));
+    imageStore(viewFits, ivec2(0, TEXEL_FROM_ACROSS_ROW + row - 3),
+      texelFetch(warps, ivec2(chosen, row), 0));
   }
 }

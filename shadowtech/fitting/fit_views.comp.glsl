@@ -61,5 +61,6 @@ void main()
     fit = vec4(x.x, y.x, x.y, y.y);
   }
   imageStore(viewFits, ivec2(view, DEVICE_FIT_ROW), fit);
-  imageStore(viewFits, ivec2(view, TEXEL_FIT_ROW), vec4(fit.xy, 0.5 * side * (fit.zw + 1.0 - fit.xy)));
+  imageStore(viewFits, ivec2(view, TEXEL_FIT_ROW),
+    vec4(fit.xy, 0.5 * side * (fit.zw + 1.0 - fit.xy)));
 }

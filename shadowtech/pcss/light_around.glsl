@@ -292,7 +292,8 @@ float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separa
 // @param place on return, relative to the largest separation
 float spreadForSearch_LIGHT(inout vec2 place, SeenLight_LIGHT light, ViewPoint point, float largest)
 {
-  float widest = largest * max(length(light.axes[0]), length(light.axes[1])) / length(point.position);
+  float widest =
+    largest * max(length(light.axes[0]), length(light.axes[1])) / length(point.position);
   float angle = atan(widest);
   float share = extentOf_LIGHT(place); // points were spread by the square root of their extent
   float extent = share * share;

@@ -49,7 +49,8 @@ float reduced(float coordinate, int wrap)
 // True if the texel at indices that are out of range by no more than the size has alpha above 0.
 bool texelDrawn(CutoutMask mask, ivec2 texel)
 {
-  bvec2 outside = bvec2(texel.x < 0 || texel.x >= mask.size.x, texel.y < 0 || texel.y >= mask.size.y);
+  bvec2 outside =
+    bvec2(texel.x < 0 || texel.x >= mask.size.x, texel.y < 0 || texel.y >= mask.size.y);
   ivec2 place = mask.wrap == wrapRepeat ? (texel + mask.size) % mask.size
                                         : clamp(texel, ivec2(0), mask.size - 1);
   uint bit = mask.firstBit + uint(place.y * mask.size.x + place.x);

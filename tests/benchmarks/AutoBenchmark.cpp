@@ -1,6 +1,7 @@
-// How well `auto` chooses, as lines of CSV. From random places in a scene, the camera moves by
-// small steps, and `auto` is compared with single techniques, of which the best one that keeps the error
-// is known only afterwards. Or it flies around the scene with a time budget.
+// Measure how well `auto` chooses; print lines of CSV.
+// Places: from random places in a scene the camera moves by small steps. `auto` is compared with
+// single techniques; the best one within the allowed error is known only afterwards.
+// Budget: the camera flies around the scene with a time budget.
 
 #include "BenchmarkMain.h"
 #include "Errors.h"
@@ -36,10 +37,10 @@ struct Options
   int places = 20;
   unsigned int seed = 1;
   int sidePixels = 512;
-  double budget = 0.0; ///< of plain VTK's frame; 0: none
+  double budget = 0.0; ///< as a multiple of plain VTK's frame; 0: none
 };
 
-/// Frames of a place that are timed, and that are drawn before.
+/// Frames timed at a place, and untimed frames that precede them.
 constexpr int timedFrames = 10;
 constexpr int framesBefore = 3;
 constexpr double stepDegrees = 0.2;
@@ -47,7 +48,7 @@ constexpr double stepDegrees = 0.2;
 /// The error that the pass allows by default.
 constexpr double allowedShare = 0.005;
 
-/// What `auto` is compared with, of the study's techniques for hard shadows.
+/// The study's techniques for hard shadows, with which `auto` is compared.
 std::vector<VariantSpec> singles()
 {
   std::vector<VariantSpec> specs;
@@ -68,7 +69,7 @@ std::vector<VariantSpec> singles()
   return specs;
 }
 
-/// A way to draw the scene, and what it came to at the present place.
+/// A way to draw the scene, with its results at the present place.
 struct Runner
 {
   FrameVariant variant;
@@ -100,7 +101,7 @@ struct Runner
   }
 };
 
-/// Somewhere around what the scene's camera looks at.
+/// Move the camera to a random place around its focal point.
 void wander(vtkCamera* camera, std::mt19937& random)
 {
   const auto between = [&](double least, double most)
@@ -111,7 +112,7 @@ void wander(vtkCamera* camera, std::mt19937& random)
   camera->Dolly(between(0.6, 1.8));
 }
 
-/// All ways to draw a scene; `auto` is the last one, before it the rays that tell what is wrong.
+/// All ways to draw a scene. The last is `auto`; the one before it is ray tracing, the truth.
 class Ways
 {
 public:
@@ -128,7 +129,7 @@ public:
 
   Runner& automatic() { return *this->runners_.back(); }
 
-  /// Draws frames of all in turns, in which the camera moves by small steps.
+  /// Draw frames of all ways in turn while the camera moves by small steps.
   void move(vtkCamera* camera)
   {
     for (const auto& runner : this->runners_)
@@ -154,7 +155,7 @@ public:
     this->interactive(vtkGnomonShadowPass::INTERACTIVE_OFF);
   }
 
-  /// Prints how the last frame of move() was chosen, against the single techniques there.
+  /// Print the choice of the last frame of move(), and the single techniques at that place.
   void print(int place)
   {
     LightReport chosen;
@@ -165,7 +166,7 @@ public:
     const VisibilityImages truth = this->runners_[this->runners_.size() - 2]->visibility();
     double best = 0.0;
     std::string bestName;
-    double error = std::nan(""); // unless the way that was chosen is among the single ones
+    double error = std::nan(""); // unless a single technique equals the choice
     for (std::size_t i = 0; i + 1 < this->runners_.size(); ++i)
     {
       Runner& runner = *this->runners_[i];
@@ -213,7 +214,7 @@ void compareWithSingles(const Scene& scene, const Options& options)
   }
 }
 
-/// Keeps all processors busy while it lives.
+/// Keeps all processors busy during its lifetime.
 class Load
 {
 public:
@@ -244,8 +245,8 @@ private:
   std::vector<std::thread> threads_;
 };
 
-/// Flies once around a scene with a time budget, a multiple of plain VTK's frame. In the middle
-/// third the machine has other work, too; plain VTK's frames tell how much slower it is then.
+/// Fly once around a scene with a time budget, a multiple of plain VTK's frame. In the middle third
+/// the machine has other work, too; plain VTK's frames measure the slowdown.
 void fly(const Scene& scene, const Options& options)
 {
   constexpr int frames = 180;
@@ -294,7 +295,7 @@ void fly(const Scene& scene, const Options& options)
 
 int run(int argc, char** argv)
 {
-  CLI::App app{ "Prints how well auto chooses while the camera moves: a line a place",
+  CLI::App app{ "Measures how well auto chooses while the camera moves: a line per place",
     "gnomon_benchmark_auto" };
   Options options;
   app.add_option("SCENES", options.scenes, "Scenes: built-in names or scene files")->required();

@@ -6,7 +6,7 @@
 namespace gnomon::tool
 {
 
-/// Runs a benchmark program to its exit code. An exception's message goes to the error output.
+/// Run a benchmark program to its exit code. An exception's message goes to the error output.
 template <typename Run>
 int runBenchmark(const char* name, const Run& run)
 {

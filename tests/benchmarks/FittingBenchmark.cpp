@@ -1,5 +1,5 @@
-// What fitting a light's views to the receivers costs, and a map of other surfaces, against drawing
-// a plain map: the bunny on a plane, taking turns frame by frame.
+// Compare the cost of fitting a light's views to the receivers, and of a map of other surfaces,
+// with that of baking a plain map. Scene: the bunny on a plane. The ways take turns frame by frame.
 //
 // gnomon_benchmark_fitting [SIDE [FRAMES]], the side of the receivers' image in pixels.
 
@@ -40,7 +40,7 @@ constexpr int mapSizeTexels = 1024;
 struct Time
 {
   double wall = 0.0;
-  double processor = 0.0; ///< of all threads: of meaning where OpenGL is software
+  double processor = 0.0; ///< of all threads; meaningful with software OpenGL
 };
 
 double median(std::vector<double> values)
@@ -90,7 +90,7 @@ void fill(GlTexture& texture, int side, const std::vector<glm::vec4>& texels)
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-/// The receivers' images as the receivers stage draws them.
+/// The receivers' images as the receivers stage renders them.
 struct Images
 {
   Images(const Occluders& occluders, const Camera& camera, const glm::dmat4& viewFromCentred)
@@ -122,7 +122,7 @@ struct Images
   std::vector<glm::vec3> pointsView; ///< of the pixels that show a receiver
 };
 
-/// The corners of the box around the points, by one thread of the CPU.
+/// Compute the corners of the box around the points, on one thread of the CPU.
 std::array<glm::vec3, 2> boundsOnCpu(const std::vector<glm::vec3>& points, const glm::mat4x3& to)
 {
   std::array<glm::vec3, 2> corners{ glm::vec3(std::numeric_limits<float>::max()),
@@ -135,7 +135,7 @@ std::array<glm::vec3, 2> boundsOnCpu(const std::vector<glm::vec3>& points, const
   return corners;
 }
 
-/// Needs a context.
+/// Needs a current context.
 void run(int side, int frames)
 {
   const Occluders occluders = makeOccluders(

@@ -1,6 +1,6 @@
-// How a frame's time grows with triangles, with lights, with pixels, and with what moves. Each axis
-// varies one of these from a base scene. Plain VTK, vtkShadowMapPass and Gnomon's techniques draw
-// their frames in turns, so that what else the machine does touches all alike.
+// Measure how a frame's time grows with triangles, lights, pixels and movement. Each axis varies
+// one of these from a base scene. Plain VTK, vtkShadowMapPass and Gnomon's techniques draw frames
+// in turn, so other load on the machine affects all alike.
 
 #include "BenchmarkMain.h"
 #include "BuiltinParts.h"
@@ -49,7 +49,7 @@ constexpr int baseTriangles = 100000;
 constexpr int propColumns = 40;
 constexpr int propRows = 25;
 constexpr int fewestFrames = 3;
-/// The time that the frames of a case may take, but for the fewest.
+/// The most seconds that the frames of a case take, unless `fewestFrames` take longer.
 constexpr double secondsPerCase = 60.0;
 
 const std::vector<std::string> axisKeys = { "triangles", "lights", "pixels", "movement" };
@@ -72,10 +72,10 @@ struct Case
   double x = 0.0; ///< its place on the axis; 0: the axis has no scale
   int triangles = baseTriangles;
   int lights = 1;
-  bool isCut = false; ///< into props
+  bool isCut = false; ///< the surface is cut into props
   PictureSize size;
   Motion motion = Motion::Camera;
-  /// Moves what is neither the camera nor a light, before each round of frames.
+  /// Move anything but the camera and lights, before each round of frames.
   std::function<void(const Scene&, const Variants&, int step)> move = {};
 };
 
@@ -93,7 +93,7 @@ double hillHeight(double x, double z, double time)
   return 0.03 * std::sin(40.0 * x + time) * std::cos(31.0 * z);
 }
 
-/// A rectangle of hills of about that many triangles, its corner at (x, z).
+/// Return a rectangle of hills of about that many triangles, its corner at (x, z).
 SceneModel makeHills(double triangles, double x, double z, double width, double depth)
 {
   const int cells = std::max(1, static_cast<int>(std::lround(std::sqrt(0.5 * triangles))));
@@ -106,11 +106,11 @@ SceneModel makeHills(double triangles, double x, double z, double width, double 
       return SurfacePoint{ { { placeX, hillHeight(placeX, placeZ, 0.0), placeZ } }, up };
     });
   SceneModel model = makeModel("hills", mesh.build(), { { 0.6, 0.62, 0.4 } });
-  model.surface->GetPointData()->SetNormals(nullptr); // VTK shades facets, also of moved vertices
+  model.surface->GetPointData()->SetNormals(nullptr); // VTK shades facets of moved vertices
   return model;
 }
 
-/// A square of hills under suns that stand around it.
+/// Return a square of hills under suns that stand around it.
 Scene makeScene(const Case& drawn)
 {
   Scene scene;
@@ -143,7 +143,7 @@ void liftOneProp(const Scene& /*scene*/, const Variants& variants, int step)
   }
 }
 
-/// Lets a wave of hills travel along x.
+/// Move a wave of hills along x.
 void moveAllVertices(const Scene& scene, const Variants& /*variants*/, int step)
 {
   vtkPoints* const points = scene.models.front().surface->GetPoints();
@@ -159,7 +159,7 @@ void moveAllVertices(const Scene& scene, const Variants& /*variants*/, int step)
 //------------------------------------------------------------------------------
 // Cases
 
-/// "1,000,000".
+/// Return a number with separators: "1,000,000".
 std::string grouped(int number)
 {
   std::string text = std::to_string(number);
@@ -170,7 +170,7 @@ std::string grouped(int number)
   return text;
 }
 
-/// All axes, in the order of axisKeys.
+/// Return all axes, in the order of axisKeys.
 std::vector<Axis> makeAxes(const Options& options)
 {
   Case base;
@@ -204,7 +204,7 @@ std::vector<Axis> makeAxes(const Options& options)
   for (const auto& [width, height] :
     { std::pair(512, 512), { 1024, 1024 }, { 1920, 1080 }, { 3840, 2160 } })
   {
-    // Of a base of 1024 x 1024; of another, in proportion.
+    // For a base of 1024 x 1024; another base scales in proportion.
     const PictureSize size{ width * options.sidePixels / 1024, height * options.sidePixels / 1024 };
     pixels.cases.push_back(named(std::to_string(size.width) + " x " + std::to_string(size.height),
       static_cast<double>(size.width) * size.height));
@@ -223,7 +223,7 @@ std::vector<Axis> makeAxes(const Options& options)
 //------------------------------------------------------------------------------
 // Measuring
 
-/// Why the last frame is broken or lacks shadows; empty where it is fine.
+/// Return why the last frame is broken or lacks shadows; empty if it is fine.
 std::string whyNotDrawn(const FrameVariant& variant, const VtkMessages& messages)
 {
   if (!messages.errors().empty())
@@ -244,7 +244,7 @@ std::string whyNotDrawn(const FrameVariant& variant, const VtkMessages& messages
   return dark == report.lights.end() ? std::string() : dark->reason;
 }
 
-/// A case as all contenders draw it.
+/// A case drawn by all contenders.
 class CaseRun
 {
 public:
@@ -260,7 +260,7 @@ public:
     }
   }
 
-  /// Draws the first frames, and those that do not count.
+  /// Draw the first frames and the warm-up frames, which do not count.
   void warmUp()
   {
     this->drawRound();
@@ -272,7 +272,7 @@ public:
     {
       this->drawRound();
     }
-    if (this->case_.motion == Motion::Camera) // what else moves makes maps stale
+    if (this->case_.motion == Motion::Camera) // other motion makes maps stale
     {
       this->awaitMaps();
     }
@@ -282,7 +282,7 @@ public:
     }
   }
 
-  /// Draws a frame of each contender.
+  /// Draw a frame of each contender.
   void drawRound()
   {
     this->move();
@@ -316,7 +316,7 @@ public:
   }
 
 private:
-  /// Lets maps that must pay be baked, so that all frames that count are of one kind.
+  /// Bake maps that must first pay off, so that all frames that count are of one kind.
   void awaitMaps()
   {
     for (std::size_t i = 0; i < this->variants_.size(); ++i)
@@ -367,7 +367,7 @@ private:
   int step_ = 0;
 };
 
-/// Draws all cases of an axis in turns.
+/// Draw all cases of an axis in turn.
 GrowthAxis measure(const Axis& axis, const std::vector<VariantSpec>& contenders, int frames,
   const std::function<void(const std::string&)>& stepBegins)
 {
@@ -383,7 +383,7 @@ GrowthAxis measure(const Axis& axis, const std::vector<VariantSpec>& contenders,
     stepBegins(axis.key + ", round " + std::to_string(round + 1) + " of " + std::to_string(frames));
     for (const std::unique_ptr<CaseRun>& run : runs)
     {
-      // Slow cases pause now and then.
+      // Slow cases skip rounds.
       if (round < fewestFrames || run->seconds() < secondsPerCase * round / frames)
       {
         run->drawRound();
@@ -401,7 +401,7 @@ GrowthAxis measure(const Axis& axis, const std::vector<VariantSpec>& contenders,
 //------------------------------------------------------------------------------
 // The program
 
-/// What is drawn and timed, for the page.
+/// Return the description of the base scene and of the timing, for the page.
 std::string describe(const Options& options)
 {
   const std::string side = std::to_string(options.sidePixels);
@@ -420,7 +420,7 @@ std::string describe(const Options& options)
   return text.str();
 }
 
-/// The command line, without the program's folder.
+/// Return the command line, without the program's folder.
 std::string commandOf(int argc, char** argv)
 {
   std::string text = std::filesystem::path(argv[0]).filename().string();
@@ -431,7 +431,7 @@ std::string commandOf(int argc, char** argv)
   return text;
 }
 
-/// Initialises OpenGL, too, which the first contender would pay for.
+/// Initialise OpenGL, too: otherwise the first contender would pay for that.
 std::string describeMachine()
 {
   vtkNew<vtkGnomonEGLRenderWindow> window;

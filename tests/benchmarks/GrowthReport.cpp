@@ -24,10 +24,10 @@ namespace
 using Points = std::vector<std::array<double, 2>>;
 using Cells = std::vector<std::string>;
 
-/// Contenders that are not Gnomon's, which come first.
+/// Contenders that are not Gnomon's; they come first.
 constexpr std::size_t peerCount = 2;
 
-/// A contender's time over x, in the cases in which it is drawn.
+/// Return a contender's time over x, in the cases that it draws.
 Points pointsOf(const GrowthAxis& axis, std::size_t contender)
 {
   Points points;
@@ -41,7 +41,7 @@ Points pointsOf(const GrowthAxis& axis, std::size_t contender)
   return points;
 }
 
-/// The e of y ~ x^e with the least squares of errors of log y; none of fewer than two points.
+/// Return e of y ~ x^e by least squares in log y; nothing for fewer than two points.
 std::optional<double> exponentOf(const Points& points)
 {
   const auto meanLog = [&](std::size_t k)
@@ -62,20 +62,20 @@ std::optional<double> exponentOf(const Points& points)
   return xx > 0.0 ? std::optional<double>(xy / xx) : std::nullopt;
 }
 
-/// That of the last two points.
+/// Return the exponent between the last two points.
 std::optional<double> lastExponentOf(const Points& points)
 {
   return exponentOf(points.size() < 2 ? Points() : Points(points.end() - 2, points.end()));
 }
 
-/// What the snapshot and the ray tracer's structure take.
+/// Return the memory of the snapshot and of the ray tracer's structure, per triangle.
 double bytesPerTriangle(const FrameReport& report)
 {
   return static_cast<double>(report.bytesOccluders + report.bytesBvh) /
     static_cast<double>(std::max<std::size_t>(1, report.triangles));
 }
 
-/// "Triangles" for "triangles".
+/// Return "Triangles" for "triangles".
 std::string titleOf(const GrowthAxis& axis)
 {
   std::string title = axis.key;
@@ -91,7 +91,7 @@ std::string fixed(double value, int digits)
   return text.str();
 }
 
-/// A table of Markdown; the first row is its head.
+/// Return a table of Markdown; the first row is its head.
 std::string tableOf(const std::vector<Cells>& rows)
 {
   std::string text;
@@ -110,7 +110,7 @@ std::string tableOf(const std::vector<Cells>& rows)
   return text;
 }
 
-/// A row for each contender, a column for each axis that has a scale.
+/// Return a table with a row for each contender and a column for each axis that has a scale.
 std::string exponentTable(const Growth& growth)
 {
   std::vector<Cells> rows = { { "" } };
@@ -136,8 +136,8 @@ std::string exponentTable(const Growth& growth)
   return tableOf(rows);
 }
 
-/// A row for each case, a column for each contender from the first on.
-/// @param cellOf what a contender's measurement says beside that of plain VTK
+/// Return a table with a row for each case and a column for each contender from `first` on.
+/// @param cellOf turns a contender's measurement and plain VTK's into a cell's text
 template <typename CellOf>
 std::string caseTable(
   const Growth& growth, const GrowthAxis& axis, std::size_t first, const CellOf& cellOf)
@@ -160,7 +160,7 @@ std::string caseTable(
   return tableOf(rows);
 }
 
-/// Why contenders are not drawn, a line each.
+/// Return why contenders are not drawn, a line each.
 std::string listOfNotDrawn(const Growth& growth, const GrowthAxis& axis)
 {
   std::string text;

@@ -13,10 +13,10 @@ namespace gnomon::tool
 /// One contender in one case.
 struct GrowthMeasurement
 {
-  std::string notDrawn; ///< why; empty where it is drawn
+  std::string notDrawn; ///< the reason; empty if it is drawn
   double firstMilliseconds = 0.0;
   std::vector<double> times; ///< of the frames that count, in milliseconds
-  FrameReport report;        ///< of the last frame; empty of the peers
+  FrameReport report;        ///< of the last frame; empty for contenders that are not Gnomon's
 
   bool isDrawn() const { return this->notDrawn.empty(); }
   double milliseconds() const { return median(this->times); }
@@ -38,18 +38,18 @@ struct GrowthAxis
   bool hasScale() const { return this->rows.front().x > 0.0; }
 };
 
-/// Everything that a report of GrowthBenchmark.cpp says.
+/// All data of GrowthBenchmark.cpp's report.
 struct Growth
 {
   std::string command;
   std::string machine;
-  std::string scene;                   ///< what the axes start from, as a sentence
+  std::string scene;                   ///< the base scene of all axes, as a sentence
   std::vector<std::string> contenders; ///< plain VTK, vtkShadowMapPass, Gnomon's
   std::vector<GrowthAxis> axes;
 };
 
-/// Writes growth.md and, where an axis has a scale, growth.png into the folder.
-/// @throws Failure when writing fails
+/// Write growth.md into the folder, and growth.png if an axis has a scale.
+/// @throws Failure if writing fails
 void writeGrowth(const Growth& growth, const std::string& folder);
 
 } // namespace gnomon::tool

@@ -1,6 +1,6 @@
-// What it costs to draw a conservative map on the CPU and on the GPU: whole maps, from the
-// snapshot to what pixels ask. They take turns. And what it costs to find the casters' edges for
-// it, or to bring them up to date where all casters have moved.
+// Compare conservative maps baked on the CPU and on the GPU: whole maps, from the snapshot to the
+// pixels' queries. Both take turns. Also measure finding the casters' edges, and updating them
+// after all casters have moved.
 
 #include "BenchmarkMain.h"
 #include "FrameTiming.h"
@@ -54,7 +54,7 @@ public:
 
   const Occluders& occluders() const { return this->collector_.occluders(); }
   const CasterEdges& edges() const { return this->edges_; }
-  /// The sun's view of them all.
+  /// The sun's view of all casters.
   LightView view(int sizeTexels) const
   {
     ViewFitting fitting;
@@ -75,8 +75,8 @@ private:
 struct Time
 {
   double wall;
-  double
-    processor; ///< of all threads: tells more than wall clock on a machine that is not alone, where OpenGL is software
+  /// CPU time of all threads. It tells more than wall time on a busy machine with software OpenGL.
+  double processor;
 };
 
 Time now()
@@ -101,7 +101,7 @@ struct Way
   Time medians() const { return { tool::median(this->wall), tool::median(this->processor) }; }
 };
 
-/// Times them all, taking turns.
+/// Time all ways in turn.
 void takeTurns(std::vector<Way>& ways, int repetitions)
 {
   for (int repetition = 0; repetition <= repetitions; ++repetition)
@@ -120,7 +120,7 @@ void takeTurns(std::vector<Way>& ways, int repetitions)
   }
 }
 
-/// Prints how long each took, and how often the first one's time that is.
+/// Print each way's times, and their ratio to the first way's.
 void print(const std::vector<Way>& ways)
 {
   const std::string perFirst = "x " + ways.front().name;
@@ -138,7 +138,7 @@ void print(const std::vector<Way>& ways)
   std::cout << std::flush;
 }
 
-/// The same casters, all of them turned.
+/// Return the same casters, all of them turned.
 Occluders turned(Occluders occluders)
 {
   const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), 1.0, glm::dvec3(1.0, 2.0, 3.0)));
@@ -146,7 +146,7 @@ Occluders turned(Occluders occluders)
   {
     position = turn * glm::dvec3(position);
   }
-  // Later than any version of the snapshot's.
+  // Later than any version in the snapshot.
   constexpr std::uint64_t later = 1u << 30;
   occluders.positionsVersion += later;
   for (Surface& surface : occluders.surfaces)

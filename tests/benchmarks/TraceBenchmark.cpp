@@ -1,6 +1,6 @@
-// What the truth costs: the trace stage against a bare Embree loop over the same rays, and against
-// the GPU, the receivers' projection, and the acceleration structures. Bunny on a plane,
-// directional light, 1024 x 1024.
+// Measure the cost of the truth. Compare the trace stage with a bare Embree loop over the same rays
+// and with the GPU. Also time the receivers' projection and the acceleration structures. Scene:
+// bunny on a plane, directional light, 1024 x 1024.
 
 #include "SyntheticScene.h"
 
@@ -120,7 +120,7 @@ public:
     }
   }
 
-  /// Makes the rays whole again after run().
+  /// Restore the rays that run() changed.
   void reset() { this->running_ = this->packets_; }
   void run()
   {
@@ -162,7 +162,7 @@ double median(std::vector<double> values)
   return *middle;
 }
 
-/// The stage and the bare loops take turns, so that what else the machine does touches all alike.
+/// The stage and the bare loops take turns, so other load on the machine affects all alike.
 void traceStageAgainstBareLoop(benchmark::State& state)
 {
   const Subject& scene = subject();
@@ -218,8 +218,8 @@ void visitTilesOfAFrame(benchmark::State& state)
 }
 BENCHMARK(visitTilesOfAFrame)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// From what the receivers stage read back to visibility, by rays alone and with a map that decides
-/// what it can: they take turns.
+/// Time the way from the receivers' readback to visibility, by rays alone and with a map that
+/// decides what it can. Both take turns.
 void hybridAgainstTracing(benchmark::State& state)
 {
   const Subject& scene = subject();
@@ -278,7 +278,7 @@ void refitMovedSurface(benchmark::State& state)
 // The bunny (0), the plane (1).
 BENCHMARK(refitMovedSurface)->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// A context without a screen, and what tracing on the GPU takes of it.
+/// A context without a screen, and the resources for tracing on the GPU.
 struct Gpu
 {
   Gpu()
@@ -295,14 +295,14 @@ struct Gpu
   GpuShadowTracer tracer{ this->buffers, this->shaders };
 };
 
-/// Which GPU it is, or that it is none.
+/// Return the GPU's name, or that it is none.
 std::string describe(const Gpu& gpu)
 {
   return gpu.renderer + (isSoftwareRenderer(gpu.renderer) ? " (software)" : "");
 }
 
-/// From receivers to visibility by the GPU's tracer, rays and answers on their way included, and by
-/// Embree: they take turns.
+/// Compare the GPU's tracer with Embree, from receivers to visibility. The GPU's time includes
+/// moving rays and answers. Both take turns.
 void traceOnGpuAgainstEmbree(benchmark::State& state)
 {
   const Subject& scene = subject();

@@ -1,5 +1,5 @@
-// What shadow as data costs: vtkGnomonVisibilityFilter against a bare Embree loop over the same
-// cells and suns. Hills of 100,352 triangles; the argument is the number of suns.
+// Measure the cost of shadow as data: vtkGnomonVisibilityFilter against a bare Embree loop over the
+// same cells and suns. Scene: hills of 100,352 triangles; the argument is the number of suns.
 
 #include "SyntheticScene.h"
 
@@ -37,7 +37,7 @@ const Mesh& hills()
   return mesh;
 }
 
-/// Suns from dawn to dusk, on several days.
+/// Return suns from dawn to dusk, on several days.
 std::vector<glm::dvec3> suns(std::size_t count)
 {
   std::vector<glm::dvec3> directions;
@@ -108,7 +108,8 @@ BENCHMARK(filter)
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);
 
-/// Embree alone: packets of sixteen neighbours in their order, a bit counted for each ray.
+/// Traces with Embree alone: packets of sixteen neighbours in their order, a bit counted for each
+/// ray.
 class BareLoop
 {
 public:

@@ -20,8 +20,7 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Rasterisers place corners to 1/256 of a pixel. Twice that is how far off a pixel's centre they
-/// may look.
+/// Rasterisers place corners to 1/256 of a pixel. A sample may lie twice that off a pixel's centre.
 constexpr double lookingPixels = 1.0 / 128.0;
 
 /// A position in float lies off its triangle by no more than this share of the distance.
@@ -30,7 +29,7 @@ constexpr double storedPrecision = 1e-6;
 /// Unit normals further apart (about 0.1 degrees) belong to different surfaces.
 constexpr double sameNormalDistance = 0.002;
 
-/// Rays through the points of a picture.
+/// Makes rays through the points of a picture.
 class CameraRays
 {
 public:
@@ -55,7 +54,7 @@ public:
       (this->forward_ + across * this->right_ + upward * this->up_).normalized() };
   }
 
-  /// What a pixel in the middle of the picture covers, in radians.
+  /// Return the angle that a pixel in the middle of the picture covers, in radians.
   double pixelAngle() const { return 2.0 * this->up_.length() / this->height_; }
 
 private:
@@ -67,7 +66,7 @@ private:
   int height_;
 };
 
-/// The unit normal on the side from which the corners are counter-clockwise.
+/// Return the unit normal on the side from which the corners are counter-clockwise.
 Vec3 frontOf(const Triangle& triangle)
 {
   return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
@@ -80,10 +79,10 @@ struct Point
   Vec3 normal; ///< unit
 };
 
-/// How far the light is decided without a ray.
+/// How a light's visibility is decided.
 enum class Lighting
 {
-  Unlit, ///< turned away, or outside of the cone or box
+  Unlit, ///< turned away, or outside the cone or box
   Open   ///< a ray decides
 };
 
@@ -93,8 +92,8 @@ struct ShadowRay
   Ray ray;
 };
 
-/// The shadow ray starts this far off the surface: what double precision costs, and much less than
-/// a pixel.
+/// Offset of the shadow ray's start from the surface: above the rounding of double precision, and
+/// much less than a pixel.
 double offsetOf(const Point& point)
 {
   return 1e-13 * point.hit.position.length() + 1e-10 * point.hit.distance;
@@ -135,7 +134,7 @@ ShadowRay shadowRay(const Light& light, const Point& point)
   return result;
 }
 
-/// What is to be said about one pixel.
+/// Findings about one pixel.
 struct PixelResult
 {
   bool coverageDiffers = false;
@@ -155,7 +154,7 @@ struct PixelResult
   std::vector<Light> lights;
 };
 
-/// Compares pixel after pixel.
+/// Compares pixel by pixel.
 class Comparison
 {
 public:
@@ -206,16 +205,16 @@ private:
     return Point{ *hit, normal.dot(ray.direction) > 0.0 ? -normal : normal };
   }
 
-  /// Of a stored position, as a share of its distance from the camera; infinite for NaN.
+  /// Return a stored position's error as a share of its distance from the camera; infinite for NaN.
   static double positionError(const Vec3& position, const Point& truth)
   {
     const double error = (position - truth.hit.position).length() / truth.hit.distance;
     return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
   }
 
-  /// Whether a position is where the pixel's ray meets or passes by a triangle other than the
-  /// truth's, within the tolerance, and a camera ray that a rasteriser cannot tell from the pixel's
-  /// sees that triangle first.
+  /// True if a position lies on a triangle other than the truth's, within the tolerance. The
+  /// pixel's ray must meet or nearly pass it there. A camera ray that a rasteriser cannot tell from
+  /// the pixel's must see that triangle first.
   bool onOtherSurface(const Vec3& position, double x, double y, const Point& truth) const
   {
     const Ray ray = this->camera_.through(x, y);
@@ -226,7 +225,7 @@ private:
       return false;
     }
     const Triangle* const truthTriangle = &this->triangleOf(truth.hit);
-    // Dense enough for triangles seen edge-on, which are thin strips there.
+    // Triangles seen edge-on are thin strips, so this many rays are needed.
     constexpr int around = 64;
     constexpr int circles = 4;
     for (int i = 0; i < around; ++i)
@@ -249,7 +248,7 @@ private:
     return false;
   }
 
-  /// Whether a camera ray passes a point more closely than a rasteriser can tell.
+  /// True if a camera ray passes a point more closely than a rasteriser can tell.
   bool looksAt(const Ray& ray, const Vec3& point) const
   {
     const Vec3 view = point - ray.origin;
@@ -257,9 +256,9 @@ private:
     return view.cross(ray.direction).length() <= looking + storedPrecision * view.length();
   }
 
-  /// The point of a triangle that a position and a normal on the camera's side are those of: the
-  /// nearest within the tolerance, if the pixel's ray passes it by more closely than a rasteriser
-  /// can tell.
+  /// Return the point of the triangle to which a position and a normal on the camera's side belong.
+  /// It is the nearest within the tolerance. None if the pixel's ray passes it farther than a
+  /// rasteriser can tell.
   std::optional<Point> drawn(const Vec3& position, const Vec3& normal, double x, double y) const
   {
     const Ray ray = this->camera_.through(x, y);
@@ -276,8 +275,8 @@ private:
     {
       return std::nullopt;
     }
-    // An edge belongs to both of its faces. What is meant lies inside this one, if only by as much
-    // as a position is stored to.
+    // An edge belongs to both of its faces. Move the point into this face by the precision of
+    // stored positions.
     const Triangle& triangle = this->triangleOf(*hit);
     const Vec3 inwards = (triangle[0] + triangle[1] + triangle[2]) / 3.0 - hit->position;
     const double length = inwards.length();
@@ -298,9 +297,9 @@ private:
     return (a - b).length() <= sameNormalDistance; // false for NaN
   }
 
-  /// Position and normal. Where they are not those at the pixel's centre, they may be those of
-  /// another triangle that a rasteriser finds there.
-  /// @return the point that the file's visibility is one of
+  /// Compare position and normal. Where they differ from those at the pixel's centre, they may
+  /// belong to another triangle that a rasteriser finds there.
+  /// @return the point whose visibility the file states
   Point compareSurface(
     std::size_t pixel, double x, double y, const Point& truth, PixelResult& result) const
   {

@@ -10,15 +10,15 @@
 namespace gnomon::check
 {
 
-/// What a visibility file may differ in.
+/// Tolerances for visibility files.
 namespace tolerance
 {
 constexpr double coverageShare = 5e-4;   ///< of all pixels; also for `otherSurface`
 constexpr double positionError = 1e-4;   ///< of the distance from the camera
 constexpr double normalShare = 5e-4;     ///< of the pixels covered in both
 constexpr double visibilityShare = 1e-4; ///< of the pixels that face the light
-/// The cosine up to which a surface counts as turned away from the light: rounding to float says
-/// which side of it the light is on.
+/// Surfaces with a smaller cosine count as turned away: the side that faces the light is then
+/// decided by rounding to float.
 constexpr double facingCosine = 1.0 / 1048576.0; // 2^-20
 constexpr double visibilityDifference = 0.5;     ///< more than this makes a pixel wrong
 } // namespace tolerance
@@ -26,19 +26,19 @@ constexpr double visibilityDifference = 0.5;     ///< more than this makes a pix
 /// Pixels, as y * width + x, row 0 on top; ascending.
 using Pixels = std::vector<std::size_t>;
 
-/// How one light's visibility compares. In pixels of another surface or face, visibility is
-/// compared at the point of that triangle, which is what the file shows.
+/// Comparison of one light's visibility. In pixels of another surface or face, visibility is
+/// compared at the point of that triangle, because the file shows that point.
 struct LightResult
 {
   std::size_t counted = 0; ///< pixels covered in both, facing the light, in its cone
   Pixels falseLight;       ///< of these, lit in the file and shadowed in truth
   Pixels falseShadow;      ///< of these, shadowed in the file and lit in truth; also NaN
-  Pixels unlit;            ///< turned away or outside of the cone, but not dark in the file
+  Pixels unlit;            ///< turned away or outside the cone, but not dark in the file
 
   double wrongShare() const;
 };
 
-/// How a file compares with the scene it was made from.
+/// Comparison of a file with its scene.
 struct Result
 {
   std::size_t pixels = 0;
@@ -48,23 +48,22 @@ struct Result
   std::size_t positionErrorAt = 0;
   Pixels position; ///< where the error exceeds the tolerance
   /// Covered in both, but by different triangles, at an edge that the pixel's ray passes more
-  /// closely than a rasteriser can tell: a difference in coverage, not in position.
+  /// closely than a rasteriser can tell. This is a difference in coverage, not in position.
   Pixels otherSurface;
-  /// The same where the two meet in the edge, so that their positions agree and their normals do
-  /// not.
+  /// As `otherSurface`, where two faces meet in the edge: positions agree, normals do not.
   Pixels otherFace;
   Pixels normal; ///< normals of no triangle at the position, or not on the camera's side
   std::vector<LightResult> lights;
 
-  /// One sentence per tolerance that is not kept.
+  /// One sentence per tolerance that is exceeded.
   std::vector<std::string> failures() const;
 };
 
-/// Renders the scene with rays of its own and compares.
-/// @throws std::runtime_error when the file lacks a channel
+/// Render the scene with the check's own rays and compare.
+/// @throws std::runtime_error if the file lacks a channel
 Result compare(const Scene& scene, const VisibilityFile& file);
 
-/// The result as JSON, with the first pixels of each kind.
+/// Return the result as JSON, with the first pixels of each kind.
 std::string toJson(const Result& result, int width);
 
 } // namespace gnomon::check

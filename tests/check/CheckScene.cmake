@@ -1,4 +1,4 @@
-# Renders a scene's visibility file and has it checked.
+# Render a scene's visibility file and check it.
 #
 # GNOMON, GNOMON_CHECK: the programs. SCENE: a scene file, or with BUILTIN the name of a built-in
 # scene, which is exported first. WORK_DIR: where the files go.

@@ -1,5 +1,5 @@
-// The check itself is checked: files that are true by construction pass, and what is put wrong in
-// them is found, pixel by pixel.
+// Test the check itself: it passes files that are true by construction, and finds each planted
+// error at its pixel.
 
 #include "Check.h"
 #include "TestFiles.h"
@@ -32,9 +32,9 @@ constexpr double cameraHeight = 10.0;
 constexpr double halfGround = 9.0;
 constexpr double plateHeight = 2.0;
 
-/// A picture from above onto a square ground at y = 0 and a square plate of side 2 over its middle.
-/// With 90 degrees and the camera at 10, the border of the picture is at 10 on the ground. All is
-/// so placed that no pixel's centre lies on an edge.
+/// A picture from above of a square ground at y = 0 with a square plate of side 2 over its middle.
+/// With 90 degrees and the camera at 10, the picture's border is at 10 on the ground. No pixel's
+/// centre lies on an edge.
 nlohmann::json makeScene()
 {
   const nlohmann::json light = { { "type", "directional" }, { "direction", { 1, -1, 0 } } };
@@ -48,7 +48,7 @@ nlohmann::json makeScene()
     { "lights", { light } }, { "models", { ground, plate } } };
 }
 
-/// The file that is true for the scene, by hand.
+/// The file that is true for the scene, computed by hand.
 struct TrueFile
 {
   VisibilityFile file;
@@ -83,7 +83,7 @@ struct TrueFile
 
   void fill(int x, int y)
   {
-    // Where the ray meets the ground and the plate.
+    // Return where the ray meets the ground and the plate.
     const double groundX = cameraHeight * (2.0 * (x + 0.5) / sidePixels - 1.0);
     const double groundZ = cameraHeight * (2.0 * (y + 0.5) / sidePixels - 1.0);
     const double nearer = (cameraHeight - plateHeight) / cameraHeight;
@@ -132,7 +132,7 @@ void write(const VisibilityFile& file, const std::string& path)
   output.writePixels(file.height);
 }
 
-/// An image of two texels, of which the left one has no alpha.
+/// Write an image of two texels; the left one has no alpha.
 void writeHoles(const std::string& path)
 {
   vtkNew<vtkImageData> image;
@@ -148,7 +148,7 @@ void writeHoles(const std::string& path)
   writer->Write();
 }
 
-/// Checks a file against a scene, both through the disk.
+/// Check a file against a scene, both written to the disk and read back.
 Result check(const nlohmann::json& scene, const VisibilityFile& file)
 {
   const tool::TestFolder folder;
@@ -171,7 +171,7 @@ Pixels pixels(const std::vector<std::array<int, 2>>& places)
   return result;
 }
 
-/// Pixels where the file is lit by the first light.
+/// Return the pixels that the first light lights in the file.
 std::size_t countLit(TrueFile& image)
 {
   const std::vector<float>& plane = image.file.channels.at("visibility.0");
@@ -204,7 +204,7 @@ TEST(Check, FindsNothingInATrueFile)
 TEST(Check, FindsTheFlippedPixelsAndNoOthers)
 {
   TrueFile image;
-  // Row 52 crosses the plate (columns 44 to 55) and the shadow that shows beside it (to 64).
+  // Row 52 crosses the plate (columns 44 to 55) and the visible shadow beside it (to 64).
   ASSERT_EQ(image.at("visibility.0", 60, 52), 0.0f);
   ASSERT_EQ(image.at("visibility.0", 50, 52), 1.0f);
   image.at("visibility.0", 58, 50) = 1.0f;
@@ -243,10 +243,11 @@ TEST(Check, FindsWrongPositionsAndNormals)
 }
 
 //------------------------------------------------------------------------------
-/// A rasteriser may draw the plate's edge in a pixel whose ray passes it by to the ground.
+/// A rasteriser may draw the plate's edge in a pixel whose ray passes the plate and meets the
+/// ground.
 TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
 {
-  // The plate's right edge looks at 8 of 10 times the border's tangent; the first pixel's ray
+  // The plate's right edge is at 8 of 10 times the border's tangent. The ray of the first pixel
   // beside it passes at the given distance, in pixels.
   const auto compareWith = [](double pixels, double along, float visibility = 1.0f)
   {
@@ -264,7 +265,7 @@ TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
   const Result closely = compareWith(1.0 / 256.0, 0.0);
   EXPECT_EQ(closely.otherSurface, pixels({ { 56, 50 } }));
   EXPECT_EQ(closely.position, Pixels());
-  // The plate is lit, where the ground behind it is not: what counts is what the file shows.
+  // The plate is lit, and the ground behind it is not. The surface in the file counts.
   EXPECT_EQ(closely.lights[0].falseLight, Pixels());
   EXPECT_EQ(compareWith(1.0 / 256.0, 0.0, 0.0f).lights[0].falseShadow, pixels({ { 56, 50 } }));
   EXPECT_EQ(compareWith(1.0 / 16.0, 0.0).lights[0].falseLight, pixels({ { 56, 50 } }));
@@ -272,7 +273,8 @@ TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
   EXPECT_EQ(compareWith(1.0 / 16.0, 0.0).otherSurface, Pixels());
   EXPECT_EQ(compareWith(1.0 / 16.0, 0.0).position, pixels({ { 56, 50 } }));
   EXPECT_EQ(compareWith(1.0 / 256.0, 0.05).position, pixels({ { 56, 50 } }));
-  // The rays meet the plate, where the file shows the ground: so it may be closely inside the edge.
+  // The rays meet the plate where the file shows the ground. A ray just inside the edge allows
+  // that.
   EXPECT_EQ(compareWith(-1.0 / 256.0, 0.0).position, Pixels());
   EXPECT_GT(compareWith(-1.0 / 256.0, 0.0).otherSurface.size(), 20u);
   EXPECT_EQ(compareWith(-1.0 / 16.0, 0.0).otherSurface, Pixels());
@@ -280,11 +282,10 @@ TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
 }
 
 //------------------------------------------------------------------------------
-/// Two faces meet in an edge beside the pixel's ray: their positions there agree, their normals do
-/// not.
+/// Two faces meet in an edge beside the pixel's ray: positions there agree, normals do not.
 TEST(Check, TheOtherFaceAtAnEdgeHasItsOwnLight)
 {
-  // The plate lies upon the ground and is tilted about its left edge, away from the light.
+  // The plate lies on the ground and is tilted about its left edge, away from the light.
   const auto compareWith = [](double pixels, float visibility)
   {
     TrueFile image;
@@ -318,7 +319,7 @@ TEST(Check, TheOtherFaceAtAnEdgeHasItsOwnLight)
 TEST(Check, FindsAPictureThatIsUpsideDown)
 {
   nlohmann::json scene = makeScene();
-  scene["models"][1]["matrix"][11] = 3.0; // the plate is off the middle now
+  scene["models"][1]["matrix"][11] = 3.0; // moves the plate off the middle
   const Result result = check(scene, TrueFile().file);
   EXPECT_FALSE(result.failures().empty());
   EXPECT_FALSE(result.position.empty());
@@ -374,7 +375,7 @@ TEST(Check, HolesAreNeitherSeenNorCast)
       {
         seen.push_back(pixels({ { x, y } })[0]);
       }
-      // On the ground below the plate, too, nothing of the shadow's left half is seen.
+      // On the ground below the plate, too, the shadow's left half is not visible.
       if (image.at("coverage", x, y) > 0.5f && image.at("visibility.0", x, y) == 0.0f &&
         position.x < plateHeight)
       {
@@ -392,8 +393,8 @@ TEST(Check, HolesAreNeitherSeenNorCast)
 //------------------------------------------------------------------------------
 TEST(Check, SpotLightsShineInTheirConeOnly)
 {
-  // Beside the camera at (3, 10, 0), straight down, 45 degrees: on the ground the cone is a circle
-  // of radius 10; the plate's shadow goes from x = -2 to 0.5 and 1.25 to both sides.
+  // Beside the camera at (3, 10, 0), straight down, 45 degrees: the cone is a circle of radius 10
+  // on the ground. The plate's shadow spans x = -2 to 0.5 and z = -1.25 to 1.25.
   nlohmann::json scene = makeScene();
   scene["lights"] = { { { "type", "spot" }, { "position", { 3, 10, 0 } }, { "target", { 3, 0, 0 } },
     { "cone_angle", 45 } } };
@@ -418,7 +419,7 @@ TEST(Check, SpotLightsShineInTheirConeOnly)
   EXPECT_EQ(result.failures(), std::vector<std::string>());
   EXPECT_EQ(result.lights[0].counted, inCone);
 
-  image.at("visibility.0", 8, 8) = 1.0f; // outside of the cone
+  image.at("visibility.0", 8, 8) = 1.0f; // outside the cone
   result = check(scene, image.file);
   EXPECT_EQ(result.lights[0].unlit, pixels({ { 8, 8 } }));
 }
@@ -426,7 +427,7 @@ TEST(Check, SpotLightsShineInTheirConeOnly)
 //------------------------------------------------------------------------------
 TEST(Check, PointLightsShineEverywhere)
 {
-  // Beside the camera, so that what the light sees of the plate is the cone's of the spot light.
+  // Beside the camera, so the light sees the same part of the plate as the spot light's cone.
   nlohmann::json scene = makeScene();
   scene["lights"] = { { { "type", "point" }, { "position", { 3, 10, 0 } } } };
   TrueFile image;
@@ -478,7 +479,7 @@ TEST(Check, ABoxEndsTheLightAndBeginsIt)
   EXPECT_EQ(result.lights[0].counted, inBox);
   EXPECT_EQ(result.lights[0].falseLight, Pixels());
 
-  // From under the plate, that does neither cast nor get light.
+  // The box starts below the plate, which then neither casts nor receives light.
   scene["lights"][0]["box"] = boxFrom(1.5);
   result = check(scene, image.file);
   EXPECT_LT(result.lights[0].counted, inBox);

@@ -39,7 +39,7 @@ struct Corner
   std::optional<Vec2> coordinates;
 };
 
-/// Takes what has an area. NaN and infinity have none.
+/// Append a triangle if it has an area. NaN and infinity have none.
 void addTriangle(Mesh& mesh, const Corner& a, const Corner& b, const Corner& c)
 {
   const double area = (b.position - a.position).cross(c.position - a.position).length();
@@ -53,7 +53,7 @@ void addTriangle(Mesh& mesh, const Corner& a, const Corner& b, const Corner& c)
   }
 }
 
-/// Polygons become fans around their first vertex; every other triangle of a strip is turned round.
+/// Cut polygons into fans around their first vertex; turn every other triangle of a strip round.
 void addSurface(Mesh& mesh, vtkPolyData* data, vtkMatrix4x4* worldFromData)
 {
   vtkDataArray* const coordinates = data->GetPointData()->GetTCoords();
@@ -111,7 +111,7 @@ Mesh readWithReader(const std::string& path)
 template <class Importer>
 Mesh readWithImporter(const std::string& path)
 {
-  vtkNew<vtkGenericOpenGLRenderWindow> window; // importers ask for one; it draws nothing
+  vtkNew<vtkGenericOpenGLRenderWindow> window; // importers require one; it draws nothing
   vtkNew<vtkRenderer> renderer;
   window->AddRenderer(renderer);
   vtkNew<Importer> importer;
@@ -227,7 +227,7 @@ bool isDrawn(const Surface& surface, std::size_t triangle, const Vec3& point)
   {
     return true;
   }
-  // Areas of the parts opposite the corners, seen along the normal.
+  // Weights from the areas opposite the corners, seen along the normal.
   const auto& [a, b, c] = surface.triangles[triangle];
   const Vec3 normal = (b - a).cross(c - a);
   const double inA = (c - b).cross(point - b).dot(normal);

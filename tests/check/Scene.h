@@ -16,7 +16,7 @@ using Vec3 = Imath::V3d;
 using Triangle = std::array<Vec3, 3>; ///< corners, world coordinates
 using Vec2 = Imath::V2d;
 
-/// Triangles with their texture coordinates.
+/// Triangles and their texture coordinates.
 struct Mesh
 {
   std::vector<Triangle> triangles;
@@ -24,14 +24,14 @@ struct Mesh
   std::vector<std::array<Vec2, 3>> coordinates;
 };
 
-/// Which texels of a repeated image are drawn: those whose alpha is not 0.
+/// The texels of a repeated image that are drawn: those whose alpha is not 0.
 struct Holes
 {
   int width = 0;
   int height = 0;
   std::vector<bool> drawn; ///< rows from the bottom
 
-  /// Of the texel at texture coordinates.
+  /// True if the texel at these texture coordinates is drawn.
   bool isDrawn(const Vec2& coordinates) const;
 };
 
@@ -39,14 +39,14 @@ struct Holes
 struct Surface
 {
   std::vector<Triangle> triangles;
-  std::optional<Holes> holes;                   ///< where its texture leaves nothing of it
+  std::optional<Holes> holes;                   ///< where its texture makes it transparent
   std::vector<std::array<Vec2, 3>> coordinates; ///< with holes, one entry for each triangle
   bool casts = true;
   bool receives = true;
   bool oneSided = false; ///< casts only with triangles that are counter-clockwise for the light
 };
 
-/// A box that a directional light is limited to: nothing outside is lit or casts.
+/// The box of a directional light: outside it nothing is lit or casts.
 struct Box
 {
   Vec3 up{ 0.0, 1.0, 0.0 };
@@ -85,20 +85,20 @@ struct Scene
   std::vector<Light> lights;
 };
 
-/// Reads a scene file with its models. It must state its camera and its lights.
+/// Read a scene file with its models. It must state its camera and its lights.
 /// @throws std::exception with a message that names the file
 Scene readScene(const std::string& path);
 
-/// Triangles of a model file in the file's own coordinates, without those that have no area.
-/// Texture coordinates are those of the file's points where it has an array of them.
+/// Return the triangles of a model file in the file's own coordinates, without those that have no
+/// area. Texture coordinates are those of the file's points, if it has an array of them.
 /// @throws std::exception with a message that names the file
 Mesh readModel(const std::string& path);
 
-/// The holes of a PNG image.
+/// Return the holes of a PNG image.
 /// @throws std::exception with a message that names the file
 Holes readHoles(const std::string& path);
 
-/// Whether a surface has something at a point of one of its triangles.
+/// False if the surface has a hole at a point of one of its triangles.
 bool isDrawn(const Surface& surface, std::size_t triangle, const Vec3& point);
 
 } // namespace gnomon::check

@@ -28,13 +28,13 @@ struct Geometry
   const Surface* surface = nullptr;
   std::size_t index = 0;
   Vec3 centre{ 0.0 };   ///< Embree's floats are relative to it
-  double padding = 0.0; ///< of the boxes; more than float costs a ray and a box together
+  double padding = 0.0; ///< of the boxes; above the float errors of ray and box together
 };
 
-/// A ray under way: what Embree hands through to the callbacks.
+/// A ray with its result so far, which Embree passes to the callbacks.
 struct Query
 {
-  EmbreeContext context; ///< first, so that a pointer to it is one to the query
+  EmbreeContext context; ///< first: its address is that of the query
   const Ray* ray;
   double distance; ///< to the nearest hit so far
   std::size_t surface;
@@ -107,7 +107,7 @@ Vec3 nearestPointOfEdge(const Vec3& point, const Vec3& a, const Vec3& b)
   return a + along * edge;
 }
 
-/// A search for the triangle nearest to a point, as Embree hands it through to the callback.
+/// A search for the triangle nearest to a point, which Embree passes to the callback.
 struct NearbySearch
 {
   const std::vector<Geometry>& geometries;
@@ -213,7 +213,7 @@ struct Tracer::Impl
     }
   }
 
-  /// Fills the geometries.
+  /// Fill the geometries.
   void describe(const Scene& scene)
   {
     Vec3 low(std::numeric_limits<double>::infinity());
@@ -237,7 +237,7 @@ struct Tracer::Impl
     this->centre = 0.5 * (low + high);
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
     {
-      // A ray that stays in the box of the scene is off by 2^-22 of its size at most.
+      // A ray within the scene's box errs by at most 2^-22 of the box's size.
       this->geometries.push_back(
         { &scene.surfaces[i], i, this->centre, 1e-6 * (high - low).length() });
     }

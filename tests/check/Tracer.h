@@ -19,7 +19,7 @@ struct Ray
   double length = std::numeric_limits<double>::infinity();
 };
 
-/// What a camera ray meets first.
+/// The first hit of a camera ray.
 struct Hit
 {
   Vec3 position; ///< world coordinates
@@ -28,16 +28,16 @@ struct Hit
   std::size_t triangle = 0; ///< within its surface
 };
 
-/// Distance along a ray to a triangle. The ray passes inside when it turns the same way round all
-/// three edges; two triangles get an edge's number with opposite signs, bit for bit, so no ray
-/// slips between them.
+/// Return the distance along a ray to a triangle. The ray is inside if it passes all three edges in
+/// the same sense of rotation. Two triangles get an edge's number with opposite signs, bit for bit,
+/// so no ray slips between them.
 std::optional<double> intersect(const Ray& ray, const Triangle& triangle);
 
-/// The point of a triangle that is nearest to a point.
+/// Return the point of a triangle that is nearest to a point.
 Vec3 nearestPoint(const Vec3& point, const Triangle& triangle);
 
-/// Rays against a scene. Embree finds the triangles whose boxes a ray passes; whether and where it
-/// meets them is computed in double precision, so that nothing but the input is rounded to float.
+/// Traces rays against a scene. Embree finds the triangles whose boxes a ray passes. Hits are
+/// computed in double precision, so only the input is rounded to float.
 class Tracer
 {
 public:
@@ -47,14 +47,15 @@ public:
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  /// The nearest of all surfaces. A ray through an edge meets at least one of its triangles.
+  /// Return the nearest hit of all surfaces. A ray through an edge meets at least one of its
+  /// triangles.
   std::optional<Hit> nearest(const Ray& ray) const;
 
-  /// Whether a surface that casts is in the way.
+  /// True if a surface that casts blocks the ray.
   bool blocked(const Ray& ray) const;
 
-  /// The point nearest to a point of all triangles that are accepted and as near as `distance`; its
-  /// own distance is that from the point.
+  /// Return the point nearest to a point, of all accepted triangles within `distance`. The hit's
+  /// distance is measured from the point.
   std::optional<Hit> nearestTo(
     const Vec3& point, double distance, const std::function<bool(const Triangle&)>& accepts) const;
 

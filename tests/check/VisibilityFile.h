@@ -18,9 +18,9 @@ struct VisibilityFile
   Vec3 origin{ 0.0 };
   std::map<std::string, std::vector<float>> channels;
 
-  /// @throws std::runtime_error when it is missing
+  /// @throws std::runtime_error if the channel is missing
   const std::vector<float>& channel(const std::string& name) const;
-  /// Reads three channels: name.X, name.Y, name.Z.
+  /// Read three channels: name.X, name.Y, name.Z.
   Vec3 vector(const std::string& name, std::size_t pixel) const;
 };
 

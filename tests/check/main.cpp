@@ -1,7 +1,7 @@
-// gnomon_check SCENE.json VISIBILITY.exr: whether a visibility file is true.
+// gnomon_check SCENE.json VISIBILITY.exr: check whether a visibility file is true.
 //
-// Prints how it compares with rays of its own, as JSON. Exit code 0: true within the tolerances,
-// 1: not, 2: bad input.
+// Prints the comparison with its own rays as JSON. Exit code 0: true within the tolerances, 1: not,
+// 2: bad input.
 
 #include "Check.h"
 

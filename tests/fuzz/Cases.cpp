@@ -9,8 +9,8 @@ namespace gnomon::fuzz
 const std::vector<CaseKind>& caseKinds()
 {
   static const std::vector<CaseKind> kinds = {
-    { "scenes", "scenes, lights, cameras and settings, held to rays and to VTK alone", runScene },
-    { "sequences", "changes of scenes, held to a fresh pass in a fresh window", runSequence },
+    { "scenes", "scenes, lights, cameras and settings, against rays and VTK alone", runScene },
+    { "sequences", "changes of scenes, against a fresh pass in a fresh window", runSequence },
     { "files", "broken scene files and models, which are read or refused", runFile }
   };
   return kinds;

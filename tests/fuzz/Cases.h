@@ -10,7 +10,7 @@
 namespace gnomon::fuzz
 {
 
-/// Something that must never be.
+/// An error that a case finds.
 class Find : public std::runtime_error
 {
 public:
@@ -18,9 +18,9 @@ public:
 };
 
 ///@{
-/// Runs a case.
-/// @param random of which the case is a function
-/// @param description set to the case in words, step by step, so that a find has it
+/// Run a case.
+/// @param random generator that determines the case
+/// @param description set to the case in words, step by step, so that a find states it
 /// @throws Find
 void runScene(Random random, std::string& description);
 void runSequence(Random random, std::string& description);
@@ -36,14 +36,14 @@ struct CaseKind
 };
 const std::vector<CaseKind>& caseKinds();
 
-/// Where a case is in the endless row of those of its kind: it is a function of these alone.
+/// The number of a case among all of its kind; seed and index alone determine the case.
 struct Place
 {
   unsigned seed = 1;
   unsigned index = 0;
 };
 
-/// Runs a case of a kind, and tells what was wrong with its description; empty if nothing was.
+/// Run a case of a kind. Return the error with its description; empty if there is none.
 std::string whatIsWrong(const CaseKind& kind, const Place& place);
 
 } // namespace gnomon::fuzz

@@ -14,7 +14,7 @@ namespace gnomon::fuzz
 namespace
 {
 
-/// Good files, by name: of every type that the program reads.
+/// Return valid files by name, one of every type that the program reads.
 std::map<std::string, std::string> goodFiles()
 {
   std::map<std::string, std::string> files = tool::sampleModels();
@@ -41,7 +41,7 @@ std::map<std::string, std::string> goodFiles()
   return files;
 }
 
-/// The part of some text from a word on, up to its end.
+/// Return the start and length of a random word in a text.
 std::pair<std::size_t, std::size_t> drawWord(const std::string& bytes, Random& random)
 {
   const char* const ends = " \t\r\n,:[]{}\"/<>=";
@@ -54,7 +54,7 @@ std::pair<std::size_t, std::size_t> drawWord(const std::string& bytes, Random& r
   return { first, (end == std::string::npos ? bytes.size() : end) - first };
 }
 
-/// Gives one value of a JSON document another one, or none.
+/// Replace one value of a JSON document by a random one, or remove it.
 nlohmann::json withOtherValue(const nlohmann::json& document, Random& random)
 {
   static const std::vector<const char*> values = { "-1", "0", "1", "3", "1e308", "-1e308", "0.5",
@@ -80,7 +80,7 @@ nlohmann::json withOtherValue(const nlohmann::json& document, Random& random)
   return document.patch(nlohmann::json::array({ change }));
 }
 
-/// Breaks something.
+/// Change some bytes or one word at random.
 void mutate(std::string& bytes, Random& random)
 {
   static const std::vector<std::string> extremes = { "-1", "0", "1e308", "-1e308", "nan", "inf",
@@ -108,7 +108,7 @@ void mutate(std::string& bytes, Random& random)
     case 4:
       bytes.insert(random() % bytes.size(), bytes.substr(place, length));
       break;
-    case 5: // all bits of a number of a binary file
+    case 5: // sets all bits of a number in a binary file
       bytes.replace(place, 4, std::string(4, chance(random, 0.5) ? '\xff' : '\x7f'));
       break;
     case 6:
@@ -128,7 +128,7 @@ void mutate(std::string& bytes, Random& random)
   }
 }
 
-/// Breaks a file in some places, or in none.
+/// Change a file in up to three places, or in none.
 std::string broken(const std::string& name, std::string bytes, Random& random)
 {
   unsigned places = chance(random, 0.1) ? 0 : 1 + random() % 3;
@@ -147,7 +147,7 @@ std::string broken(const std::string& name, std::string bytes, Random& random)
   return bytes;
 }
 
-/// What leads to a file.
+/// Return the file to open so that the given file is read.
 std::string entryOf(const std::string& name, Random& random)
 {
   if (name == "paint.mtl")
@@ -158,7 +158,7 @@ std::string entryOf(const std::string& name, Random& random)
   return isOfScene && (name == "texture.png" || chance(random, 0.5)) ? "lights.json" : name;
 }
 
-/// @throws Find where it cannot be drawn
+/// @throws Find if it cannot be drawn
 void draw(const tool::Scene& scene)
 {
   const tool::VtkMessages messages;

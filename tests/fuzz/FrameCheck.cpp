@@ -19,7 +19,7 @@ std::ptrdiff_t countOutside(const std::vector<float>& values, float least, float
     values.begin(), values.end(), [=](float value) { return !(value >= least && value <= most); });
 }
 
-/// Whether an error or warning is right: the report says the same.
+/// True if the frame's report states the reason of an error or warning.
 bool isTold(const std::string& text, const FrameReport& report)
 {
   const auto holds = [&text](const std::string& reason)

@@ -9,10 +9,10 @@
 namespace gnomon::fuzz
 {
 
-/// Looks at a frame of the current OpenGL context.
-/// @param messages of VTK while it was drawn
-/// @throws Find for an error of OpenGL, for what VTK says and the frame's report does not, and for
-/// kept numbers that are no visibilities or not finite
+/// Check a frame of the current OpenGL context.
+/// @param messages of VTK during that frame
+/// @throws Find for an error of OpenGL, and for a message of VTK that the frame's report lacks.
+/// Also for visibilities outside [0, 1] and receivers that are not finite.
 void checkFrame(vtkGnomonShadowPass* pass, const tool::VtkMessages& messages);
 
 } // namespace gnomon::fuzz

@@ -244,7 +244,7 @@ void FuzzScene::placeCamera(vtkRenderer* renderer, Random& random)
   vtkCamera* const camera = renderer->GetActiveCamera();
   const glm::dvec3 target = somewhere(random, 1.0);
   const glm::dvec3 eye = chance(random, 0.15)
-    ? somewhere(random, 1.5) // inside of things, too
+    ? somewhere(random, 1.5) // also inside of things
     : target + uniform(random, 1.0, 9.0) * unitVector(random) + glm::dvec3(0.0, 0.0, 2.0);
   camera->SetPosition(glm::value_ptr(this->inWorld(eye)));
   camera->SetFocalPoint(glm::value_ptr(this->inWorld(target)));
@@ -265,7 +265,7 @@ void FuzzScene::choosePass(Random& random)
   this->set(drawSettings(random));
   if (chance(random, 0.7))
   {
-    this->set("bake", "always"); // one frame then shows what maps say
+    this->set("bake", "always"); // one frame then shows the maps' shadows
   }
   this->pass_->SetSmoothTerminators(chance(random, 0.3));
   this->pass_->SetKeepVisibility(chance(random, 0.7));
@@ -283,7 +283,7 @@ void FuzzScene::choosePass(Random& random)
 //------------------------------------------------------------------------------
 std::string FuzzScene::allowed(const std::string& value) const
 {
-  const bool isOfItsFrame = value == "once"; // of the setting `fit`
+  const bool isOfItsFrame = value == "once"; // a value of the setting `fit`
   return this->purpose_ == Purpose::Changes && isOfItsFrame ? "frame" : value;
 }
 
@@ -310,7 +310,7 @@ test::Picture FuzzScene::render()
   const tool::VtkMessages messages;
   for (int frame = 0; frame < mostFrames; ++frame)
   {
-    // VTK 9.1 by itself draws a renderer at rest by the lights' places in the other one's view.
+    // VTK 9.1 draws a renderer at rest with light positions of the other renderer's view.
     for (vtkLight* light : this->lights_)
     {
       light->Modified();
@@ -326,7 +326,7 @@ test::Picture FuzzScene::render()
 }
 
 //------------------------------------------------------------------------------
-/// Whether a light is more than a point.
+/// True if a light has an area.
 bool FuzzScene::isWide(std::size_t light) const
 {
   for (const NamedSettings* settings : { &this->settingsOfLights_[light], &this->settings_ })

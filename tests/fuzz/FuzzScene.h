@@ -25,11 +25,11 @@
 namespace gnomon::fuzz
 {
 
-/// One change of a scene, the same in all scenes that are equal.
+/// A change of a scene; it is the same in all equal scenes.
 struct Change
 {
   std::size_t kind;
-  unsigned seed; ///< of the numbers that the kind draws
+  unsigned seed; ///< of the kind's random numbers
 };
 Change drawChange(Random& random);
 
@@ -39,32 +39,32 @@ enum class Purpose
   Changes  ///< one or two views; nothing depends on the frame in which it is set
 };
 
-/// A scene drawn at random, in a window of its own, under the pass.
+/// A random scene in its own window, under the pass.
 class FuzzScene
 {
 public:
-  /// @param random equal ones make equal scenes
+  /// @param random equal generators make equal scenes
   FuzzScene(Random random, Purpose purpose);
 
   void apply(const Change& change);
 
-  /// Draws frames until the pass shows all of what its techniques show.
-  /// @throws Find for an error of OpenGL or VTK, and for numbers that are no visibilities
+  /// Draw frames until the pass's picture is complete.
+  /// @throws Find for an error of OpenGL or VTK, and for values that are no visibilities
   test::Picture render();
 
-  /// Replaces the pass by a new one with the same settings.
+  /// Replace the pass by a new one with the same settings.
   void renewPass();
-  /// Has shadow rays decide all lights, with the samples that their settings ask for.
+  /// Decide all lights by shadow rays, with the samples of their settings.
   /// @param hard the lights that count as points, by their places in the renderer
   void traceInstead(const std::set<int>& hard);
-  /// Leaves the scene to VTK alone.
+  /// Remove the pass: VTK draws alone.
   void removePass();
 
   vtkGnomonShadowPass* pass() const { return this->pass_; }
   const FrameReport& report() const { return this->pass_->GetReport(); }
-  /// Whether surfaces are shown whose shadows no image of visibility has.
+  /// True if visible surfaces have shadows that no visibility image holds.
   bool showsTranslucent() const;
-  /// What was drawn, and what has changed since: a line each.
+  /// The scene and its changes, a line each.
   const std::string& description() const { return this->description_; }
 
 private:

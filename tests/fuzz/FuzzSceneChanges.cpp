@@ -244,7 +244,7 @@ void FuzzScene::changeTexture(Random& random)
     case 0:
       actor->SetTexture(texture ? nullptr : drawHoles(random).Get());
       actor->ForceOpaqueOn();
-      // VTK 9.1 by itself goes on drawing with the shader that samples the texture.
+      // VTK 9.1 keeps drawing with the shader that samples the texture.
       mapper->Modified();
       break;
     case 1:
@@ -310,7 +310,7 @@ void FuzzScene::chooseStereo(Random& random)
   {
     this->window_->SetStereoType(types[choice]);
   }
-  // VTK 9.1 by itself draws the first frame in stereo by the matrices of the frame before.
+  // VTK 9.1 draws the first frame in stereo with the matrices of the frame before it.
   for (vtkRenderer* renderer : this->renderers_)
   {
     renderer->GetActiveCamera()->Modified();
@@ -320,7 +320,7 @@ void FuzzScene::chooseStereo(Random& random)
 //------------------------------------------------------------------------------
 void FuzzScene::chooseRenderer(Random& random)
 {
-  const std::size_t only = random() % (this->renderers_.size() + 1); // of the others both
+  const std::size_t only = random() % (this->renderers_.size() + 1); // the size: both
   for (std::size_t i = 0; i < this->renderers_.size(); ++i)
   {
     this->renderers_[i]->SetPass(

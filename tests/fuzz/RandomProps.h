@@ -20,7 +20,7 @@ struct RandomProps
   std::vector<vtkSmartPointer<vtkProp3D>> props;
 };
 
-/// Draws props that lie within a few units of the origin, most of them above z = 0.
+/// Draw props that lie within a few units of the origin, most of them above z = 0.
 RandomProps drawProps(Random& random);
 
 /// The surface of one mesh of such props.

@@ -13,7 +13,7 @@ namespace gnomon::fuzz
 namespace
 {
 
-/// Most numbers cost as much time as they are large: counts of rays, of maps, of texels.
+/// Cost is proportional to most numbers: counts of rays, maps, texels.
 int largestDrawn(const IntegerSetting& values)
 {
   return std::min(values.largest, std::max(64, 16 * values.smallest));
@@ -60,7 +60,7 @@ std::string drawValue(const Setting& setting, Random& random)
   return pick(std::get<ChoiceSetting>(setting.values).names, random);
 }
 
-/// Any technique, and more often those that can be held to rays.
+/// Return any technique, more often one that can be compared with rays.
 const TechniqueEntry& drawTechnique(Random& random)
 {
   static const std::vector<TechniqueEntry> exact = []
@@ -73,7 +73,7 @@ const TechniqueEntry& drawTechnique(Random& random)
   return pick(chance(random, 0.3) ? exact : registry(), random);
 }
 
-/// The tables of what a technique or estimator reads.
+/// Return the settings tables of a technique or estimator.
 std::vector<const SettingsTable*> tablesOf(const TechniqueInfo& info)
 {
   std::vector<const SettingsTable*> tables = info.settings;

@@ -28,11 +28,11 @@ const Element& pick(const std::vector<Element>& elements, Random& random)
 /// Names and values, in the order in which they are set.
 using NamedSettings = std::vector<std::pair<std::string, std::string>>;
 
-/// Draws a technique, and values for some of its settings. A few are for other techniques, or
-/// values that make no sense together: errors that the frame's report tells.
+/// Draw a technique and values for some of its settings. A few belong to other techniques or
+/// contradict each other: errors that the frame's report states.
 NamedSettings drawSettings(Random& random);
 
-/// Draws one setting of a technique, with its value.
+/// Draw one setting of a technique, with its value.
 std::pair<std::string, std::string> drawSetting(const std::string& technique, Random& random);
 
 /// "technique=nsm map_size=64"

@@ -25,10 +25,10 @@ namespace gnomon::fuzz
 namespace
 {
 
-/// What a child may allocate: no good case takes as much.
+/// The memory limit of a child; no good case needs as much.
 constexpr rlim_t mostBytes = rlim_t(8) << 30;
 
-/// Cases of a child: OpenGL in software keeps some memory of each context.
+/// Cases of a child. Software OpenGL leaks some memory with each context.
 constexpr unsigned mostCases = 100;
 
 double secondsNow()
@@ -54,7 +54,7 @@ void send(int pipe, const std::string& text)
   }
 }
 
-/// A process that runs one case after the other, and sends what was wrong with each.
+/// A process that runs cases one by one and sends the error of each.
 class Child
 {
 public:
@@ -83,7 +83,7 @@ public:
     this->pipe_ = ends[0];
   }
 
-  /// Ends the process, which takes as long as a case does.
+  /// Kill the process; ending it takes as long as a case does.
   ~Child()
   {
     ::close(this->pipe_);
@@ -93,9 +93,9 @@ public:
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Waits for the next case.
-  /// @param wrong set to what was wrong with it
-  /// @return false if the process is of no more use
+  /// Wait for the next case.
+  /// @param wrong set to the case's error; empty if there is none
+  /// @return false if the process can run no more cases
   bool finish(double seconds, std::string& wrong)
   {
     std::uint32_t length = 0;
@@ -156,7 +156,7 @@ private:
 unsigned run(const CaseKind& kind, const Run& run)
 {
   const double end = run.seconds > 0.0 ? secondsNow() + run.seconds : 0.0;
-  const tool::TestFolder temporary; // also for what crashed cases leave behind
+  const tool::TestFolder temporary; // also for files that crashed cases leave behind
   std::unique_ptr<Child> child;
   unsigned finds = 0;
   unsigned done = 0;

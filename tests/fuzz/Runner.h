@@ -7,19 +7,19 @@
 namespace gnomon::fuzz
 {
 
-/// Which cases are run, and for how long.
+/// Which cases run, and for how long.
 struct Run
 {
   Place first;
   unsigned count = 100;
-  double seconds = 0.0;         ///< after which no case is begun; 0: never
-  double secondsPerCase = 60.0; ///< after which a case hangs
-  std::string folder;           ///< where finds are written to, a file each; empty: nowhere
+  double seconds = 0.0;         ///< no case starts later; 0: no limit
+  double secondsPerCase = 60.0; ///< a longer case counts as hanging
+  std::string folder;           ///< for finds, a file each; empty: none are written
 };
 
-/// Runs cases in child processes, so that a crash or a hang is a find like others. Prints finds to
+/// Run cases in child processes, so a crash or a hang is reported like other finds. Prints finds to
 /// stdout.
-/// @return how many there were
+/// @return the number of finds
 unsigned run(const CaseKind& kind, const Run& run);
 
 } // namespace gnomon::fuzz

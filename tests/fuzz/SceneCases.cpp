@@ -14,7 +14,7 @@ namespace
 
 using test::Picture;
 
-/// The lights whose visibility must be that of rays, by their places in the renderer.
+/// The lights whose visibility must equal that of rays, by their places in the renderer.
 struct ExactLights
 {
   std::set<int> all;
@@ -53,7 +53,7 @@ std::vector<float> imagesOf(const VisibilityImages& kept, int light)
   return images;
 }
 
-/// Holds exact lights to rays.
+/// Compare exact lights with rays.
 void compareWithRays(const FuzzScene& scene, FuzzScene& truth)
 {
   const ExactLights lights = exactLightsOf(scene.report());
@@ -68,7 +68,7 @@ void compareWithRays(const FuzzScene& scene, FuzzScene& truth)
     const LightReport& traced = truth.report().lights.at(static_cast<std::size_t>(light));
     if (traced.estimator != "raytraced")
     {
-      continue; // The settings of other lights make no sense for rays.
+      continue; // The light's settings contradict ray tracing.
     }
     const VisibilityImages& kept = scene.pass()->GetVisibility();
     const auto image = std::find(kept.sceneIndices.begin(), kept.sceneIndices.end(), light);
@@ -93,8 +93,8 @@ void compareWithRays(const FuzzScene& scene, FuzzScene& truth)
   }
 }
 
-/// Visibility only takes light away: no pixel is brighter than VTK's own, and one that all lights
-/// see is as bright.
+/// Visibility only removes light: no pixel is brighter than VTK's own. A pixel that all lights
+/// reach is as bright.
 void compareWithVtk(const FuzzScene& scene, const Picture& shadowed, const Picture& plain)
 {
   const VisibilityImages& kept = scene.pass()->GetVisibility();
@@ -132,7 +132,7 @@ void runScene(Random random, std::string& description)
     FuzzScene truth(start, Purpose::Picture);
     compareWithRays(scene, truth);
   }
-  if (chance(random, 0.3)) // which takes a frame, and shaders of its own
+  if (chance(random, 0.3)) // a frame with its own shaders
   {
     FuzzScene plain(start, Purpose::Picture);
     plain.removePass();

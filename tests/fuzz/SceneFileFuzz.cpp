@@ -1,5 +1,5 @@
-// libFuzzer's target for scene files: whatever the bytes are, reading them ends in a scene or in
-// BadInput. How to run it: tests/fuzz/run.sh.
+// libFuzzer's target for scene files: reading any bytes ends in a scene or in BadInput. Run it with
+// tests/fuzz/run.sh.
 
 #include "Errors.h"
 #include "Scene.h"
@@ -15,7 +15,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count)
 {
-  // Beside the models that the seeds name.
+  // The folder that holds the models of the seeds.
   static const std::filesystem::path folder = std::getenv("GNOMON_FUZZ_FOLDER");
   static const std::string path =
     (folder / ("input_" + std::to_string(::getpid()) + ".json")).string();
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   }
   catch (const gnomon::tool::BadInput&)
   {
-    // which is the answer to most
+    // Most inputs are bad.
   }
   return 0;
 }

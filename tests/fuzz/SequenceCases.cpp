@@ -9,7 +9,7 @@ namespace gnomon::fuzz
 namespace
 {
 
-/// @throws Find where two frames' visibility or receivers differ by a bit
+/// @throws Find if two frames' visibility or receivers differ by a bit
 void compare(const VisibilityImages& kept, const VisibilityImages& fresh)
 {
   if (kept.width != fresh.width || kept.height != fresh.height ||
@@ -45,7 +45,7 @@ void compare(const VisibilityImages& kept, const VisibilityImages& fresh)
   }
 }
 
-/// Holds a scene to one whose pass is new.
+/// Compare a scene with an equal one whose pass is new.
 void compare(FuzzScene& kept, FuzzScene& fresh)
 {
   const test::Picture keptPicture = kept.render();
@@ -57,7 +57,7 @@ void compare(FuzzScene& kept, FuzzScene& fresh)
   }
 }
 
-/// Whether VTK alone, too, shows something else after frames between the changes.
+/// True if VTK alone, too, shows another picture after frames between the changes.
 bool vtkRemembers(const Random& start, const std::vector<Change>& changes)
 {
   FuzzScene kept(start, Purpose::Changes);

@@ -1,4 +1,4 @@
-// Random cases: gnomon_fuzz scenes|sequences|files, and what it has found once: gnomon_fuzz replay.
+// Run random cases: gnomon_fuzz scenes|sequences|files. Repeat earlier finds: gnomon_fuzz replay.
 
 #include "Runner.h"
 
@@ -29,8 +29,8 @@ const CaseKind& kindOf(const std::string& name)
   throw std::runtime_error("there is no kind \"" + name + "\"");
 }
 
-/// Runs what a list of finds names: a line each, with kind, seed, index and what was wrong. Lines
-/// that begin with # say something else.
+/// Run a list of finds: a line each, with kind, seed, index and error. Lines that begin with # are
+/// comments.
 unsigned replay(const std::string& path)
 {
   std::ifstream file(path);
@@ -48,7 +48,7 @@ unsigned replay(const std::string& path)
     one.count = 1;
     if (!(words >> kind >> one.first.seed >> one.first.index))
     {
-      throw std::runtime_error(path + ": \"" + line + "\" is no find");
+      throw std::runtime_error(path + ": \"" + line + "\" is not a find");
     }
     finds += run(kindOf(kind), one);
     ++lines;
@@ -71,11 +71,11 @@ int main(int argc, char** argv)
   for (const CaseKind& kind : caseKinds())
   {
     CLI::App* const command = app.add_subcommand(kind.name, kind.meaning);
-    command->add_option("--seed", run.first.seed, "which row of cases")->capture_default_str();
+    command->add_option("--seed", run.first.seed, "seed of the cases")->capture_default_str();
     command->add_option("--first", run.first.index, "the first case's number in it");
     command->add_option("--count", run.count, "how many cases")->capture_default_str();
-    command->add_option("--seconds", run.seconds, "after which no case is begun");
-    command->add_option("--seconds-per-case", run.secondsPerCase, "after which a case hangs")
+    command->add_option("--seconds", run.seconds, "no case starts later");
+    command->add_option("--seconds-per-case", run.secondsPerCase, "a longer case counts as hanging")
       ->capture_default_str();
     command->add_option("-o", run.folder, "folder for finds, a file each");
   }

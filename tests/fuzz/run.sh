@@ -1,6 +1,6 @@
 #!/bin/bash
 # Fuzzes the reader of scene files: tests/fuzz/run.sh [SECONDS]. Needs clang and libclang-rt-dev.
-# What it finds lies in build/fuzz/ as crash-..., slow-unit-... or oom-...
+# Its finds are written to build/fuzz/ as crash-..., slow-unit-... or oom-...
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds=${1:-180}

@@ -7,14 +7,14 @@ namespace gnomon::hard
 {
 
 /// @file
-/// What a technique has to keep on hard cases, fixed before they are drawn. That numbers are finite
-/// and in [0, 1], and that neither OpenGL nor VTK complains, holds for all.
+/// Bounds for techniques on hard cases, fixed before the cases are drawn. In all cases numbers are
+/// finite and in [0, 1], and neither OpenGL nor VTK reports an error.
 
-/// How cells are judged.
+/// How a cell is judged.
 enum class Kind
 {
   Truth,  ///< agrees with the independent check (tests/check/Check.h)
-  Offset, ///< the truth with half and with double its rays' offset
+  Offset, ///< the truth agrees with that of half and double ray offsets
   Exact,  ///< no pixel differs from ray tracing
   Map,    ///< wrong pixels lie near a shadow's edge
   Plane,  ///< the same, on the floor alone
@@ -25,30 +25,30 @@ namespace bounds
 {
 
 ///@{
-/// Of hard shadows: pixels of the picture, texels of the maps.
+/// For hard shadows: pixels of the picture, texels of the maps.
 constexpr int width = 320;
 constexpr int height = 240;
 constexpr int mapSizeTexels = 512;
 ///@}
 ///@{
-/// Of soft shadows.
+/// For soft shadows.
 constexpr int softWidth = 96;
 constexpr int softHeight = 72;
-constexpr int truthSamples = 1024; ///< of the truth; techniques have as many as by default
+constexpr int truthSamples = 1024; ///< of the truth; techniques have their default
 ///@}
 
-/// Wrong pixels of maps lie within so many texels of a shadow's edge: of texels of a uniform map of
-/// the whole scene. A surface that is no wider in the map, at any size, is all edge.
+/// Wrong pixels of maps lie within this many texels of a shadow's edge, in texels of a uniform map
+/// of the whole scene. A surface no wider than this in the map, at any map size, counts as edge.
 constexpr double edgeTexels = 2.0;
 
-/// With another offset, and for another tracer on round balls, the truth changes within so many
-/// pixels of a shadow's edge.
+/// The truth changes only within this many pixels of a shadow's edge, with another offset or with
+/// another tracer on round balls.
 constexpr double truthEdgePixels = 0.5;
 
-/// The mean absolute error of soft shadows, over that of the technique on easy scenes.
+/// The bound of soft shadows' mean absolute error, over that of the technique on easy scenes.
 constexpr double softFactor = 2.0;
 
-/// Means of the mean absolute error on the easy scenes, as `gnomon_hard_cases --easy` prints them.
+/// Mean absolute errors on the easy scenes, as `gnomon_hard_cases --easy` prints them.
 inline const std::map<std::string, double>& easyErrors()
 {
   static const std::map<std::string, double> errors = { { "pcss", 0.0031 }, { "sampled", 0.0018 },
@@ -56,8 +56,8 @@ inline const std::map<std::string, double>& easyErrors()
   return errors;
 }
 
-/// The share of edge pixels that turn right or wrong from frame to frame (Flicker.h), over that of
-/// `nsm` when the light turns. Exact techniques': 0.
+/// The bound of flicker (Flicker.h), the share of edge pixels that turn right or wrong between
+/// frames. It is relative to `nsm` under a turning light. Exact techniques: 0.
 constexpr double flickerFactor = 2.0;
 
 } // namespace bounds

@@ -55,11 +55,11 @@ const std::vector<float>& draw(FrameVariant& variant, Motion motion, int step)
   return kept.visibility.front();
 }
 
-/// The first light's visibility, by maps that are fitted to where the camera is at this step, seen
-/// from where it was at first.
+/// Draw the first light's visibility with maps fitted to the camera at this step, seen from the
+/// first camera position.
 const std::vector<float>& drawFitted(FrameVariant& variant, Movement movement, int step)
 {
-  variant.renderer()->SetPass(tool::makePass(variant.spec())); // which is fitted once, here
+  variant.renderer()->SetPass(tool::makePass(variant.spec())); // a new pass, fitted once here
   if (movement == Movement::CameraTurned)
   {
     draw(variant, Motion::Camera, step);
@@ -73,7 +73,7 @@ const std::vector<float>& drawFitted(FrameVariant& variant, Movement movement, i
   return draw(variant, Motion::Static, 0);
 }
 
-/// Pixels whose neighbour to the right or below is lit otherwise.
+/// Count pixels whose neighbour to the right or below has other visibility.
 std::size_t countEdges(const std::vector<float>& truth, std::size_t width)
 {
   std::size_t edges = 0;

@@ -1,4 +1,4 @@
-// What judges the hard cases finds what is wrong, and only that.
+// The judge of the hard cases finds planted errors, and no others.
 
 #include "Judge.h"
 #include "Matrix.h"
@@ -60,7 +60,7 @@ TEST(Judge, findsEdgesWithinADistanceAndNoOthers)
 TEST(Judge, findsWhatIsThinOrSmallForTheDistance)
 {
   const Judge posts(tool::loadScene("hard-thin-posts"));
-  // A post of a fiftieth of the distance, seen from the sun, ends 0.4 from here.
+  // Seen from the sun, a post as thin as a fiftieth of the distance ends 0.4 from here.
   const Receiver beside{ { 2.1, 0.0, -0.05 }, { 0.0, 1.0, 0.0 } };
   EXPECT_TRUE(posts.isNearEdge(beside, 0, 1.0));
   const Judge small(tool::loadScene("hard-small-on-large"));

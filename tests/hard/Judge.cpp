@@ -64,7 +64,7 @@ void addTriangles(
   }
 }
 
-/// The balls of a vtkOpenGLSphereMapper in triangles so fine that they count as round.
+/// Append the balls of a vtkOpenGLSphereMapper as triangles fine enough to count as round.
 void addBalls(check::Surface& to, vtkProp3D* prop)
 {
   auto* const actor = vtkActor::SafeDownCast(prop);
@@ -103,7 +103,7 @@ check::Light lightOf(const tool::SceneLight& light)
   return result;
 }
 
-/// Two unit vectors across a direction and each other.
+/// Return two unit vectors perpendicular to a direction and to each other.
 std::array<Vec3, 2> across(const Vec3& direction)
 {
   const Vec3 other = std::abs(direction.x) < 0.5 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
@@ -129,8 +129,8 @@ double extentAlong(const check::Scene& scene, const Vec3& axis)
   return high - low;
 }
 
-/// Points of a disc: rings of all sizes, which find most edges at once and things that are small
-/// for the disc, then a grid that finds what is thin.
+/// Return points of a disc. First rings of all sizes, which find most edges and small objects; then
+/// a grid, which finds thin objects.
 const std::vector<std::array<double, 2>>& discPoints()
 {
   static const std::vector<std::array<double, 2>> points = []
@@ -289,7 +289,7 @@ bool Judge::isNearEdge(const Receiver& receiver, std::size_t light, double dista
   };
   const bool isLit = isLitAt({ 0.0, 0.0 });
   const auto& points = discPoints();
-  // In the air beside a surface there is no edge of what falls on it.
+  // In the air beside a surface, shadows have no edge.
   const auto isOnSurface = [&](const std::array<double, 2>& at)
   {
     return this->tracer_

@@ -21,8 +21,7 @@ struct Receiver
 };
 Receiver receiverAt(const VisibilityImages& images, std::size_t pixel);
 
-/// Says by rays of its own, which share no code with Gnomon, where the shadows of a scene have
-/// edges.
+/// Finds the edges of a scene's shadows by its own rays, which share no code with Gnomon.
 class Judge
 {
 public:
@@ -30,33 +29,33 @@ public:
 
   const check::Scene& scene() const { return this->scene_; }
 
-  /// The side of a texel at a receiver across the light's rays, in world units, in a map of the
-  /// whole scene.
+  /// Return the side of a texel at a receiver across the light's rays, in world units, in a map of
+  /// the whole scene.
   double texelAt(const Receiver& receiver, std::size_t light, int mapSizeTexels) const;
 
-  /// The side of a pixel at a receiver across the camera's rays, in world units.
+  /// Return the side of a pixel at a receiver across the camera's rays, in world units.
   double pixelAt(const Receiver& receiver, int height) const;
 
-  /// How far off a receiver rays start that need not start where the truth's do: more than storing
-  /// positions in float costs.
+  /// The offset from a receiver of rays that need not start where the truth's do. It exceeds the
+  /// rounding of positions stored in float. World units.
   double storedOffset() const { return 1e-6 * this->size_; }
 
-  /// Between the receiver's normal and the direction to the light.
+  /// Return the cosine between the receiver's normal and the direction to the light.
   double cosineAt(const Receiver& receiver, std::size_t light) const;
 
-  /// Whether nothing is between the light and the point that is so far off the receiver.
+  /// True if nothing blocks the light at `offset` from the receiver.
   bool isLit(const Receiver& receiver, std::size_t light, double offset) const;
 
-  /// Whether there are lit and dark points in the receiver's plane within a distance from it,
-  /// across the light's rays.
+  /// True if the receiver's plane has lit and dark points within a distance from the receiver,
+  /// measured across the light's rays.
   bool isNearEdge(const Receiver& receiver, std::size_t light, double distance) const;
 
-  /// The offset of the truth's rays (shadowtech/base/ShadowRay.h), for a receiver anywhere in its
-  /// pixel.
+  /// Return the offset of the truth's rays (shadowtech/base/ShadowRay.h), for a receiver anywhere
+  /// in its pixel.
   /// @param origin of the coordinates in which rays are traced
   double offsetOf(const Receiver& receiver, const check::Vec3& origin, int height) const;
 
-  /// Whether a receiver lies on the scene's floor.
+  /// True if a receiver lies on the scene's floor.
   bool isOnFloor(const Receiver& receiver) const;
 
 private:
@@ -69,7 +68,7 @@ private:
   check::Tracer tracer_;
 };
 
-/// The scene as the check's own reader would read it.
+/// The scene as the check's own reader reads it.
 check::Scene checkSceneOf(const tool::Scene& scene);
 
 } // namespace gnomon::hard

@@ -33,15 +33,15 @@ using tool::VariantSpec;
 constexpr std::array<const char*, 4> easyScenes = { "soft-stack", "soft-panels", "soft-plates",
   "soft-long-cube" };
 
-/// Where shadows move (Flicker.h).
+/// The scene of moving shadows (Flicker.h).
 constexpr const char* flickerScene = "terrain";
 constexpr int flickerSteps = 5;
 
-/// A share of a lamp's distance from what it points at that makes it soft, and degrees of a sun.
+/// Softness: a lamp's size as a share of its distance to its focal point; a sun's in degrees.
 constexpr double softLampShare = 0.05;
 constexpr double softSunDegrees = 5.0;
 
-/// A technique on a map or without, ready to be drawn at once.
+/// A technique with or without a map, with settings that draw it at once.
 VariantSpec specOf(const std::string& technique)
 {
   VariantSpec spec = tool::parseTechnique(technique);
@@ -50,12 +50,12 @@ VariantSpec specOf(const std::string& technique)
   spec.route = vtkGnomonShadowPass::ROUTE_IMAGE;
   if (has(info, "bake"))
   {
-    spec.settings["bake"] = "always"; // so that it is the map that is judged
+    spec.settings["bake"] = "always"; // the map is judged, not its fallback
   }
   return spec;
 }
 
-/// Why lights of the scene refuse a variant's settings; empty where they do not.
+/// Return why lights of the scene refuse a variant's settings; empty if they do not.
 std::string refusal(const VariantSpec& spec, vtkRenderer* renderer)
 {
   try
@@ -72,7 +72,7 @@ std::string refusal(const VariantSpec& spec, vtkRenderer* renderer)
   }
 }
 
-/// The first thing that is wrong with pictures' numbers; empty where nothing is.
+/// Return the first fault of pictures' numbers; empty if there is none.
 std::string strangeNumber(const std::vector<std::vector<float>>& images)
 {
   for (const std::vector<float>& image : images)
@@ -94,7 +94,7 @@ std::string openGlError()
   return error == GL_NO_ERROR ? "" : "OpenGL error " + std::to_string(error);
 }
 
-/// Breaks a cell whose numbers are strange, or in which OpenGL or VTK reports an error.
+/// Mark a cell as broken if its numbers are invalid, or OpenGL or VTK reports an error.
 void keepSound(
   Cell& cell, const std::vector<std::vector<float>>& images, const tool::VtkMessages& messages)
 {
@@ -124,7 +124,7 @@ VisibilityImages drawn(FrameVariant& variant)
   return variant.pass()->GetVisibility();
 }
 
-/// The scene with lights that are points or shine from one direction.
+/// Return the scene with lights that are points or have one direction.
 tool::Scene hardened(tool::Scene scene)
 {
   for (tool::SceneLight& light : scene.lights)
@@ -134,7 +134,7 @@ tool::Scene hardened(tool::Scene scene)
   return scene;
 }
 
-/// The scene with lights that have an area.
+/// Return the scene with lights that have an area.
 tool::Scene softened(tool::Scene scene)
 {
   for (tool::SceneLight& light : scene.lights)
@@ -154,7 +154,7 @@ tool::Scene softened(tool::Scene scene)
   return scene;
 }
 
-/// The pixels of a light that are counted and wrong.
+/// Return the pixels of a light that count and are wrong.
 std::vector<std::size_t> wrongPixels(const VisibilityImages& images, const VisibilityImages& truth,
   std::size_t image, const tool::Scene& scene)
 {
@@ -182,7 +182,7 @@ void judgeExact(Cell& cell, const VisibilityImages& images, const VisibilityImag
   }
 }
 
-/// @param onFloor whether the floor's pixels count alone
+/// @param onFloor true if only the floor's pixels count
 void judgeMap(Cell& cell, const VisibilityImages& images, const VisibilityImages& truth,
   const tool::Scene& scene, const Judge& judge, bool onFloor)
 {
@@ -209,7 +209,7 @@ void judgeMap(Cell& cell, const VisibilityImages& images, const VisibilityImages
   cell.outcome = isSeen ? cell.outcome : Outcome::None;
 }
 
-/// Against the independent check, which knows triangles alone.
+/// Compare with the independent check, which knows only triangles.
 void judgeTruth(Cell& cell, const VisibilityImages& truth, const Judge& judge)
 {
   check::VisibilityFile file;
@@ -237,9 +237,9 @@ void judgeTruth(Cell& cell, const VisibilityImages& truth, const Judge& judge)
   }
 }
 
-/// Pixels that face a light and for which the truth turns into something else; these are beyond the
-/// bound where no edge is near.
-/// @param turns asked for each receiver and light
+/// Count pixels that face a light and whose truth turns. They are beyond the bound if no edge is
+/// near.
+/// @param turns called for each receiver and light; true if the truth turns there
 template <typename Turns>
 void judgeTurning(Cell& cell, const VisibilityImages& truth, const tool::Scene& scene,
   const Judge& judge, const Turns& turns)
@@ -261,7 +261,7 @@ void judgeTurning(Cell& cell, const VisibilityImages& truth, const tool::Scene& 
   }
 }
 
-/// Against rays that meet balls of fine triangles.
+/// Compare with rays against balls of fine triangles.
 void judgeTruthOfBalls(
   Cell& cell, const VisibilityImages& truth, const tool::Scene& scene, const Judge& judge)
 {
@@ -345,7 +345,7 @@ private:
     return column.kind == Kind::Soft || column.technique == "penumbra";
   }
 
-  /// What a column's visibility is compared with.
+  /// Return the truth for a column.
   const VisibilityImages& truthOf(const Column& column)
   {
     if (column.kind == Kind::Soft)
@@ -413,7 +413,7 @@ private:
   Judge judge_;
   std::optional<VisibilityImages> oneRay_;
   std::optional<VisibilityImages> manySamples_;
-  std::optional<VisibilityImages> sameSamples_; ///< as many as techniques have
+  std::optional<VisibilityImages> sameSamples_; ///< as many samples as techniques have
 };
 
 /// The cells of a movement.
@@ -438,7 +438,8 @@ public:
     cell.outcome = Outcome::Kept;
     const tool::VtkMessages messages;
     const Movement movement = *this->row_.movement;
-    const bool isFitted = movement != Movement::LightTurned; // else no map moves with the camera
+    // A turned light has no map that moves with the camera.
+    const bool isFitted = movement != Movement::LightTurned;
     const Frames frames = this->framesOf(column.technique, movement, isFitted);
     if (!this->truth_)
     {
@@ -455,7 +456,7 @@ public:
   }
 
 private:
-  /// How much `nsm` flickers when the light turns.
+  /// Return the flicker of `nsm` under a turning light.
   double plain()
   {
     if (!this->plain_)
@@ -467,7 +468,7 @@ private:
     return *this->plain_;
   }
 
-  /// @param isFitted whether uniform maps are fitted to what the camera sees
+  /// @param isFitted true if uniform maps are fitted to the camera's view
   Frames framesOf(const std::string& technique, Movement movement, bool isFitted) const
   {
     VariantSpec spec = specOf(technique);

@@ -14,8 +14,8 @@ namespace gnomon::hard
 /// A column of the matrix: a technique, and how it is judged.
 struct Column
 {
-  std::string name;      ///< for people
-  std::string technique; ///< with settings, as of `gnomon compare`
+  std::string name;      ///< as displayed
+  std::string technique; ///< with settings, as in `gnomon compare`
   Kind kind;
 };
 const std::vector<Column>& columns();
@@ -24,7 +24,7 @@ const std::vector<Column>& columns();
 struct Row
 {
   std::string name;
-  std::vector<std::string> cases; ///< the hard cases that it stands for
+  std::vector<std::string> cases; ///< the hard cases that it represents
   std::optional<Movement> movement;
 };
 const std::vector<Row>& rows();
@@ -33,11 +33,11 @@ enum class Outcome
 {
   Kept,
   Broken,
-  Refused, ///< the technique has no such projection, which it says
-  None     ///< the row says nothing of this column
+  Refused, ///< the technique refuses the projection with an error
+  None     ///< the row does not apply to this column
 };
 
-/// What was found in one cell.
+/// The result of one cell.
 struct Cell
 {
   const Row* row = nullptr;       ///< one of rows()
@@ -45,19 +45,19 @@ struct Cell
   Outcome outcome = Outcome::None;
   std::int64_t counted = 0; ///< pixels that face a light
   std::int64_t wrong = 0;   ///< of these
-  std::int64_t beyond = 0;  ///< wrong ones where no wrong one may be
+  std::int64_t beyond = 0;  ///< wrong ones where none is allowed
   double error = 0.0;       ///< mean absolute error of soft shadows; share of edges that flicker
   double bound = 0.0;       ///< of the error
   std::string message = {}; ///< why it is broken or refused
 };
 
-/// One row's cells of some columns.
+/// Draw one row's cells of some columns.
 /// @param row,columns of rows() and columns()
-/// @throws tool::Failure where nothing can be drawn
+/// @throws tool::Failure if the scene cannot be drawn
 std::vector<Cell> drawRow(const Row& row, const std::vector<const Column*>& columns);
 
-/// The mean absolute error of a soft technique on the easy scenes, by which Bounds.h bounds that on
-/// hard ones.
+/// Return the mean absolute error of a soft technique on the easy scenes. Bounds.h bounds the error
+/// on hard scenes by it.
 double easyError(const Column& column);
 
 } // namespace gnomon::hard

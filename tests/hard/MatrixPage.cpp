@@ -19,7 +19,7 @@ namespace
 
 constexpr std::size_t largestTableBytes = 1 << 20;
 
-/// How an outcome is shown.
+/// The name and colour of an outcome.
 struct Look
 {
   const char* name;
@@ -44,7 +44,7 @@ std::string join(const std::vector<std::string>& parts)
   return text;
 }
 
-/// What a cell found, for people.
+/// Return a cell's result as text.
 std::string findingOf(const Cell& cell)
 {
   std::string text = cell.row->name + ", " + cell.column->name + ": " + lookOf(cell.outcome).name;
@@ -60,7 +60,7 @@ std::string findingOf(const Cell& cell)
   return text + (cell.message.empty() ? "" : "; " + cell.message);
 }
 
-/// The picture: rows of cells in their colours, what each found as its title.
+/// Write the picture: rows of coloured cells, with each cell's result as its title.
 std::string svgOf(const std::vector<Cell>& cells)
 {
   constexpr int left = 190;

@@ -10,20 +10,21 @@
 namespace gnomon::hard
 {
 
-/// A cell as a line of a CSV table, and the table's first line.
+/// Return a cell as a line of a CSV table; return the table's first line.
 std::string csvLine(const Cell& cell);
 std::string csvHeading();
 
 /// Cells that are known to be broken, by row and column, with the reason.
 using KnownCells = std::map<std::pair<std::string, std::string>, std::string>;
-/// Reads lines of row, column and reason, separated by tabs; "#" begins a comment.
-/// @throws tool::BadInput that names the file and the line
+/// Read lines of row, column and reason, separated by tabs; "#" begins a comment.
+/// @throws tool::BadInput naming the file and the line
 KnownCells readKnownCells(const std::string& path);
 
-/// One sentence for each cell that is broken and not known to be, or the other way round.
+/// Return one sentence for each broken cell that is not known to be, and for each known one that is
+/// not broken.
 std::vector<std::string> surprisesIn(const std::vector<Cell>& cells, const KnownCells& known);
 
-/// Writes hard_cases.csv, hard_cases.svg and hard_cases.md into a folder.
+/// Write hard_cases.csv, hard_cases.svg and hard_cases.md into a folder.
 /// @throws tool::Failure
 void writePage(const std::string& folder, const std::vector<Cell>& cells, const KnownCells& known);
 

@@ -1,4 +1,4 @@
-// Draws the hard cases with all techniques and judges them by the bounds of Bounds.h.
+// Draw the hard cases with all techniques and judge them by the bounds of Bounds.h.
 
 #include "Matrix.h"
 #include "MatrixPage.h"
@@ -23,7 +23,7 @@ struct Options
 {
   std::string folder;
   std::string known;
-  std::optional<unsigned> tenth; ///< the seed by which it is chosen
+  std::optional<unsigned> tenth; ///< seed of the choice of a tenth of the cells
   bool butTenth = false;
   std::size_t part = 0;
   std::size_t parts = 1;
@@ -31,7 +31,7 @@ struct Options
   bool easy = false;
 };
 
-/// FNV-1a: the same on all machines.
+/// FNV-1a hash: the same on all machines.
 unsigned hashOf(const std::string& text)
 {
   unsigned hash = 2166136261u;
@@ -42,7 +42,7 @@ unsigned hashOf(const std::string& text)
   return hash >> 8;
 }
 
-/// Which of ten parts a cell is in.
+/// Return which of ten parts a cell belongs to.
 unsigned tenthOf(const Row& row, const Column& column, unsigned seed)
 {
   return hashOf(row.name + column.name + std::to_string(seed)) % 10u;
@@ -87,8 +87,8 @@ int run(int argc, char** argv)
     ->check(CLI::IsMember(namesOf(columns())));
   app
     .add_option("--known", options.known,
-      "A table of cells that are known to be broken: any other is an error, and so is one that is "
-      "not broken any more")
+      "A table of cells that are known to be broken: any other broken cell is an error, and so is "
+      "one of these that is fixed")
     ->check(CLI::ExistingFile);
   app.add_option("-o", options.folder, "Where hard_cases.csv, .svg and .md are written");
   CLI::Option* const tenth =

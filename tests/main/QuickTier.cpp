@@ -18,7 +18,7 @@ namespace
 /// The most values of a parameterised test in the quick tier.
 constexpr std::size_t quickValues = 1;
 
-/// FNV-1a: the same on all machines.
+/// FNV-1a hash: the same on all machines.
 std::size_t hashOf(const std::string& text)
 {
   std::size_t hash = 2166136261u;
@@ -52,7 +52,7 @@ std::string filterOfTier(
   {
     return filter;
   }
-  // The cases of a test are those of its values.
+  // A parameterised test has one case per value.
   std::map<std::string, std::vector<std::string>> casesOfTest;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
   for (int i = 0; i < all.total_test_suite_count(); ++i)

@@ -1,6 +1,6 @@
 /// @file
-/// main() of all test programs. A program runs many cases; when one of them crashes or hangs,
-/// GoogleTest says nothing under --gtest_brief, so this main() names the case.
+/// main() of all test programs. A program runs many cases. If one crashes or hangs, GoogleTest
+/// prints nothing under --gtest_brief, so this main() names the case.
 /// The variables GNOMON_TEST_TIER and GNOMON_SLOW_CASES choose cases (QuickTier.h).
 
 #include "QuickTier.h"
@@ -25,7 +25,7 @@ std::array<char, 1024> running{}; ///< the case's name; a signal handler must no
 void write(const char* text)
 {
   const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
-  static_cast<void>(written); // there is no other place to complain to
+  static_cast<void>(written); // there is no other output for an error
 }
 
 extern "C" void nameTheCase(int signal)
@@ -48,7 +48,7 @@ class Watch : public testing::EmptyTestEventListener
   void OnTestEnd(const testing::TestInfo& /*test*/) override { alarm(0); }
 };
 
-/// A variable of the environment, empty if it is not set.
+/// Return a variable of the environment; empty if it is not set.
 std::string environment(const char* name)
 {
   const char* const value = std::getenv(name);
@@ -63,13 +63,13 @@ int main(int argc, char** argv)
   GTEST_FLAG_SET(filter,
     gnomon::test::filterOfTier(
       environment("GNOMON_TEST_TIER"), environment("GNOMON_SLOW_CASES"), GTEST_FLAG_GET(filter)));
-  testing::UnitTest::GetInstance()->listeners().Append(new Watch); // which deletes it
+  testing::UnitTest::GetInstance()->listeners().Append(new Watch); // GoogleTest deletes it
   for (const int signal : { SIGALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT })
   {
     const auto previous = std::signal(signal, nameTheCase);
     if (previous != SIG_DFL)
     {
-      std::signal(signal, previous); // a sanitizer's, which says more
+      std::signal(signal, previous); // a sanitizer's handler, which reports more
     }
   }
   return RUN_ALL_TESTS();

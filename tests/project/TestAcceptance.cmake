@@ -1,6 +1,6 @@
-# tests/acceptance.tsv names the tests that hold each row of the publications' acceptance tables, or
-# the reason why none does. This checks that every named test exists: a source file (`path`) or one
-# test in it (`path:name`). A remark may follow the tests, after a semicolon.
+# Check that every test named in tests/acceptance.tsv exists. The file names the tests of each row
+# of the publications' acceptance tables, or the reason why there are none. A test is a source file
+# (`path`) or one test in it (`path:name`). A remark may follow the tests, after a semicolon.
 #
 # The publications are apelles (Moschig 2012), hybrid (Morais 2016), montecarlo (Curtis 2009),
 # selective (Moderno) and survey (Rzeczkowski 2024): docs/results/conclusions.md has their titles.
@@ -13,7 +13,7 @@ set(rows "")
 set(named 0)
 
 file(READ "${SOURCE_DIR}/tests/acceptance.tsv" text)
-string(REPLACE ";" "@" text "${text}") # which would end items of CMake's lists
+string(REPLACE ";" "@" text "${text}") # semicolons end items of CMake's lists
 string(REGEX REPLACE "\n+$" "" text "${text}")
 string(REPLACE "\n" ";" lines "${text}")
 list(POP_FRONT lines header)

@@ -1,6 +1,6 @@
-# Includes run one way, folder by folder: each folder lists those that it may include beside itself.
-# The list has no cycles, since a folder may include only what stands above it. Nothing includes
-# examples/ or tests/, and lights/ includes no OpenGL.
+# Check that includes run one way, folder by folder. Each folder lists the folders that it may
+# include beside itself, all of them above it, so the list has no cycles. Nothing includes examples/
+# or tests/, and lights/ includes no OpenGL.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -19,7 +19,7 @@ endmacro()
 
 folder(lights)
 folder(shadowtech/base lights)
-# What several techniques share.
+# Folders that several techniques share.
 folder(shadowtech/depth_map lights shadowtech/base)
 folder(shadowtech/moment_map lights shadowtech/base)
 folder(shadowtech/mesh lights shadowtech/base)
@@ -37,7 +37,7 @@ foreach(technique IN LISTS techniques)
 endforeach()
 folder(shadowtech ${shared} ${techniques}) # the registry
 folder(plugin/window lights shadowtech/base)
-# What VTK's releases do differently.
+# Differences between VTK's releases.
 folder(plugin/vtk_versions lights shadowtech/base plugin/window)
 folder(plugin/scene lights shadowtech/base plugin/vtk_versions plugin/window)
 folder(plugin/data lights shadowtech/base shadowtech/tracing plugin/scene)
@@ -48,7 +48,7 @@ folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/scene plugin/
 set(plain_headers plugin/vtkGnomonVisibilityImages.h plugin/vtkGnomonPropKeys.h)
 set(opengl "^(GL|EGL)/|^vtk_gl(ew|ad)\\.h$|^vtkOpenGL|^vtkShader|^vtkTextureObject|^vtkFrameBuffer")
 
-# The path that an include leads to, from the project's root; empty for the system's.
+# Set the path of an included file from the project's root; empty for the system's headers.
 function(path_of name folder result)
   set(${result} "" PARENT_SCOPE)
   if(name MATCHES "/")

@@ -1,6 +1,6 @@
-# Pages read as the project's style says: README.md and the guide stay short, lines end at 100
-# columns (tables, headings and links apart), and some turns of phrase are left out. Relative links
-# of all pages lead to files, and to headings in them.
+# Check the style of pages: README.md and the guide stay short, lines have at most 100 columns
+# (tables, headings and links apart), and banned phrases do not occur. Relative links of all pages
+# lead to files, and to headings in them.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -13,7 +13,7 @@ set(styled_folders docs/guide docs/dev docs/results docs/techniques docs/theory)
 set(most_words 1500)
 set(most_words_of_readme 700) # tables included
 
-# A page's text without what CMake's lists trip over.
+# Read a page's text, without characters that CMake's lists interpret.
 function(read_page path result)
   file(READ "${path}" text)
   string(REPLACE ";" "," text "${text}")
@@ -22,7 +22,7 @@ function(read_page path result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# The anchors that GitHub gives to a page's headings.
+# Collect the anchors that GitHub gives to a page's headings.
 function(anchors_of path result)
   file(STRINGS "${path}" headings REGEX "^#+ ")
   set(anchors "")
@@ -36,7 +36,7 @@ function(anchors_of path result)
   set(${result} "${anchors}" PARENT_SCOPE)
 endfunction()
 
-# Appends to `faults` if a page's text has too many words.
+# Append to `faults` if a page's text has too many words.
 macro(check_words name text most)
   string(REGEX MATCHALL "[^ \t\n]+" words "${text}")
   list(LENGTH words count)
@@ -72,7 +72,7 @@ foreach(page IN LISTS styled)
   endif()
   string(TOLOWER "${text}" text)
   string(REGEX REPLACE "[ \n]+" " " text "${text}")
-  foreach(phrase IN LISTS banned_phrases)
+  foreach(phrase IN LISTS banned_phrases banned_on_pages)
     if(text MATCHES "[^a-z]${phrase}[^a-z]")
       string(APPEND faults "${name}: says \"${phrase}\"\n")
     endif()

@@ -1,5 +1,5 @@
-# docs/guide/settings.md is what `gnomon settings --markdown` says, and the header of
-# vtkGnomonShadowSettings what `gnomon settings --class` says.
+# Check that docs/guide/settings.md equals the output of `gnomon settings --markdown`, and that
+# vtkGnomonShadowSettings' header equals that of `gnomon settings --class`.
 #
 #   cmake -D GNOMON=... -D PAGE=... -D HEADER=... -P
 cmake_minimum_required(VERSION 3.25)

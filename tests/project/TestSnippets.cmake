@@ -1,12 +1,12 @@
-# Code on the pages is code that the tests compile or run: each ```cpp, ```python and ```glsl block
-# of README.md and docs, and each statement `...;` in their text, occurs in a source file. Paragraphs
-# of a block may have other lines between them there, but lie in one file. Indentation does not
-# count.
+# Check that the tests compile or run the code on the pages. Each ```cpp, ```python and ```glsl
+# block of README.md and docs, and each statement `...;` in their text, must occur in a source file.
+# Paragraphs of a block may have other lines between them there, but lie in one file. Indentation
+# does not count.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
 
-# Text without what CMake's lists trip over, without indentation.
+# Return text without indentation and without characters that CMake's lists interpret.
 function(normalise text result)
   string(REPLACE ";" "@SEMICOLON@" text "${text}")
   string(REPLACE "[" "@OPEN@" text "${text}")
@@ -21,7 +21,7 @@ function(read_normalised path result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# Whether all paragraphs of a block are in a text, in this order.
+# Test whether a text holds all paragraphs of a block, in this order.
 function(find_paragraphs block text result)
   set(${result} FALSE PARENT_SCOPE)
   while(NOT block STREQUAL "")

@@ -1,5 +1,5 @@
-# The table of docs/techniques/README.md begins each row as `gnomon techniques` lists the techniques,
-# in its order.
+# Check that the rows of the table of docs/techniques/README.md begin like the list of `gnomon
+# techniques`, in its order.
 #
 #   cmake -D GNOMON=... -D PAGE=... -P
 cmake_minimum_required(VERSION 3.25)

@@ -1,4 +1,5 @@
-# docs/guide/wishes.md names a test in each row, which exists, and all tests of Wishes.
+# Check that each row of docs/guide/wishes.md names an existing test, and that all tests of Wishes
+# occur.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)

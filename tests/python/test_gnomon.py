@@ -9,47 +9,13 @@ from unittest import mock
 
 import numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
-from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkPointSource, vtkSphereSource
+from vtkmodules.vtkFiltersSources import vtkPointSource, vtkSphereSource
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
-from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
 
 import gnomon
-
-
-def add(renderer, source):
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputConnection(source.GetOutputPort())
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    renderer.AddActor(actor)
-    return actor
-
-
-class Scene:
-    """A ball over a floor, seen from above."""
-
-    def __init__(self, has_sun=True):
-        self.renderer = vtkRenderer()
-        self.window = gnomon.vtkGnomonEGLRenderWindow()
-        self.window.SetSize(120, 90)
-        self.window.AddRenderer(self.renderer)
-        floor = vtkPlaneSource()
-        floor.SetOrigin(-3, -3, 0)
-        floor.SetPoint1(3, -3, 0)
-        floor.SetPoint2(-3, 3, 0)
-        ball = vtkSphereSource()
-        ball.SetCenter(0, 0, 1)
-        ball.SetRadius(0.5)
-        add(self.renderer, floor)
-        self.ball = add(self.renderer, ball)
-        camera = self.renderer.GetActiveCamera()
-        camera.SetPosition(0, -5, 6)
-        camera.SetFocalPoint(0, 0, 0)
-        self.renderer.ResetCameraClippingRange()
-        if has_sun:
-            sun = vtkLight()
-            sun.SetPosition(1, 0, 1.5)
-            self.renderer.AddLight(sun)
+from gnomon.images import _pixels
+from scene import Scene, add
 
 
 class Shadows(unittest.TestCase):
@@ -69,6 +35,14 @@ class Shadows(unittest.TestCase):
         dark = covered & (arrays["light 0"] == 0) & (arrays["position"][..., 2] < 1e-6)
         self.assertGreater(dark.sum(), 50)
         self.assertLess(arrays["position"][dark][:, 0].mean(), -0.4)
+        # The floor is the first prop, of one cell, the ball the second, of many.
+        on_floor = covered & (arrays["position"][..., 2] < 1e-6)
+        for name, kind in (("prop", "i"), ("cell", "i")):
+            self.assertEqual((arrays[name].shape, arrays[name].dtype.kind), ((90, 120), kind))
+            self.assertTrue((arrays[name][on_floor] == 0).all())
+            self.assertTrue((arrays[name][~covered] == -1).all())
+        self.assertTrue((arrays["prop"][covered & ~on_floor] == 1).all())
+        self.assertGreater(len(numpy.unique(arrays["cell"][covered & ~on_floor])), 20)
 
     def test_arrays_outlive_frames_and_the_pass(self):
         scene = Scene()
@@ -300,8 +274,32 @@ class Data(unittest.TestCase):
         lit = gnomon.hours_lit(self.floor, vtk_to_numpy(directions), vtk_to_numpy(hours))
         self.assertTrue(16.5 < lit[0] < 17.0, lit)  # the longest day in Berlin: 16.8 hours
 
+    def test_the_path_of_a_day_is_the_sun_s(self):
+        directions, hours = gnomon.sun_path(52.52, 13.405, "2026-12-21", minutes=30, zone=1)
+        self.assertEqual(directions.shape, (len(hours), 3))
+        self.assertTrue(7.2 < hours.sum() < 7.8, hours.sum())  # the shortest day in Berlin
+        noon = directions[directions[:, 2].argmax()]
+        self.assertTrue(abs(noon[0]) < 0.1 and noon[1] < 0, noon)  # in the south
+        self.assertAlmostEqual(noon[2], numpy.sin(numpy.radians(90 - 52.52 - 23.44)), delta=0.002)
+
+    def test_a_picture_of_arrays(self):
+        # Seen from above, a roof of 1 x 1 beside its shadow, over a floor of 3 x 3.
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "roof.png")
+            gnomon.draw([self.floor, self.roof], [1, 0, 1], path, [0, 0, 1], size=(200, 160))
+            picture = _pixels(path).astype(int)
+        self.assertEqual(picture.shape, (160, 200, 3))
+        dark = (picture.max(axis=2) < 80).sum()
+        shown = (picture != picture[0, 0]).any(axis=2).sum()
+        self.assertAlmostEqual(dark / shown, 1 / 9, delta=0.005)
+
     def test_mistakes_are_said(self):
         for call, what in (
+            (lambda: gnomon.sun_path(91, 0, "2026-12-21"), "no place"),
+            (lambda: gnomon.sun_path(0, 0, "2026-02-30"), "day"),
+            (lambda: gnomon.sun_path(0, 0, "2026-02-20", minutes=0), "step"),
+            (lambda: gnomon.draw([self.floor], [0, 1], "x.png"), "direction: expected"),
+            (lambda: gnomon.draw([self.floor], [0, 0, 1], "x.png", technique="none"), "."),
             (lambda: gnomon.hours_lit(self.floor, [[0, 0]]), "directions: expected"),
             (lambda: gnomon.hours_lit(self.floor, self.suns, [1]), "hours: expected"),
             (lambda: gnomon.hours_lit((self.floor[0], [[0, 1, 9]]), self.suns), "found 0 to 9"),

@@ -4,6 +4,7 @@
 #include "ImageFile.h"
 #include "SampleFiles.h"
 #include "TestFiles.h"
+#include "view/View.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -222,6 +223,40 @@ TEST_F(RenderCommand, SaysAfterTwoSecondsWhatItDoes)
   close(reader);
   EXPECT_EQ(said.rfind("gnomon: ", 0), 0u) << said;
   EXPECT_NE(said.find(" s\n"), std::string::npos) << said;
+}
+
+//------------------------------------------------------------------------------
+TEST_F(RenderCommand, DrawsASettingsFileOfTheViewer)
+{
+  const Scene scene = loadScene("cube");
+  ViewState state = initialState("cube", scene);
+  state.size = { 64, 48 };
+  state.show = Show::Error;
+  state.technique = "nsm";
+  state.mapSizeTexels = 64;
+  const std::string file = this->folder / "view.json";
+  writeBytes(file, textOf(state));
+  const std::string out = this->folder / "out.png";
+  this->render("--settings " + file, "-o " + out);
+  const Picture picture = readPicture(out);
+  EXPECT_EQ(picture.rgb, drawWithoutScreen(state, scene).rgb);
+  EXPECT_EQ(picture.width, 64);
+
+  // A lamp that refuses the technique has another one, and the picture says so.
+  const Scene room = loadScene("room");
+  ViewState refused = initialState("room", room);
+  refused.size = { 320, 240 };
+  refused.technique = "nsm";
+  const Picture plain = drawWithoutScreen(refused, room);
+  refused.technique = "lispsm";
+  refused.frusta = true;
+  EXPECT_NE(drawWithoutScreen(refused, room).rgb, plain.rgb);
+
+  EXPECT_THROW(this->render("", "-o " + out), BadInput);
+  EXPECT_THROW(this->render("cube --settings " + file, "-o " + out), BadInput);
+  EXPECT_THROW(this->render("--settings " + file, "--size 9x9 -o " + out), CLI::ParseError);
+  writeBytes(file, "{}");
+  EXPECT_THROW(this->render("--settings " + file, "-o " + out), BadInput);
 }
 
 } // namespace

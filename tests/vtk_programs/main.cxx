@@ -8,9 +8,9 @@
 // writes PREFIX.messages, PREFIX.lights ("own" or "key") and one PREFIX.N.ppm a window: its last
 // picture. The program's own passes are not used; without PROGRAM_TECHNIQUE there is none.
 //
-// With PROGRAM_FRAMES=N, where the program starts its interactor, the camera of its first renderer
-// moves by small steps, in runs of N frames without Gnomon and with it, as of a picture that moves;
-// PREFIX.motion gets the median milliseconds of both, and what `auto` chose last.
+// With PROGRAM_FRAMES=N, the camera of the first renderer moves by small steps where the program
+// starts its interactor. It moves in runs of N frames without Gnomon and with it, as frames in
+// motion. PREFIX.motion gets the median milliseconds of both, and the last choice of `auto`.
 
 #include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonLightPlacement.h>
@@ -59,12 +59,12 @@ std::string environment(const char* name)
   return value ? value : "";
 }
 
-bool movesByPass = false;  // whether frames that are timed have the pass
-bool movesPlainly = false; // or none
+bool movesByPass = false;  // the present frames are timed with the pass
+bool movesPlainly = false; // the present frames are timed without the pass
 bool anyOwnLight = false;
 bool anyKeyLight = false;
 
-// Whether a light shines from a place other than the camera's.
+// True if a light shines from a place other than the camera's.
 bool shinesOffAxis(vtkLight* light, vtkCamera* camera)
 {
   const double leastDegrees = 5;
@@ -76,7 +76,7 @@ bool shinesOffAxis(vtkLight* light, vtkCamera* camera)
   double focalPoint[3];
   light->GetTransformedPosition(position);
   light->GetTransformedFocalPoint(focalPoint);
-  // A lamp is seen from where it shines on, a directional light has a direction only.
+  // A spot light faces its focal point; a directional light has only a direction.
   const double* from = light->GetPositional() ? camera->GetFocalPoint() : focalPoint;
   double toLight[3];
   vtkMath::Subtract(position, from, toLight);
@@ -86,7 +86,7 @@ bool shinesOffAxis(vtkLight* light, vtkCamera* camera)
     leastDegrees;
 }
 
-// A renderer that gives itself the pass, and the key light where the program has no such light.
+// A renderer that adds the pass, and a key light if the program has no light of its own.
 class Renderer : public vtkOpenGLRenderer
 {
 public:
@@ -103,7 +103,7 @@ public:
     const std::string technique = environment("PROGRAM_TECHNIQUE");
     if (technique.empty() || movesPlainly)
     {
-      // The program's own passes and shadows would hide what Gnomon's change.
+      // The program's own passes and shadows would hide Gnomon's effect.
       this->SetPass(nullptr);
       this->UseShadowsOff();
     }
@@ -173,7 +173,8 @@ public:
 
   void Render() override
   {
-    const bool nested = this->CheckInRenderStatus(); // by its own interactor: draws nothing
+    // A nested call, by the window's own interactor, draws nothing.
+    const bool nested = this->CheckInRenderStatus();
     this->Superclass::Render();
     if (!nested && !this->Writing && !this->Selecting())
     {
@@ -183,7 +184,7 @@ public:
     }
   }
 
-  // Moves the camera by runs of frames without Gnomon and with it in turns. A run's first frames do
+  // Move the camera in runs of frames, in turn without Gnomon and with it. A run's first frames do
   // not count: VTK rebuilds its shaders when a pass is added or removed.
   void Move(int frames)
   {
@@ -266,7 +267,7 @@ private:
 };
 vtkStandardNewMacro(Window);
 
-// Start() draws the scene and returns: nobody interacts.
+// Start() draws the scene and returns, since there is no user.
 class Interactor : public vtkGenericRenderWindowInteractor
 {
 public:
@@ -329,12 +330,12 @@ int main(int argc, char* argv[])
 
   for (const char* name : { "vtkRenderer", "vtkRenderWindow", "vtkRenderWindowInteractor" })
   {
-    vtkObjectFactory::SetAllEnableFlags(0, name); // VTK's own factories came first
+    vtkObjectFactory::SetAllEnableFlags(0, name); // VTK's own factories are registered first
   }
   vtkNew<Factory> factory;
   vtkObjectFactory::RegisterFactory(factory);
 
-  // A test returns whether it equals its baseline, and there is none here.
+  // Such a test returns whether it equals its baseline; here there is none.
   gnomonProgram(argc, argv);
 
   std::ofstream(out + ".lights") << (anyOwnLight ? "own" : anyKeyLight ? "key" : "none") << '\n';

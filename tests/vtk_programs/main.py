@@ -12,7 +12,7 @@ PREFIX.plain.png are two of the pictures. PREFIX.result is one line of fields be
 - the pixels that shadows change by more than SEEN;
 - the pixels that change at all, although all lights reach them;
 - the pixels whose visibility or colours differ from those by rays;
-- what is left out, and how many other messages there are.
+- the kinds of props left out, and the number of other messages.
 
 The program has one renderer, which it makes in a statement of its own.
 """
@@ -39,7 +39,7 @@ class Window(gnomon.vtkGnomonEGLRenderWindow):
 
 
 class Interactor(vtk.vtkGenericRenderWindowInteractor):
-    """Nobody interacts: the program goes on."""
+    """An interactor without a user: the program continues."""
 
     def Initialize(self):
         self.GetRenderWindow().Render()

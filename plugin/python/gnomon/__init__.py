@@ -12,8 +12,11 @@ vtkGnomonAreaLight, vtkGnomonLightPlacement, vtkGnomonLightSamplingPass, vtkGnom
 for shadow as data vtkGnomonVisibilityFilter and vtkGnomonSun.
 """
 
+from __future__ import annotations
+
 import json
 import warnings
+from typing import TYPE_CHECKING, Any
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401: the wrapped classes' superclasses
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -33,14 +36,31 @@ from .GnomonPlugin import (
     vtkGnomonShadowPass,
     vtkGnomonVisibilityFilter,
 )
+from .errors import collect_errors
 from .images import assert_images_equal
+
+if TYPE_CHECKING:
+    from typing import Protocol
+
+    import numpy
+
+    from .data import hours_lit as hours_lit, sun_path as sun_path
+    from .figure import draw as draw
+
+    class _HasRenderer(Protocol):
+        """What has a renderer, as pyvista.Plotter does."""
+
+        @property
+        def renderer(self) -> vtkRenderer: ...
 
 __all__ = [
     "add_shadows",
     "assert_images_equal",
+    "draw",
     "hours_lit",
     "remove_shadows",
     "report",
+    "sun_path",
     "visibility",
     "vtkGnomonAreaLight",
     "vtkGnomonEGLRenderWindow",
@@ -56,18 +76,23 @@ __all__ = [
 
 # What remove_shadows() puts back, by the renderer's address: Python's wrapper of a renderer goes
 # when nothing in Python names it, and the renderer stays. Entries go with the renderers.
-_before = {}
+_before: dict[str, Any] = {}
+
+if not TYPE_CHECKING:  # for which every name would exist
+
+    def __getattr__(name):
+        if name in ("draw", "hours_lit", "sun_path"):  # need NumPy, which the rest can do without
+            from . import data, figure
+
+            return getattr(figure if name == "draw" else data, name)
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def __getattr__(name):
-    if name == "hours_lit":  # takes NumPy, which the rest can do without
-        from .data import hours_lit
-
-        return hours_lit
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def add_shadows(target, technique=None, **settings):
+def add_shadows(
+    target: vtkRenderer | _HasRenderer,
+    technique: str | None = None,
+    **settings: str | float | bool,
+) -> vtkGnomonShadowPass:
     """Have a renderer show shadows.
 
     Parameters
@@ -112,8 +137,20 @@ def add_shadows(target, technique=None, **settings):
     return shadows
 
 
-def remove_shadows(target):
-    """Give a renderer back the pass and the lights that it had before `add_shadows`."""
+def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
+    """Give a renderer back the pass and the lights that it had before `add_shadows`.
+
+    Parameters
+    ----------
+    target : vtkRenderer or pyvista.Plotter
+        As for `add_shadows`. A renderer without shadows stays as it is, and so does a pass that was
+        set since.
+
+    Raises
+    ------
+    TypeError
+        For a target that is no renderer, and has none.
+    """
     renderer = _renderer_of(target)
     if _address_of(renderer) not in _before:
         return
@@ -128,21 +165,40 @@ def remove_shadows(target):
         renderer.SetAutomaticLightCreation(creates)
 
 
-def report(shadows):
-    """What the last frame of a pass did, as a dict (vtkGnomonShadowPass.GetReportText())."""
+def report(shadows: vtkGnomonShadowPass) -> dict[str, Any]:
+    """Return what the last frame of a pass did.
+
+    Parameters
+    ----------
+    shadows : vtkGnomonShadowPass
+        As `add_shadows` returns it.
+
+    Returns
+    -------
+    dict
+        The JSON of vtkGnomonShadowPass.GetReportText(): "lights", a list with a dict for each
+        light, "route", "choice", "stages" and so on.
+    """
     return json.loads(shadows.GetReportText())
 
 
-def visibility(shadows):
-    """The visibility of the last frame, drawn while `shadows.KeepVisibilityOn()`.
+def visibility(shadows: vtkGnomonShadowPass) -> dict[str, numpy.ndarray]:
+    """Return the visibility of the last frame, drawn while `shadows.KeepVisibilityOn()`.
+
+    Parameters
+    ----------
+    shadows : vtkGnomonShadowPass
+        As `add_shadows` returns it.
 
     Returns
     -------
     dict of str to numpy.ndarray
         Arrays of height x width (x 3), row 0 at the bottom: "light N" for each light that casts, by
         its number in the renderer, 1 lit, 0 in shadow; "position" in world coordinates; "normal";
-        "coverage", 1 where a surface was drawn. They are the caller's own: later frames do not write
-        into them. Empty where nothing was kept.
+        "coverage", 1 where a surface was drawn; "prop", the surface's prop by its number in
+        renderer.GetViewProps(), -1 for nothing; "cell", by its number in the mapper's input where
+        that is a polydata, else -1. They are the caller's own: later frames do not
+        write into them. Empty where nothing was kept.
     """
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -167,17 +223,11 @@ def _renderer_of(target):
 def _set(shadows, name, value):
     is_switch = type(value).__name__ in ("bool", "bool_")  # NumPy's, too
     text = ("on" if value else "off") if is_switch else str(value)
-    messages = []
-
-    def take(_caller, _event, message):
-        messages.append(message)
-
-    take.CallDataType = "string0"
-    observer = shadows.AddObserver("ErrorEvent", take)
+    errors, observer = collect_errors(shadows)
     shadows.SetSetting(name, text)
     shadows.RemoveObserver(observer)
-    if messages:
-        raise ValueError(messages[0].split("): ", 1)[-1].strip())
+    if errors:
+        raise ValueError(errors[0])
 
 
 def _address_of(renderer):

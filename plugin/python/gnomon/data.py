@@ -1,15 +1,78 @@
 """Shadow as data, for arrays."""
 
+from __future__ import annotations
+
+import datetime
+from typing import TYPE_CHECKING
+
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
+from .errors import collect_errors
+from .GnomonLights import vtkGnomonSun
 from .GnomonPlugin import vtkGnomonVisibilityFilter
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
-def hours_lit(receivers, directions, hours=None, casters=None, samples=1, angular_diameter=0.0):
-    """How long each triangle is lit, by vtkGnomonVisibilityFilter.
+
+def sun_path(
+    latitude: float,
+    longitude: float,
+    date: str | datetime.date,
+    minutes: float = 10.0,
+    zone: float = 0.0,
+) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Return the suns of a day, from midnight to midnight, by vtkGnomonSun.
+
+    Parameters
+    ----------
+    latitude : float
+        Degrees to the north.
+    longitude : float
+        Degrees to the east.
+    date : str or datetime.date
+        As "2026-12-21".
+    minutes : float
+        From one sun to the next, in (0, 1440].
+    zone : float
+        Hours to the east of UTC, which say when midnight is.
+
+    Returns
+    -------
+    (numpy.ndarray, numpy.ndarray)
+        The k suns above the horizon: k x 3 unit vectors towards them (x east, y north, z up), and
+        the hours that each stands for; what `hours_lit` takes.
+
+    Raises
+    ------
+    ValueError
+        For a date, a place or a step that does not exist.
+    """
+    day = datetime.date.fromisoformat(str(date))
+    sun = vtkGnomonSun()
+    errors, _ = collect_errors(sun)
+    sun.SetPlace(latitude, longitude)
+    sun.SetDate(day.year, day.month, day.day)
+    sun.SetTime(12, 0, 0.0, zone)
+    directions, hours = vtkDoubleArray(), vtkDoubleArray()
+    sun.MakeDayPath(minutes, directions, hours)
+    if errors:
+        raise ValueError(errors[0])
+    return vtk_to_numpy(directions), vtk_to_numpy(hours)
+
+
+def hours_lit(
+    receivers: tuple[ArrayLike, ArrayLike],
+    directions: ArrayLike,
+    hours: ArrayLike | None = None,
+    casters: tuple[ArrayLike, ArrayLike] | None = None,
+    samples: int = 1,
+    angular_diameter: float = 0.0,
+) -> numpy.ndarray:
+    """Return how long each triangle is lit, by vtkGnomonVisibilityFilter.
 
     Parameters
     ----------
@@ -35,30 +98,25 @@ def hours_lit(receivers, directions, hours=None, casters=None, samples=1, angula
     Raises
     ------
     ValueError
-        For arrays of other shapes, numbers of points that do not exist, and what the filter refuses.
+        For arrays of other shapes, numbers of points that do not exist, and what the filter
+        refuses.
     """
     shadows = vtkGnomonVisibilityFilter()
     shadows.SetInputData(0, _polydata("receivers", receivers))
     if casters is not None:
         shadows.AddInputData(1, _polydata("casters", casters))
-    directions = _array("directions", directions, (None, 3), float)
-    hours = _array("hours", numpy.ones(len(directions)) if hours is None else hours,
-                   (len(directions),), float)
-    errors = []
-
-    def take(_caller, _event, message):
-        errors.append(message)
-
-    take.CallDataType = "string0"
-    shadows.AddObserver("ErrorEvent", take)
-    shadows.AddDirections(numpy_to_vtk(directions), numpy_to_vtk(hours))
+    towards = _array("directions", directions, (None, 3), float)
+    count = len(towards)
+    shines = _array("hours", numpy.ones(count) if hours is None else hours, (count,), float)
+    errors, _ = collect_errors(shadows)
+    shadows.AddDirections(numpy_to_vtk(towards), numpy_to_vtk(shines))
     shadows.SetSamples(samples)
     shadows.SetAngularDiameter(angular_diameter)
     shadows.ComputeReasonsOff()
     if not errors:
         shadows.Update()
     if errors:
-        raise ValueError(errors[0].split("): ", 1)[-1].strip())
+        raise ValueError(errors[0])
     data = shadows.GetOutput().GetCellData()
     return vtk_to_numpy(data.GetArray(shadows.GetHoursName()))
 

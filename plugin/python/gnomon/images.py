@@ -1,20 +1,31 @@
 """Pictures compared with baselines, for tests."""
 
+from __future__ import annotations
+
 import os
+from typing import TYPE_CHECKING
 
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
 
+if TYPE_CHECKING:
+    import numpy
 
-def assert_images_equal(actual, baseline, max_difference=0, max_pixels=0):
+
+def assert_images_equal(
+    actual: vtkRenderWindow | str | os.PathLike | numpy.ndarray,
+    baseline: str | os.PathLike,
+    max_difference: int = 0,
+    max_pixels: int = 0,
+) -> None:
     """Fail unless a picture is its baseline: the counterpart of CMake's gnomon_add_image_test.
 
     Parameters
     ----------
-    actual : vtkRenderWindow, str or numpy.ndarray
-        A window, which is drawn; a PNG file of colours, whose opacity does not count; or an array of
-        height x width x 3 bytes, top row first.
-    baseline : str
+    actual : vtkRenderWindow, str, os.PathLike or numpy.ndarray
+        A window, which is drawn; a PNG file of colours, whose opacity does not count; or an array
+        of height x width x 3 bytes, top row first.
+    baseline : str or os.PathLike
         A PNG file. With the environment variable GNOMON_REFRESH_BASELINES set, `actual` is written
         there, and nothing is compared.
     max_difference : int
@@ -53,8 +64,8 @@ def assert_images_equal(actual, baseline, max_difference=0, max_pixels=0):
         _write(picture, kept)
         raise AssertionError(
             f"{len(rows)} pixels differ from {baseline} by more than {max_difference} "
-            f"(by {difference.max()} at most), and {max_pixels} may; the first one from above is at "
-            f"column {columns[0]}, row {rows[0]}: {kept}"
+            f"(by {difference.max()} at most), and {max_pixels} may; the first one from above is "
+            f"at column {columns[0]}, row {rows[0]}: {kept}"
         )
 
 
@@ -105,7 +116,7 @@ def _write(picture, path):
     os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
     writer = vtkPNGWriter()
     writer.SetInputData(image)
-    writer.SetFileName(path)
+    writer.SetFileName(str(path))
     writer.Write()
     if writer.GetErrorCode() != 0 or not os.path.exists(path):
         raise ValueError(f"{path}: cannot be written")

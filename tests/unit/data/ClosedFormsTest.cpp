@@ -1,4 +1,4 @@
-// vtkGnomonVisibilityFilter against shadows known exactly.
+// Compare vtkGnomonVisibilityFilter with shadows known in closed form.
 
 #include "DataMeshes.h"
 #include "VtkMessages.h"
@@ -31,8 +31,8 @@ protected:
   tool::VtkMessages messages;
 };
 
-/// A half plane over x < 0 at height 1 hides the suns between its edge and the horizon at -x, which
-/// go round in the plane y = 0.
+/// Suns circle in the plane y = 0. A half plane over x < 0 at height 1 hides those between its edge
+/// and the horizon at -x.
 TEST_F(ClosedForms, AHalfPlaneHidesSunsBetweenItsEdgeAndTheHorizon)
 {
   constexpr int cells = 24;
@@ -59,7 +59,7 @@ TEST_F(ClosedForms, AHalfPlaneHidesSunsBetweenItsEdgeAndTheHorizon)
   }
 }
 
-/// Its edge cuts a cell in two.
+/// The edge of the half plane cuts a cell in two.
 TEST_F(ClosedForms, AnEdgeCutsACell)
 {
   const double far = 1e3;
@@ -73,18 +73,18 @@ TEST_F(ClosedForms, AnEdgeCutsACell)
   const double expected = (area - 0.4) / area;
   const double fraction = arrayOf(this->filter, Filter::GetLitFractionName()).front();
   EXPECT_NEAR(fraction, expected, 0.005 * expected);
-  // A fair coin's standard deviation, which bounds what even samples are off by.
+  // A fair coin's standard deviation. It bounds the error of even samples.
   const double error = arrayOf(this->filter, Filter::GetLitFractionErrorName()).front();
   EXPECT_NEAR(error, std::sqrt(expected * (1.0 - expected) / 1023.0), 1e-4);
 }
 
-/// What is seen of the sun's disc past the edge of a half plane at height 10.
+/// The visible part of the sun's disc past the edge of a half plane at height 10.
 TEST_F(ClosedForms, TheSunsDiscHasAPenumbra)
 {
   constexpr int cells = 16;
-  const double width = 10.0 * std::tan(glm::radians(0.265)); // of the penumbra, half
+  const double width = 10.0 * std::tan(glm::radians(0.265)); // half of the penumbra's width
   const double far = 1e3;
-  // Cells as flat as lines, so that all of each sees the same.
+  // Cells as flat as lines: all points of a cell see the same part of the disc.
   this->filter->SetInputData(floorOf({ -1.5 * width, -1e-4 }, { 1.5 * width, 1e-4 }, cells));
   this->filter->AddInputData(
     1, quad({ -far, -far, 10 }, { 0, -far, 10 }, { 0, far, 10 }, { -far, far, 10 }));
@@ -108,7 +108,7 @@ TEST_F(ClosedForms, TheSunsDiscHasAPenumbra)
   }
 }
 
-/// A ball's shadow is as large as an ellipse; half of the ball is turned away.
+/// A ball's shadow has the area of an ellipse; half of the ball is turned away.
 TEST_F(ClosedForms, ABallsShadowIsAnEllipse)
 {
   constexpr int cells = 60;
@@ -161,9 +161,8 @@ TEST_F(ClosedForms, ALampsShadowGrowsWithTheDistance)
   EXPECT_NEAR((cells * cells - lit) * 64.0 / (cells * cells), 9.0, 0.045);
 }
 
-/// A wall that faces south has the sun in its front for as long as that is south of the
-/// east-west line: at the equator on an equinox always half of the day, and on a solstice all day
-/// or never.
+/// A wall faces south. The sun is in front of it while it is south of the east-west line. At the
+/// equator that is half of the day on an equinox, and all day or never on a solstice.
 TEST_F(ClosedForms, AWallHasItsHoursOfSun)
 {
   vtkNew<vtkGnomonSun> sun;
@@ -178,7 +177,7 @@ TEST_F(ClosedForms, AWallHasItsHoursOfSun)
   this->filter->AddSunDay(sun, 1.0);
   this->filter->Update();
   EXPECT_EQ(arrayOf(this->filter, Filter::GetHoursName()).front(), 0.0);
-  // A flat roof has all of them.
+  // A flat roof gets all hours of sun.
   this->filter->SetInputData(quad({ 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }));
   this->filter->Update();
   EXPECT_NEAR(arrayOf(this->filter, Filter::GetHoursName()).front(), 12.0, 0.06);
@@ -189,7 +188,7 @@ TEST_F(ClosedForms, AWallHasItsHoursOfSun)
   EXPECT_NEAR(arrayOf(this->filter, Filter::GetHoursName()).front(), 365.0 * 12.0, 22.0);
 }
 
-/// The stated error is that of independent samples. Even ones are off by less.
+/// The stated error is that of independent samples. Even samples have a smaller error.
 TEST_F(ClosedForms, StatedErrorsAreKept)
 {
   constexpr int cells = 32;
@@ -211,7 +210,7 @@ TEST_F(ClosedForms, StatedErrorsAreKept)
   double sumExpected = 0.0;
   for (int cell = 0; cell < cells * cells; ++cell)
   {
-    double expected = 0.0; // by many strips
+    double expected = 0.0; // summed over many strips
     constexpr int strips = 256;
     for (int i = 0; i < strips; ++i)
     {

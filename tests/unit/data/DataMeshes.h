@@ -14,21 +14,22 @@
 namespace gnomon::test
 {
 
-/// The mesh as polydata with double points, moved.
+/// Return the mesh, moved, as polydata with double points.
 vtkSmartPointer<vtkPolyData> polyData(const Mesh& mesh, const glm::dvec3& by = glm::dvec3(0.0));
 
-/// One quad with these corners.
+/// Return one quad with these corners.
 vtkSmartPointer<vtkPolyData> quad(
   const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
 
-/// The floor z = 0 between two corners as cells x cells quads, facing +z: cell y * cells + x.
+/// Return the floor z = 0 between two corners as cells x cells quads, facing +z: cell y * cells +
+/// x.
 vtkSmartPointer<vtkPolyData> floorOf(const glm::dvec2& lower, const glm::dvec2& upper, int cells);
 
-/// Several polydata with polygons as one.
+/// Join several polydata with polygons into one.
 vtkSmartPointer<vtkPolyData> together(const std::vector<vtkSmartPointer<vtkPolyData>>& parts);
 
-/// An array of the result, of cells or else of points, as doubles: all its components in a row.
-/// Empty if it is not there.
+/// Return an array of the result, of cells or else of points, as doubles: all its components in a
+/// row. Empty if there is no such array.
 std::vector<double> arrayOf(vtkGnomonVisibilityFilter* filter, const char* name);
 
 } // namespace gnomon::test

@@ -1,4 +1,5 @@
-// vtkGnomonVisibilityFilter against every triangle, in double precision, and against pictures.
+// Compare vtkGnomonVisibilityFilter with tests of every triangle in double precision, and with
+// pictures.
 
 #include "DataMeshes.h"
 #include "RandomScenes.h"
@@ -27,7 +28,7 @@ namespace
 
 using Filter = vtkGnomonVisibilityFilter;
 
-/// Whether a triangle blocks an endless ray (Moeller and Trumbore 1997).
+/// True if a triangle blocks an endless ray (Moeller and Trumbore 1997).
 bool blocks(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& origin,
   const glm::dvec3& direction)
 {
@@ -46,7 +47,7 @@ bool blocks(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const
   return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && glm::dot(ac, other) / determinant > 0.0;
 }
 
-/// The smallest distance between a ray and a segment.
+/// Return the smallest distance between a ray and a segment.
 double distanceToEdge(
   const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b)
 {
@@ -64,7 +65,7 @@ double distanceToEdge(
   return glm::distance(origin + s * direction, a + t * edge);
 }
 
-/// How far off a triangle its shadow rays start, at most: far, of a sliver (ShadowRay.h).
+/// Return the largest offset of a triangle's shadow rays from it; large for a sliver (ShadowRay.h).
 double startOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
 {
   const glm::vec3 area = glm::cross(b - a, c - a);
@@ -74,7 +75,7 @@ double startOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
     planeNoise(glm::normalize(area), largest, extent, glm::length(area)), 0.0f);
 }
 
-/// A scene of triangles, all of which cast and receive.
+/// A scene of triangles that all cast and receive.
 struct OracleScene
 {
   std::string name;
@@ -100,7 +101,7 @@ Mesh moved(Mesh mesh, const glm::dvec3& by)
 {
   for (glm::dvec3& point : mesh.points)
   {
-    point = glm::dvec3(glm::vec3(point + by)); // what floats hold, as the filter's snapshot does
+    point = glm::dvec3(glm::vec3(point + by)); // rounded to float like the filter's snapshot
   }
   return mesh;
 }
@@ -129,7 +130,7 @@ std::vector<OracleScene> oracleScenes()
   };
 }
 
-/// Rays of each scene: as many as GNOMON_ORACLE_RAYS says, over all scenes.
+/// Return the rays of each scene. GNOMON_ORACLE_RAYS is the number over all scenes.
 std::size_t raysOfScene(std::size_t scenes)
 {
   const char* const wish = std::getenv("GNOMON_ORACLE_RAYS");
@@ -137,7 +138,7 @@ std::size_t raysOfScene(std::size_t scenes)
     (wish ? std::atof(wish) : 200000.0) / static_cast<double>(scenes));
 }
 
-/// The oracle starts in the middle of a cell itself, without an offset, and leaves out that cell.
+/// The oracle's ray starts in the middle of a cell, without an offset, and skips that cell.
 TEST(VisibilityOracle, AgreesButForRaysThatTouchEdges)
 {
   const std::vector<OracleScene> scenes = oracleScenes();
@@ -224,7 +225,7 @@ TEST(VisibilityOracle, AgreesButForRaysThatTouchEdges)
           const glm::uvec3& own = mesh.triangles[i / directions.size()];
           const double offset =
             startOffset(mesh.points[own.x], mesh.points[own.y], mesh.points[own.z]);
-          // And a few units in the last place of the scene's coordinates.
+          // Plus a few units in the last place of the scene's coordinates.
           EXPECT_LT(distances[i], 8e-6 + offset) << scene.name;
           ofSlivers += distances[i] >= 8e-6 ? 1 : 0;
         }
@@ -241,7 +242,7 @@ class VisibilityPicture : public PassTest
 {
 };
 
-/// A tiny cell for each pixel, where the picture's receiver is, sees what the picture shows there.
+/// A tiny cell at each pixel's receiver has the visibility that the picture shows.
 TEST_F(VisibilityPicture, ShowsWhatCellsSee)
 {
   const auto floor = floorOf({ -4.0, -4.0 }, { 4.0, 4.0 }, 8);

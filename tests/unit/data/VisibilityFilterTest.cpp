@@ -135,8 +135,8 @@ TEST_F(VisibilityFilter, TellsWhyAndWhoBlocks)
 
 TEST_F(VisibilityFilter, CellsKeepTheirNumbers)
 {
-  // A vertex, a line, a triangle, a cell without area and a strip of two triangles, the second of
-  // which is under a roof.
+  // A vertex, a line, a triangle, a cell without area and a strip of two triangles. The strip's
+  // second triangle is under a roof.
   vtkNew<vtkPoints> points;
   for (const glm::dvec3& point : std::initializer_list<glm::dvec3>{ { 0, 0, 0 }, { 1, 0, 0 },
          { 0, 1, 0 }, { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 }, { 11, 1, 0 } })
@@ -167,7 +167,7 @@ TEST_F(VisibilityFilter, CellsKeepTheirNumbers)
   EXPECT_THAT(this->why(),
     ElementsAre(
       Filter::NO_SURFACE, Filter::NO_SURFACE, Filter::LIT, Filter::NO_SURFACE, Filter::LIT));
-  // Blockers are numbered among all cells, too.
+  // Blockers' numbers count all cells, too.
   this->filter->ClearLights();
   this->filter->AddDirection(0.0, 0.0, -1.0);
   this->filter->SetReceivingSide(Filter::BACK);
@@ -255,7 +255,7 @@ TEST_F(VisibilityFilter, PointsAreLitThroughAnyOfTheirCells)
   this->filter->AddDirection(1.0, 0.0, 0.01);
   this->filter->Update();
   EXPECT_THAT(this->fraction(), testing::Each(1.0));
-  // At the foot of a thin wall the floor behind it is dark, and that in front is lit.
+  // At the foot of a thin wall, the floor behind it is dark and the floor in front of it is lit.
   this->filter->SetInputData(together({ floorOf({ -1, -1 }, { 1, 1 }, 2),
     quad({ 0, -1, 0 }, { 0, -1, 1 }, { 0, 1, 1 }, { 0, 1, 0 }) }));
   this->filter->ClearLights();
@@ -322,7 +322,7 @@ TEST_F(VisibilityFilter, BitsAreThoseOfEachLightAlone)
       lit += isLit(cell, light) ? 1 : 0;
     }
     EXPECT_NEAR(hours[cell], expected, 1e-5);
-    EXPECT_EQ(bits[cell * 5 + 4] >= 128.0, false); // light 39 is not there
+    EXPECT_EQ(bits[cell * 5 + 4] >= 128.0, false); // there is no light 39
   }
   EXPECT_GT(lit, cells * 5);
   EXPECT_LT(lit, cells * 30);
@@ -343,7 +343,7 @@ TEST_F(VisibilityFilter, ResultsDoNotDependOnThreads)
   EXPECT_EQ(allArrays(this->filter), several);
 }
 
-/// Calls a function on progress.
+/// Calls a function on each progress event.
 class Progress
 {
 public:
@@ -367,7 +367,7 @@ private:
 
 TEST_F(VisibilityFilter, AbortedExecutionsGoOn)
 {
-  // Several chunks of samples, and of the last one several blocks of lights.
+  // Use several chunks of samples, and in the last one several blocks of lights.
   this->filter->SetInputData(polyData(makeTerrain(10.0, 60, 2.0)));
   this->filter->SetSamples(4);
   this->filter->ComputeBitsOn();
@@ -458,7 +458,7 @@ TEST_F(VisibilityFilter, OnlyWhatChangedIsTracedAgain)
   colours->SetName("Colours");
   colours->SetNumberOfTuples(4);
   data->GetCellData()->AddArray(colours);
-  this->filter->Update(); // new colours are no new shape
+  this->filter->Update(); // new colours change no shape
   EXPECT_EQ(this->filter->GetOutput()->GetCellData()->GetArray("LitFraction"), array);
   EXPECT_TRUE(this->filter->GetOutput()->GetCellData()->HasArray("Colours"));
 
@@ -476,7 +476,7 @@ TEST_F(VisibilityFilter, OnlyWhatChangedIsTracedAgain)
   this->filter->RemoveAllInputConnections(1);
   this->filter->Update();
   EXPECT_THAT(this->fraction(), testing::Each(1.0));
-  // The receivers themselves have no new arrays.
+  // The input receivers get no new arrays.
   EXPECT_EQ(data->GetCellData()->GetNumberOfArrays(), 1);
 }
 
@@ -512,7 +512,7 @@ TEST_F(VisibilityFilter, ScenesMayBeFarAwayAndOfAnySize)
       different += std::abs(fraction[i] - near[i]) > 1e-6 ? 1 : 0;
     }
   }
-  // Of 100,000 rays some meet edges to within a rounding.
+  // Of 100,000 rays, some meet edges to within rounding.
   EXPECT_LE(different, 20u);
 }
 
@@ -531,7 +531,7 @@ TEST_F(VisibilityFilter, BrokenGeometryIsLeftOut)
   this->filter->Update();
   EXPECT_THAT(this->fraction(), ElementsAre(1, 1, 1, 0, 0));
 
-  // Nothing at all is no error.
+  // No input at all is no error.
   this->filter->SetInputData(vtkNew<vtkPolyData>());
   this->filter->Update();
   EXPECT_TRUE(this->fraction().empty());
@@ -542,7 +542,7 @@ TEST_F(VisibilityFilter, BrokenGeometryIsLeftOut)
   this->filter->AddInputData(1, vtkNew<vtkPolyData>());
   this->filter->Update();
   EXPECT_THAT(this->fraction(), ElementsAre(1));
-  // Nor are lights that are on for no time, or all below the horizon.
+  // Lights without hours, or all below the horizon, are no error either.
   this->filter->ClearLights();
   this->filter->AddDirection(0.0, 0.0, 1.0, 0.0);
   this->filter->Update();

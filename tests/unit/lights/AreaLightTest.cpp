@@ -1,4 +1,4 @@
-// vtkGnomonAreaLight, and how large lights are for shadows, whoever says so.
+// vtkGnomonAreaLight, and the sizes of lights for shadows from all their sources.
 
 #include "lights/vtkGnomonAreaLight.h"
 
@@ -28,7 +28,7 @@ namespace gnomon::test
 namespace
 {
 
-/// What shadows make of a light.
+/// Read a light as shadows see it.
 LightSet read(vtkLight* light)
 {
   vtkNew<vtkRenderer> renderer;
@@ -36,7 +36,7 @@ LightSet read(vtkLight* light)
   return LightManager().collect(renderer, {});
 }
 
-/// The area of a light that casts; a disk of no size where it has none.
+/// Return the area of a light that casts; a disk of size 0 if it has none.
 LightArea areaOf(vtkLight* light)
 {
   const LightSet set = read(light);
@@ -61,7 +61,7 @@ vtkSmartPointer<vtkGnomonAreaLight> makeRectangle(double width, double height)
   return light;
 }
 
-/// Which OSPRay's module makes where it is there.
+/// Return the key that OSPRay's module defines, if it is loaded.
 vtkInformationDoubleKey* ospRayKey()
 {
   static vtkInformationDoubleKey* const key =
@@ -77,7 +77,7 @@ TEST(AreaLight, isARectangleInTheWorld)
   EXPECT_NEAR(glm::distance(glm::abs(area.worldFromUnit[0]), { 1.0, 0.0, 0.0 }), 0.0, 1e-12);
   EXPECT_NEAR(glm::distance(area.worldFromUnit[1], { 0.0, 0.25, 0.0 }), 0.0, 1e-12);
 
-  // The transform turns the light and what is up in it, but does not make it larger.
+  // The transform turns the light and its up direction, but does not scale it.
   vtkNew<vtkMatrix4x4> turn;
   const double numbers[16] = { 0, -3, 0, 7, 3, 0, 0, 8, 0, 0, 3, 9, 0, 0, 0, 1 };
   turn->DeepCopy(numbers);
@@ -94,7 +94,7 @@ TEST(AreaLight, ofADirectionHasAngles)
   EXPECT_NEAR(glm::length(area.worldFromUnit[0]), 1.0, 1e-12);
   EXPECT_NEAR(glm::length(area.worldFromUnit[1]), std::tan(glm::pi<double>() / 6.0), 1e-12);
   light->SetShapeToDisk();
-  light->SetRadius(90.0); // the diameter
+  light->SetRadius(90.0); // a sun's diameter in degrees
   EXPECT_NEAR(glm::length(areaOf(light).worldFromUnit[0]), 1.0, 1e-12);
   light->SetRadius(180.0);
   EXPECT_EQ(reasonOf(light), "it fills 180 degrees or more");
@@ -123,7 +123,7 @@ TEST(AreaLight, withoutSizeIsAPoint)
   EXPECT_TRUE(read(light).lights.at(0).area.has_value()) << "a tube";
 }
 
-/// As far as the light reaches, everywhere around its centre, and no two at one place.
+/// The rim lies at the light's reach, everywhere around its centre; no two points coincide.
 TEST(AreaLight, hasARim)
 {
   const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, -2.0, 0.5));
@@ -171,7 +171,7 @@ TEST(AreaLight, hasARim)
   }
 }
 
-/// Along any direction, as far as the farthest of its rim.
+/// The extent along any direction is that of the farthest rim point.
 TEST(AreaLight, hasAnExtent)
 {
   const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, -2.0, 0.5));
@@ -207,11 +207,11 @@ TEST(AreaLight, takesOSPRaysRadius)
   spot->GetInformation()->Set(ospRayKey(), 0.25);
   EXPECT_EQ(areaOf(spot).shape, LightArea::Shape::Disk);
   EXPECT_NEAR(glm::length(areaOf(spot).worldFromUnit[0]), 0.25, 1e-12);
-  spot->SetConeAngle(90.0); // which OSPRay draws as a sphere
+  spot->SetConeAngle(90.0); // OSPRay draws it as a sphere
   EXPECT_EQ(areaOf(spot).shape, LightArea::Shape::Ball);
   EXPECT_EQ(areaOf(spot).worldFromUnit, glm::dmat3(0.25));
 
-  // The class says more than the key, and the setting overrules both.
+  // The class takes precedence over the key, and the setting over both.
   const auto area = makeRectangle(2.0, 2.0);
   area->GetInformation()->Set(ospRayKey(), 0.25);
   EXPECT_EQ(areaOf(area).shape, LightArea::Shape::Rectangle);
@@ -221,7 +221,7 @@ TEST(AreaLight, takesOSPRaysRadius)
 
 TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
 {
-  ospRayKey(); // its module is there
+  ospRayKey(); // loads the key of OSPRay's module
   const auto told = [](vtkLight* light)
   {
     vtkInformation* const keys = light->GetInformation();
@@ -238,7 +238,7 @@ TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
   disk->SetRadius(-1.0);
   EXPECT_EQ(disk->GetRadius(), 0.0);
   EXPECT_EQ(told(disk), 0.0);
-  disk->GetInformation()->Remove(ospRayKey()); // as if the module had come after that
+  disk->GetInformation()->Remove(ospRayKey()); // as if the module were loaded afterwards
   disk->SetRadius(0.0);
   EXPECT_EQ(told(disk), 0.0);
   for (const double none :
@@ -256,7 +256,7 @@ TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
   copy->DeepCopy(plain);
   EXPECT_EQ(told(copy), copy->GetRadius()) << "the information is the other light's";
   const auto rectangle = makeRectangle(2.0, 1.0);
-  rectangle->GetInformation()->Set(ospRayKey(), 0.75); // by somebody who wants that there
+  rectangle->GetInformation()->Set(ospRayKey(), 0.75); // set by the application
   copy->DeepCopy(rectangle);
   EXPECT_EQ(told(copy), 0.75);
 }

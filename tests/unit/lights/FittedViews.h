@@ -31,7 +31,7 @@ inline CameraView perspectiveCamera(const glm::dvec3& eye, const glm::dvec3& foc
     glm::perspective(glm::radians(fieldOfViewDegrees), 1.0, nearDistance, farDistance) };
 }
 
-/// The distance of a point along the direction of view, from the eye's plane.
+/// Return the distance of a point from the eye's plane, along the direction of view.
 inline double distanceOf(const CameraView& camera, const glm::dvec3& centred)
 {
   return -(camera.viewFromCentred * glm::dvec4(centred, 1.0)).z;
@@ -86,8 +86,8 @@ struct Setting
     return result;
   }
 
-  /// Random points that the camera and the light see, in centred coordinates: found without the
-  /// body, from the scene's box and from the camera's frustum.
+  /// Return random points that the camera and the light see, in centred coordinates. They are found
+  /// without the body, from the scene's box and the camera's frustum.
   Points visiblePoints(std::mt19937& random, int attempts) const
   {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -111,7 +111,7 @@ struct Setting
   }
 };
 
-/// Cameras and lights of all kinds around a scene of any size, many of them awkward: light along
+/// Return cameras and lights of all kinds around a scene of any size. Many are awkward: light along
 /// the view, either way, along the axes, from the eye; cameras in the scene; flat scenes; parallel
 /// projections.
 inline Setting randomSetting(std::mt19937& random)
@@ -182,8 +182,8 @@ struct SurfacePoint
   glm::dvec3 normalCentred; ///< of any length but 0
 };
 
-/// d(image)/d(u, v) of a projection, at a point that two tangents span a surface around.
-/// @param homogeneous the point's image and those of the tangents: (numerators, w)
+/// Return d(image)/d(u, v) of a projection at a point, for a surface spanned by two tangents.
+/// @param homogeneous images of the point and the tangents: (numerators, w)
 inline glm::dmat2 jacobian(
   const glm::dvec3& homogeneous, const glm::dvec3& tangentU, const glm::dvec3& tangentV)
 {
@@ -193,19 +193,19 @@ inline glm::dmat2 jacobian(
     (glm::dvec2(tangentV) - image * tangentV.z) / homogeneous.z };
 }
 
-/// The rows of x, y and w alone.
+/// Return the rows of x, y and w alone.
 inline glm::dvec3 xyw(const glm::dvec4& clip)
 {
   return { clip.x, clip.y, clip.w };
 }
 
-/// The sides of a map's texel on a surface, in pixels of the camera's picture: the aliasing measure
-/// of both axes of the map (Apelles, eqs 3.17 and 3.18; Lloyd 2007, section 3.2). Above 1 the texel
-/// can be seen.
+/// Return the sides of a map's texel on a surface, in pixels of the camera's picture. This is the
+/// aliasing measure of both axes of the map (Apelles, eqs 3.17 and 3.18; Lloyd 2007, section 3.2).
+/// A texel above 1 is visible.
 ///
 /// @param mapFromAcross the projection with its fit
-/// @return nothing where the measure has no meaning: the surface is edge-on to the light, or the
-/// point is not before the camera and in the light's view
+/// @return nothing if the measure is undefined: the surface is edge-on to the light, or the point
+/// is not in front of the camera and in the light's view
 inline std::optional<glm::dvec2> texelPixels(const SurfacePoint& point, const CameraView& camera,
   const glm::dvec2& viewportPixels, const LightRays& rays, const glm::dmat3& mapFromAcross,
   int mapSizeTexels)
@@ -243,13 +243,14 @@ inline std::optional<glm::dvec2> texelPixels(const SurfacePoint& point, const Ca
     return std::nullopt;
   }
   const glm::dmat2 screenFromMap = screenFromSurface * glm::inverse(mapFromSurface);
-  // Both from device coordinates, of which each side has 2.
+  // Both map from device coordinates, where each side is 2 long.
   const glm::dvec2 texel(
     glm::length(screenFromMap[0] * viewportPixels), glm::length(screenFromMap[1] * viewportPixels));
   return texel / static_cast<double>(mapSizeTexels);
 }
 
-/// The points of the plane z = 0 that the camera sees in the scene, a grid of its pixels.
+/// Return the points of the plane z = 0 that the camera sees in the scene, for a grid of its
+/// pixels.
 inline std::vector<SurfacePoint> groundSeen(const Setting& setting)
 {
   const glm::dmat4 centredFromClip = glm::inverse(setting.camera.clipFromCentred());
@@ -275,7 +276,8 @@ inline std::vector<SurfacePoint> groundSeen(const Setting& setting)
   return result;
 }
 
-/// The largest side of a texel on these points, in pixels, for a map and a picture of 1024 x 1024.
+/// Return the largest side of a texel on these points, in pixels, for a map and a picture of 1024 x
+/// 1024.
 inline double worstTexel(
   const std::vector<SurfacePoint>& points, const Setting& setting, const glm::dmat3& mapFromAcross)
 {
@@ -291,7 +293,7 @@ inline double worstTexel(
   return result;
 }
 
-/// A wide plain, seen from a low eye above it, as far as its end.
+/// A wide plain, seen from a low eye above it, up to its end.
 inline Setting terrain(const LightRays& rays)
 {
   Setting setting;
@@ -302,8 +304,8 @@ inline Setting terrain(const LightRays& rays)
   return setting;
 }
 
-/// What every projection of a visible body has to be, in many settings: finite, without a horizon
-/// or a flip over the body, and all that is visible on the map.
+/// Expect properties of every projection of a visible body, in many settings: it is finite, has no
+/// horizon or flip over the body, and maps all visible points onto the map.
 /// @param project from the body's vertices, the camera and the rays to mapFromAcross
 template <typename Project>
 void expectSoundProjections(const Project& project, unsigned seed)
@@ -342,7 +344,7 @@ void expectSoundProjections(const Project& project, unsigned seed)
   EXPECT_GT(bodies, 500); // enough of them see something
 }
 
-/// The area of the worst texel is never more than that of the uniform projection's.
+/// Expect the area of the worst texel to be at most that of the uniform projection.
 /// @param project from the body's vertices, the camera and the rays to mapFromAcross
 template <typename Project>
 void expectNoLargerTexels(const Project& project, unsigned seed)
@@ -359,8 +361,8 @@ void expectNoLargerTexels(const Project& project, unsigned seed)
   }
 }
 
-/// A projection's worst texel on the ground, over that of the uniform one, for light from all
-/// directions that reaches the ground at more than three degrees.
+/// Return a projection's worst texel on the ground, over that of the uniform one. The light comes
+/// from all directions at more than three degrees above the ground.
 /// @param project from the body's vertices, the camera and the rays to mapFromAcross
 template <typename Project>
 void expectHardlyWorseThanUniform(const Project& project, double largestRatio)

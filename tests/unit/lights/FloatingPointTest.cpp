@@ -1,11 +1,11 @@
-// What numbers do, whatever processor is compiled for.
+// Arithmetic that must not depend on the processor for which the code is compiled.
 
 #include <gtest/gtest.h>
 
 namespace
 {
 
-/// Of a function for processors that can fuse it.
+/// Compiled for processors that can fuse multiplication and addition.
 #ifdef __x86_64__
 [[gnu::target("fma")]]
 #endif
@@ -26,7 +26,7 @@ TEST(FloatingPoint, productsAreRoundedBeforeTheyAreAdded)
     GTEST_SKIP() << "this processor fuses nothing";
   }
 #endif
-  // Its square is 1 + 2^-29 + 2^-60, of which a double holds all but the last bit.
+  // The square is 1 + 2^-29 + 2^-60; a double holds all but the last bit.
   const double factor = 1.0 + 0x1p-30;
   const double less = -(1.0 + 0x1p-29);
   EXPECT_EQ(productAndSum(factor, factor, less), 0.0);

@@ -40,7 +40,7 @@ ShadowLight lightTowards(
   return light;
 }
 
-/// Points in a box, its corners and more.
+/// Return points in a box: its corners and others.
 std::vector<glm::dvec3> pointsIn(const Bounds& bounds)
 {
   std::mt19937 random(7);
@@ -55,7 +55,7 @@ std::vector<glm::dvec3> pointsIn(const Bounds& bounds)
   return points;
 }
 
-/// Whether a light's views see a point, as shaders find it.
+/// True if a light's views see a point, as shaders find it.
 bool isSeen(const LightViews& views, const glm::dvec3& centred)
 {
   std::size_t index = 0;
@@ -84,8 +84,8 @@ bool isInCone(const ShadowLight& light, const glm::dvec3& centred)
   return p.z > 0.0 && std::hypot(p.x, p.y) <= tangent * p.z;
 }
 
-/// All that a spot's centre lights, each of its points sees, from outside of the scene, from its
-/// edge and from inside.
+/// Each point of a spot light sees all points that its centre lights: from outside the scene, from
+/// its edge and from inside.
 TEST(LightAt, seesFromAllPointsWhatTheCentreOfASpotReaches)
 {
   const ViewFitting fitting = fittingTo(scene);
@@ -151,15 +151,15 @@ TEST(LightAt, turnsParallelRaysToThePoint)
   }
 }
 
-/// Every ray from the centre's box to a point of the light, as far as the centre's near face, lies
-/// in the point's box.
+/// A light point's box holds every ray from the centre's box to that point, as far as the centre's
+/// near face.
 TEST(LightAt, standsABoxAroundAllRaysIntoTheCentresBox)
 {
   for (const glm::dvec3& up : { glm::dvec3(0.0, 1.0, 0.0), { 1.0, 0.2, 0.0 } })
   {
     ShadowLight light = lightTowards(LightKind::Directional, { 0.5, 0.2, 3.0 }, { 0.2, 0.5, -1.0 });
     light.box = LightBox{ 2.0, 1.5, 4.0, up };
-    // Up to a light of 80 degrees.
+    // Sizes of lights, up to 80 degrees.
     for (const double size : { 0.01, 0.3, 1.7 })
     {
       light.area = rectangleArea(light.directionWorld, { 0.3, 1.0, 0.2 }, { size, 0.7 * size });

@@ -84,7 +84,7 @@ TEST_F(LightPlacement, BoxesAndPointsHaveTheirSpheres)
 
 TEST_F(LightPlacement, AKeyLightComesOverTheCamerasLeftShoulder)
 {
-  vtkNew<vtkCamera> camera; // looks along +x, with z up: y is to its left
+  vtkNew<vtkCamera> camera; // looks along +x with z up, so y is to its left
   camera->SetPosition(-5.0, 0.0, 0.0);
   camera->SetFocalPoint(0.0, 0.0, 0.0);
   camera->SetViewUp(0.0, 0.0, 1.0);

@@ -33,7 +33,7 @@ ShadowLight lightOf(LightKind kind)
   return light;
 }
 
-/// A square of half side 1 across z, whose offsets are its own coordinates.
+/// A square across z with half side 1; its offsets equal its own coordinates.
 LightSamples squareSamples(int count, int seed = 0, LightSampling sampling = LightSampling::Sobol)
 {
   ShadowLight light = lightOf(LightKind::Spot);
@@ -45,15 +45,15 @@ LightSamples squareSamples(int count, int seed = 0, LightSampling sampling = Lig
   return LightSamples(light);
 }
 
-/// Where a point of that square lies, in [0, 1).
+/// Return the place of a point of that square, in [0, 1).
 glm::vec2 placeOf(const glm::vec3& offset)
 {
   return 0.5f * (glm::vec2(offset) + 1.0f);
 }
 
-/// Expects as many points as there are parts, one in each, however the square is cut into so many
-/// of equal area with sides that are powers of two.
-/// @param mostColumnBits the narrowest parts' width, a power of 1/2
+/// Cut the square into as many parts of equal area as there are points, with sides that are powers
+/// of two, in every way. Expect one point in each part.
+/// @param mostColumnBits the narrowest parts' width, as a power of 1/2
 void expectOneInEachPart(const std::vector<glm::vec2>& places, int mostColumnBits)
 {
   for (int columnBits = 0; columnBits <= mostColumnBits; ++columnBits)
@@ -118,7 +118,7 @@ TEST(LightSamples, fillADiscAcrossTheLight)
       glm::dvec3 offset = glm::dvec3(sample) - middle;
       if (kind == LightKind::Directional)
       {
-        // The radius is the tangent of the angle.
+        // The radius is the tangent of the light's angle.
         EXPECT_NEAR(glm::length(glm::dvec3(sample)), 1.0, 1e-12);
         offset = glm::dvec3(sample) / glm::dot(glm::dvec3(sample), middle) - middle;
       }
@@ -229,7 +229,7 @@ TEST(LightSamples, ofOneNumberLieInTheSamePartForAllPixels)
   }
 }
 
-/// Neighbours, too: those of 2 x 2 pixels and of 4 x 4.
+/// Samples are even over neighbouring pixels, too: over 2 x 2 and 4 x 4.
 TEST(LightSamples, ofBlocksOfPixelsAreAsEvenAsThoseOfOne)
 {
   constexpr int bits = 4;
@@ -254,9 +254,9 @@ TEST(LightSamples, ofBlocksOfPixelsAreAsEvenAsThoseOfOne)
   }
 }
 
-/// RMS error of the share of a square that lies on one side of a slanted line, which moves from
-/// pixel to pixel.
-/// @param side errors are averaged over as many times as many pixels
+/// Return the RMS error of the share of a square that lies on one side of a slanted line. The line
+/// moves from pixel to pixel.
+/// @param side errors are averaged over side x side pixels
 double halfPlaneError(const LightSamples& samples, int side)
 {
   constexpr int width = 64;
@@ -267,7 +267,7 @@ double halfPlaneError(const LightSamples& samples, int side)
     const int column = pixel % width;
     const int row = pixel / width;
     const double limit = (column + 0.37 * row) / width - 0.7;
-    // The area of a quadrant less those beyond the square's sides.
+    // The area of a quadrant without the areas beyond the square's sides.
     const auto quadrant = [&](double x, double y)
     { return std::pow(std::max(limit + across.x * x + across.y * y, 0.0), 2.0); };
     const double truth = (quadrant(1, 1) - quadrant(-1, 1) - quadrant(1, -1) + quadrant(-1, -1)) /
@@ -314,14 +314,14 @@ TEST(LightSamples, errLeastByDefaultAndLeaveTheLeastNoiseToABlur)
     const LightSamples random = squareSamples(count, 0, LightSampling::Random);
     EXPECT_LT(sobol, halfPlaneError(jittered, 1)) << count;
     EXPECT_LT(halfPlaneError(jittered, 1), halfPlaneError(random, 1)) << count;
-    // What has nothing to do with its neighbours loses a factor of 3 over 3 x 3.
+    // Noise that is independent of its neighbours drops by a factor of 3 over 3 x 3.
     EXPECT_NEAR(halfPlaneError(jittered, 3) / halfPlaneError(jittered, 1), 1.0 / 3.0, 0.03);
     EXPECT_LT(sobolBlurred, 0.3 * sobol) << count;
   }
 }
 
-/// Curtis 2009, section 3.1: a straight edge along the grid, over all of its places. A cell that it
-/// cuts is lit by chance, its variance 1/6 on the mean, and the k x k grid has k such cells:
+/// Curtis 2009, section 3.1: a straight edge along the grid, over all of its places. A cell that
+/// the edge cuts is lit by chance, with mean variance 1/6. The k x k grid has k such cells:
 /// sqrt(1/6 / k^3).
 TEST(LightSamples, inTheCellsOfAGridErrAsTheyMust)
 {
@@ -356,7 +356,7 @@ TEST(LightSamples, inTheCellsOfAGridErrAsTheyMust)
   }
 }
 
-/// How far the numbers of pairs in 16 x 16 cells are off what chance gives, in standard deviations.
+/// Return the deviation of pair counts in 16 x 16 cells from chance, in standard deviations.
 double dependenceOf(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs)
 {
   constexpr double degreesOfFreedom = 255.0;
@@ -443,7 +443,7 @@ TEST(LightSamples, ofManyPixelsAreEvenOnTheMean)
     {
       if (sampling == LightSampling::Jittered && count == 3)
       {
-        continue; // no square
+        continue; // no square number
       }
       const LightSamples samples = squareSamples(count, 2, sampling);
       glm::dvec2 mean(0.0);
@@ -497,7 +497,7 @@ TEST(LightSamples, inPairsAreOppositeAndGoFromTheMiddleOutwards)
   }
 }
 
-/// But for cuts that leave the square whole from bottom to top.
+/// Exception: cuts that leave the square whole from bottom to top.
 TEST(LightSamples, inPairsAreAsEvenAsWithout)
 {
   ShadowLight light = lightOf(LightKind::Spot);

@@ -1,5 +1,5 @@
-// Textures of area lights: what images are ones, where their texels lie, and when lights have them
-// read.
+// Textures of area lights: which images are valid, where their texels lie, and when lights read
+// them.
 
 #include "lights/LightTexture.h"
 
@@ -36,7 +36,7 @@ vtkSmartPointer<vtkImageData> makeImage(
   return image;
 }
 
-/// Two by two texels: below green and blue, above red and yellow.
+/// An image of 2 x 2 texels: below green and blue, above red and yellow.
 vtkSmartPointer<vtkImageData> makeFour()
 {
   const auto image = makeImage(2, 2, VTK_UNSIGNED_CHAR, 3, 0.0);
@@ -64,7 +64,7 @@ std::string reasonOf(vtkImageData* image)
   return reason;
 }
 
-/// A lamp that shines down on the origin.
+/// A lamp that shines down onto the origin.
 class TexturedLight : public testing::Test
 {
 protected:
@@ -150,7 +150,7 @@ TEST(LightTexture, isNoneForAReason)
     EXPECT_EQ(reasonOf(image),
       "its texture is " + std::to_string(bad) + " at texel (1, 1), expected 0 to 1");
   }
-  // An alpha means nothing.
+  // Alpha is ignored.
   const auto image = makeImage(3, 2, VTK_FLOAT, 4, 1.0);
   image->SetScalarComponentFromDouble(1, 1, 0, 3, -3.0);
   EXPECT_TRUE(readGood(image));
@@ -167,8 +167,8 @@ TEST(LightTexture, hasTheMeanOfItsShape)
   EXPECT_NEAR(glm::distance(four->meanOfRectangle, { 0.5, 0.5, 0.25 }), 0.0, 1e-12);
   EXPECT_NEAR(glm::distance(four->meanOfDisk, { 0.5, 0.5, 0.25 }), 0.0, 1e-9);
 
-  // Three columns, of which the middle one is lit: |x| < 1 / 3 of a disk, (2 / pi) (a sqrt(1 - a^2)
-  // + asin a).
+  // Three columns, the middle one lit. On a disk that is |x| < a = 1 / 3, a share of (2 / pi) (a
+  // sqrt(1 - a^2) + asin a).
   const auto column = makeImage(3, 3, VTK_UNSIGNED_CHAR, 1, 0.0);
   for (int y = 0; y < 3; ++y)
   {
@@ -181,7 +181,7 @@ TEST(LightTexture, hasTheMeanOfItsShape)
 //------------------------------------------------------------------------------
 TEST_F(TexturedLight, showsThePictureAsWhoLooksAtItSeesIt)
 {
-  // Who looks up has y up and so -x to the right.
+  // A viewer who looks up has y up, and so -x to the right.
   const glm::vec3 red(255, 0, 0);
   const glm::vec3 green(0, 255, 0);
   const glm::vec3 blue(0, 0, 255);
@@ -196,7 +196,8 @@ TEST_F(TexturedLight, showsThePictureAsWhoLooksAtItSeesIt)
     EXPECT_EQ(read.texture->colourAt({ 0.1, -0.1, 0.0 }), green);
     EXPECT_EQ(read.texture->colourAt({ -0.1, -0.1, 0.0 }), blue);
   }
-  // What is up is seen up, also where it is not across the light, and the transform turns it.
+  // The picture's up is the light's up, also if that is not across the light. The transform turns
+  // it.
   this->light->SetShapeToRectangle();
   this->light->SetUp(1.0, 0.0, 7.0);
   EXPECT_EQ(this->read().texture->colourAt({ 0.1, 0.1, 0.0 }), yellow);
@@ -221,7 +222,7 @@ TEST_F(TexturedLight, fillsItsShapeAndEndsThere)
   }
   this->light->SetTexture(image);
   const ShadowLight read = this->read();
-  // Texels are as wide as the rectangle makes them: 1 by 1.
+  // Texels of this rectangle are 1 by 1.
   for (int x = 0; x < 4; ++x)
   {
     for (const float inTexel : { 0.01f, 0.99f })
@@ -284,7 +285,7 @@ TEST_F(TexturedLight, isLeftOutForAReason)
   EXPECT_EQ(this->reason(), "its area has its up direction along the light");
   this->light->SetUp(0.0, 1.0, 0.0);
   this->light->SetTexture(makeImage(1, 1, VTK_FLOAT, 1, -1.0));
-  for (int frame = 0; frame < 2; ++frame) // the image is not read again
+  for (int frame = 0; frame < 2; ++frame) // the second frame does not read the image again
   {
     EXPECT_EQ(this->reason(), "its texture is -1.000000 at texel (0, 0), expected 0 to 1");
   }
@@ -301,7 +302,7 @@ TEST_F(TexturedLight, ofNoSizeHasItsMean)
   EXPECT_FALSE(point.area.has_value());
   ASSERT_TRUE(point.texture.has_value());
   EXPECT_EQ(point.texture->mean, glm::vec3(0.5f, 0.5f, 0.25f));
-  // A line has the texels along it.
+  // A line-shaped light has the texels along it.
   this->light->SetWidth(4.0);
   const ShadowLight line = this->read();
   EXPECT_EQ(line.texture->colourAt({ 1.0, 0.0, 0.0 }), glm::vec3(255, 0, 0));

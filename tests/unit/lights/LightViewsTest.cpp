@@ -35,7 +35,7 @@ LightViews fit(const ShadowLight& light, const Bounds& casters)
   return fitLightViews(light, { viewsCentre, casters, {}, { mapSize, 1 }, {} });
 }
 
-/// Points in the box, its corners and more.
+/// Return points in the box: its corners and others.
 std::vector<glm::dvec3> pointsInBox(const Bounds& bounds)
 {
   std::mt19937 random(11);
@@ -50,7 +50,7 @@ std::vector<glm::dvec3> pointsInBox(const Bounds& bounds)
   return points;
 }
 
-/// The view that sees a point, as shaders find it; null for none.
+/// Return the view that sees a point, as shaders find it; null if none does.
 const LightView* viewOf(const LightViews& views, const glm::dvec3& centred)
 {
   std::size_t index = 0;
@@ -67,7 +67,7 @@ const LightView* viewOf(const LightViews& views, const glm::dvec3& centred)
   return index < views.views.size() ? &views.views[index] : nullptr;
 }
 
-/// Expects a point within a view, a texel away from its border and at a depth well below 1.
+/// Expect a point within a view, a texel away from its border and at a depth well below 1.
 void expectSeen(const LightView* view, const glm::dvec3& point)
 {
   ASSERT_TRUE(view) << point.x << ", " << point.y << ", " << point.z;
@@ -131,7 +131,7 @@ TEST(LightViews, SeeAllCasters)
 TEST(LightViews, KeepTheBorderThatTheyAreAskedFor)
 {
   const Bounds casters = box({ -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 });
-  // No more than a quarter of the side.
+  // The border is at most a quarter of the side.
   for (const auto& [asked, kept] : { std::pair(1, 1), { 5, 5 }, { 1000, mapSize / 4 } })
   {
     const auto texelOf = [](const LightView& view, const glm::dvec3& point)
@@ -139,7 +139,7 @@ TEST(LightViews, KeepTheBorderThatTheyAreAskedFor)
       const glm::dvec4 clip = view.clipFromCentred() * glm::dvec4(point, 1.0);
       return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(mapSize);
     };
-    // The border of a cube's face lies at 45 degrees, that of a sun's view around the casters.
+    // A cube face has its border at 45 degrees, a sun's view around the casters.
     const LightViews faces = fitLightViews(
       lightAround(LightKind::Point, {}), { viewsCentre, casters, {}, { mapSize, asked }, {} });
     ASSERT_EQ(faces.views.size(), 6u);
@@ -173,7 +173,7 @@ TEST(LightViews, FromAmongTheCastersAPointLightLooksEverywhere)
   std::size_t seen = 0;
   for (const glm::dvec3& point : pointsInBox(room))
   {
-    // Those nearer than the near plane excepted.
+    // Points nearer than the near plane are excepted.
     if (glm::length(point - glm::dvec3(0.4, 0.2, 0.9)) > 0.01)
     {
       expectSeen(viewOf(views, point), point);
@@ -188,7 +188,7 @@ TEST(LightViews, FacesMeetAtTheirBorders)
   const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
   const LightViews views = fit(lightAround(LightKind::Point, glm::dvec3(0.0)), room);
   ASSERT_EQ(views.views.size(), 6u);
-  // On the border of two faces, and on a corner of three, each of them could answer.
+  // On the border of two faces or the corner of three, each of them may answer.
   for (const glm::dvec3& point :
     { glm::dvec3(2.0, 2.0, 0.3), { -2.0, 0.1, 2.0 }, { 0.5, -2.0, -2.0 }, { 2.0, -2.0, 2.0 } })
   {
@@ -214,7 +214,7 @@ TEST(LightViews, FacesWithoutCastersAreLeftOut)
   EXPECT_EQ(facesOf(fit(lightAround(LightKind::Point, {}), beside)), std::vector<int>({ 0, 3 }));
 }
 
-/// What a view's map spans, as slopes in the view's own space.
+/// Return the lower and upper slopes that a view's map spans, in the view's own space.
 std::pair<glm::dvec2, glm::dvec2> slopesOf(const LightView& view)
 {
   const glm::dvec2 scale(view.mapFromAcross[0].x, view.mapFromAcross[1].y);
@@ -224,22 +224,22 @@ std::pair<glm::dvec2, glm::dvec2> slopesOf(const LightView& view)
 
 TEST(LightViews, FacesSeeCastersThatLieWithinTheBorderBeyondTheirEdge)
 {
-  // Below the light, up to 0.995 of the slope that belongs to the face +x.
+  // A plate below the light, up to 0.995 of the slope at which the face +x begins.
   const Bounds plate = box({ 1.0, -1.0, -2.0 }, { 1.99, 1.0, -2.0 });
   constexpr int border = 8;
   const LightViews wide = fitLightViews(
     lightAround(LightKind::Point, {}), { viewsCentre, plate, {}, { mapSize, border }, {} });
   EXPECT_EQ(facesOf(wide), std::vector<int>({ 0, 5 }));
-  // From the plate beyond the edge to the last point on this side from which it is read.
+  // The map spans from the plate beyond the edge to the last point on this side that reads it.
   const auto [lower, upper] = slopesOf(wide.views.at(0));
   const glm::dvec2 texel = (upper - lower) / static_cast<double>(mapSize);
   const LightView& face = wide.views.at(0);
   const glm::dvec4 down = face.rays.viewFromCentred * glm::dvec4(0.0, 0.0, -1.0, 0.0);
-  const int axis = std::abs(down.x) > 0.5 ? 0 : 1; // of the edge that the plate is near
+  const int axis = std::abs(down.x) > 0.5 ? 0 : 1; // of the edge near the plate
   const double edge = down[axis];
   EXPECT_GE((edge < 0.0 ? -lower[axis] : upper[axis]), 1.0 + (border - 1e-3) * texel[axis]);
   EXPECT_LE((edge < 0.0 ? lower[axis] : -upper[axis]), -1.0 + border * texel[axis]);
-  // Out of reach it is left out.
+  // A plate out of reach leaves the face out.
   EXPECT_EQ(
     facesOf(fit(lightAround(LightKind::Point, {}), box({ 1.0, -1.0, -2.0 }, { 1.8, 1.0, -2.0 }))),
     std::vector<int>({ 5 }));
@@ -247,7 +247,7 @@ TEST(LightViews, FacesSeeCastersThatLieWithinTheBorderBeyondTheirEdge)
 
 TEST(LightViews, FacesThatShareAnEdgeWithCastersHaveTexelsOfASize)
 {
-  // A floor that the face below sees whole, and the faces beside it in a sliver.
+  // The face below sees the whole floor, the faces beside it a sliver.
   const Bounds floor = box({ -2.02, -2.02, -2.0 }, { 2.02, 2.02, -2.0 });
   const LightViews views = fit(lightAround(LightKind::Point, {}), floor);
   EXPECT_EQ(facesOf(views), std::vector<int>({ 0, 1, 2, 3, 5 }));
@@ -279,7 +279,7 @@ TEST(LightViews, WideSpotsDoNotLookBehindThemselves)
 
 TEST(LightViews, MapsAreFittedToTheCasters)
 {
-  // Over the whole of both sides, but for the border of a texel.
+  // The map spans both sides wholly, but for a border of one texel.
   const auto extentOf = [](const LightViews& views, const Bounds& casters)
   {
     glm::dvec2 lower(1.0);
@@ -320,7 +320,7 @@ TEST(LightViews, OfABoxHoldWhatIsInIt)
 {
   ShadowLight light = lightAround(LightKind::Directional, { 0.0, 0.0, 5.0 });
   light.box = LightBox{ 2.0, 4.0, 4.0 };
-  // Across the near face at z = 5 and past the far one at z = 1, and over its sides.
+  // Casters lie across the near face at z = 5, past the far one at z = 1, and over the sides.
   const LightViews views = fit(light, box({ -9.0, -0.5, 0.0 }, { 9.0, 9.0, 8.0 }));
   ASSERT_EQ(views.views.size(), 1u);
   EXPECT_EQ(views.views[0].beginsAt, 0.0);
@@ -361,7 +361,7 @@ TEST(LightView, LeavesOutOnlyWhatItCannotSee)
   EXPECT_EQ(seenBy(box({ 2.0, 2.0, 2.0 }, { 2.5, 2.5, 2.5 })), 3);
   EXPECT_EQ(seenBy(room), 6);
   EXPECT_EQ(seenBy(Bounds()), 0);
-  // Whatever a view sees a point of, it draws.
+  // A view that sees a point of a box may see the box.
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-3.0, 3.0);
   for (int i = 0; i < 1000; ++i)

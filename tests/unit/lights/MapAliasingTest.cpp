@@ -7,7 +7,7 @@ namespace gnomon::test
 namespace
 {
 
-/// The measure against what it says it is: a texel's corners, projected.
+/// Compare the measure with its definition: a texel's projected corners.
 TEST(MapAliasing, IsTheSizeOfATexelInPixels)
 {
   std::mt19937 random(21);
@@ -25,7 +25,7 @@ TEST(MapAliasing, IsTheSizeOfATexelInPixels)
       const auto texel = texelPixels(
         { point, { 0.0, 0.0, 2.0 } }, setting.camera, { 800.0, 600.0 }, rays, map, side);
       ASSERT_TRUE(texel);
-      // From the ground to pixels and to texels, by differences.
+      // Derivatives from the ground to pixels and to texels, by differences.
       const double step = 1e-4;
       const auto pixelOf = [&](const glm::dvec3& at)
       {
@@ -68,7 +68,7 @@ TEST(MapAliasing, OfASurfaceAcrossViewAndLightIsOneOverTheDistance)
 
 TEST(MapAliasing, OfAPositionalLightStandsAcrossItsRay)
 {
-  // The ray at 45 degrees along x: a step of the slope x / z moves half askew to it.
+  // The ray is at 45 degrees along x, so a step of the slope x / z moves at an angle to it.
   const LightRays rays{ glm::dmat4(1.0), true };
   const CameraView camera =
     perspectiveCamera({ 2.0, -5.0, 2.0 }, { 2.0, 0.0, 2.0 }, 60.0, 1.0, 9.0);
@@ -91,11 +91,11 @@ TEST(MapAliasing, HasNoMeaningEdgeOnOrOutOfView)
       point, setting.camera, glm::dvec2(100.0), setting.rays, glm::dmat3(1.0), 100);
   };
   EXPECT_TRUE(measured({ { 0.0, 0.0, 0.0 }, { 0.0, -1.0, 0.5 } }));
-  EXPECT_FALSE(measured({ { 0.0, 0.0, 0.0 }, { 0.0, -1.0, 0.0 } }));   // holds the light's rays
+  EXPECT_FALSE(measured({ { 0.0, 0.0, 0.0 }, { 0.0, -1.0, 0.0 } }));   // contains the light's rays
   EXPECT_FALSE(measured({ { 0.0, -950.0, 0.0 }, { 0.0, 0.0, 1.0 } })); // behind the eye
 }
 
-/// Whatever the surface: two projections' ratio of areas is that of the texels on it.
+/// For any surface, two projections' ratio of areas equals that of the texels on it.
 TEST(MapAliasing, OfAreasComparesProjectionsOnEverySurface)
 {
   std::mt19937 random(41);
@@ -110,7 +110,7 @@ TEST(MapAliasing, OfAreasComparesProjectionsOnEverySurface)
     const glm::dmat4 centredFromView = glm::inverse(rays.viewFromCentred);
     const auto areaOn = [&](const glm::dmat3& map, const glm::dvec3& normal)
     {
-      // Where the ray of a place on the map meets the surface, on the screen.
+      // Return the screen point at which the ray of a map point meets the surface.
       const auto screenOf = [&](const glm::dvec2& device)
       {
         const glm::dvec2 across = mapped(glm::inverse(map), device);
@@ -140,7 +140,7 @@ TEST(MapAliasing, OfAreasComparesProjectionsOnEverySurface)
   }
 }
 
-/// Corners stand for the body: no point in it has more than the worst of them.
+/// Corners stand for the body: no point in it is worse than the worst corner.
 TEST(MapAliasing, OfABodyIsWorstAtACorner)
 {
   std::mt19937 random(31);

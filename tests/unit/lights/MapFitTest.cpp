@@ -30,7 +30,7 @@ TEST(MapFit, TakesWhatIsVisibleToTheBorder)
   const double inside = 1.0 - 2.0 * 3 / 64;
   EXPECT_LT(glm::length(lower + inside), 1e-12);
   EXPECT_LT(glm::length(upper - inside), 1e-12);
-  // No more than a quarter of the side is kept on either side.
+  // At most a quarter of the side becomes border on either side.
   EXPECT_DOUBLE_EQ((MapTexels{ 8, 7 }).inside(), 0.5);
 }
 
@@ -105,7 +105,7 @@ TEST(MapFit, SnappedCoversWhatIsVisibleAtAStepOfTheSeries)
       ASSERT_GE(step, -1e-9);
       const double offset = snapped->offset[axis] * texels.side / 2.0;
       ASSERT_NEAR(offset, std::round(offset), 1e-6);
-      // Not much coarser than without.
+      // The fit is not much coarser than without snapping.
       ASSERT_GE(
         snapped->scale[axis], tight->scale[axis] * std::exp2(-0.25) * (1.0 - 4.0 / texels.side));
     }
@@ -147,7 +147,7 @@ TEST(MapFit, SnappedKeepsItsTexelsWhileTheCameraMoves)
     EXPECT_LT(glm::length(placeOf(*snapped) - *firstPlace), 1e-6) << frame;
     steadyWithout += glm::length(placeOf(*free) - *firstPlace) < 1e-3 ? 1 : 0;
   }
-  EXPECT_LT(steadyWithout, 5); // the camera does move the unsnapped fit
+  EXPECT_LT(steadyWithout, 5); // the camera moves the unsnapped fit
 }
 
 } // namespace

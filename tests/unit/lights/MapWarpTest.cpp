@@ -70,7 +70,7 @@ TEST(MapWarp, IsThePerspectiveOfItsNearDistance)
   const double slope = 0.3;
   EXPECT_NEAR(mapped(mapFromFrame, { slope * n, 0.0 }).x,
     mapped(mapFromFrame, { slope * (n + 100.0), 100.0 }).x, 1e-9);
-  // The texel's height at the far and near end is as f^2 : n^2.
+  // Texel heights at the far and near end have the ratio f^2 : n^2.
   const double step = 1e-6 * frame->depth;
   const double nearStep =
     mapped(mapFromFrame, { 0.0, step }).y - mapped(mapFromFrame, { 0.0, 0.0 }).y;
@@ -94,7 +94,7 @@ TEST(MapWarp, MakesNoSenseWithoutPerspectiveOrDepth)
   fromEye.reach = coneHalfSpaces(1.0, nearestOf(fromEye.scene, fromEye.rays));
   ASSERT_FALSE(fromEye.body().empty());
   EXPECT_FALSE(frameOf(fromEye));
-  // The body holds a point in the eye's plane.
+  // The body contains a point in the eye's plane.
   Points atEye = plain.body().vertices();
   atEye.push_back(inView(above, plain.camera.eyeCentred()));
   EXPECT_FALSE(warpFrame(atEye, plain.camera, above));
@@ -139,7 +139,7 @@ TEST(MapWarp, FallsOffToInfinity)
   EXPECT_EQ(fallOff(frame, 0.1), std::numeric_limits<double>::infinity());
 }
 
-/// The search finds what the published formula says for parallel rays across the view.
+/// The search finds the value of the published formula for parallel rays across the view.
 TEST(MapWarp, OfLeastAliasingIsThePublishedOptimum)
 {
   Setting setting;

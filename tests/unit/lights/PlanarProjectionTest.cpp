@@ -34,7 +34,8 @@ glm::dvec3 project(const glm::dvec4& plane, const glm::dvec4& light, const glm::
   return glm::dvec3(image) / image.w;
 }
 
-/// How far a point is off the line through two others, as a share of its distance from the first.
+/// Return a point's distance from the line through two others, as a share of its distance from the
+/// first.
 double offLine(const glm::dvec3& from, const glm::dvec3& direction, const glm::dvec3& point)
 {
   const glm::dvec3 way = point - from;
@@ -68,7 +69,7 @@ TEST(PlanarProjection, ontoTheGroundIsThatOfSimilarTriangles)
   }
 }
 
-// Row 2: any plane, and parallel rays.
+// Survey, row 2: any plane, and parallel rays.
 TEST(PlanarProjection, liesOnThePlaneAndOnTheRay)
 {
   Numbers numbers;
@@ -90,7 +91,7 @@ TEST(PlanarProjection, liesOnThePlaneAndOnTheRay)
       const glm::dvec3 p = project(plane, light, v);
       EXPECT_NEAR(glm::dot(plane, glm::dvec4(p, 1.0)), 0.0, 1e-5);
       EXPECT_LT(offLine(v, positional ? glm::dvec3(light) - v : glm::dvec3(light), p), 1e-5);
-      // What its w says about the order of plane, point and light.
+      // The sign of w gives the order of plane, point and light.
       const double lightHeight = glm::dot(plane, light);
       const double height = glm::dot(plane, glm::dvec4(v, 1.0));
       if (lightHeight > 0.0 && positional)

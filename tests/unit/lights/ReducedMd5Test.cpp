@@ -29,7 +29,7 @@ int bitsOf(const glm::uvec4& words)
   return bits;
 }
 
-/// From an implementation of its own.
+/// Computed by a separate implementation.
 TEST(ReducedMd5, givesThePublishedNumbers)
 {
   struct Case
@@ -54,9 +54,9 @@ TEST(ReducedMd5, givesThePublishedNumbers)
   }
 }
 
-/// The hash is a function of the place alone, so that its statistics over a picture are fixed
-/// numbers. Bounds are those that the implementation behind the numbers above gave for seeds (x, y,
-/// 0, 0), as rounded there.
+/// The hash depends only on the place, so its statistics over a picture are fixed numbers. The
+/// bounds are those that the separate implementation above gave for seeds (x, y, 0, 0), rounded as
+/// there.
 TEST(ReducedMd5, flipsHalfOfTheBitsWhateverBitOfThePlaceIsFlipped)
 {
   constexpr int rows = height / 8; // every eighth
@@ -85,7 +85,7 @@ TEST(ReducedMd5, flipsHalfOfTheBitsWhateverBitOfThePlaceIsFlipped)
   EXPECT_NEAR(sum / 64.0, 0.5, 0.0005);
 }
 
-/// The hashes of a picture, row by row.
+/// Return the hashes of a picture, row by row.
 std::vector<glm::uvec4> ofPicture()
 {
   std::vector<glm::uvec4> hashes;
@@ -99,7 +99,7 @@ std::vector<glm::uvec4> ofPicture()
   return hashes;
 }
 
-/// How uneven 256 bins are: of 255 degrees of freedom.
+/// Return the unevenness of 256 bins, with 255 degrees of freedom.
 double chiSquared(const std::array<int, 256>& bins)
 {
   constexpr double expected = double(width) * height / 256.0;
@@ -156,7 +156,7 @@ TEST(ReducedMd5, hasNothingToDoWithItsNeighbours)
         product += fraction(hashes[i][word]) * fraction(hashes[i - step][word]);
         count += 1.0;
       }
-      // The variance of a fraction is a twelfth.
+      // The variance of a uniform fraction is 1/12.
       EXPECT_LT(std::abs(12.0 * product / count), 0.001)
         << "word " << word << (above ? " of rows" : " of columns");
     }

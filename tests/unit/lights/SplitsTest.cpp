@@ -77,7 +77,7 @@ TEST(Splits, TakeTheirIntervalFromTheReceivers)
   expectInterval(5.0, 50.0, 5.0, 50.0);
   expectInterval(0.5, 500.0, 1.0, 100.0);
   expectInterval(7.0, 7.0, 7.0, 7.0);
-  // Without receivers, and with what no receiver can be.
+  // Splits without receivers, and with receivers that cannot be.
   const double infinity = std::numeric_limits<double>::infinity();
   expectInterval(infinity, -infinity, 1.0, 100.0);
   expectInterval(50.0, 5.0, 1.0, 100.0);

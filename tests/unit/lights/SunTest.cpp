@@ -59,8 +59,8 @@ TEST_F(Sun, StandsWhereTheAlgorithmsOwnExampleSays)
   EXPECT_NEAR(this->sun->GetElevation(), 39.872046, 0.001);
 }
 
-/// Meeus, Astronomical Algorithms, example 25.b: the apparent place by all of VSOP87. Seen from the
-/// middle of the Earth, so that parallax (9 arc seconds) is within the tolerance.
+/// Meeus, Astronomical Algorithms, example 25.b: the apparent place by all of VSOP87. It is
+/// geocentric; the parallax (9 arc seconds) is within the tolerance.
 TEST_F(Sun, HasTheDeclinationOfMeeus)
 {
   this->sun->SetDate(1992, 10, 13);
@@ -83,8 +83,8 @@ TEST_F(Sun, TurnsAtEquinoxesAndSolstices)
   EXPECT_NEAR(this->sun->GetDeclination(), -23.4391, 0.004);
 }
 
-/// By PyEphem 4.1.4, which has all of VSOP87: dates and times in UTC, Delta T, then azimuth and
-/// elevation without air.
+/// Computed by PyEphem 4.1.4, which has all of VSOP87: dates and times in UTC, Delta T, then
+/// azimuth and elevation without refraction.
 TEST_F(Sun, AgreesWithAnotherEphemeris)
 {
   struct Row
@@ -125,8 +125,8 @@ TEST_F(Sun, AgreesWithAnotherEphemeris)
   }
 }
 
-/// The report's equation 42. At the horizon it is 28.98 minutes of arc (Saemundsson 1986, as Meeus
-/// has it in chapter 16), for 1010 millibar and 10 degrees Celsius.
+/// Refraction by the report's equation 42. At the horizon it is 28.98 minutes of arc (Saemundsson
+/// 1986, in Meeus, chapter 16), for 1010 millibar and 10 degrees Celsius.
 TEST_F(Sun, IsLiftedByTheAir)
 {
   EXPECT_NEAR(refractionDegrees(0.0, 1010.0, 10.0), 28.98 / 60.0, 0.0005);
@@ -174,7 +174,7 @@ TEST_F(Sun, ScenesHaveAxesOfTheirOwn)
   this->sun->SetDate(2026, 6, 21);
   this->sun->SetTime(8, 0, 0.0, 0.0);
   const glm::dvec3 usual = this->direction();
-  EXPECT_GT(usual.x, 0.5); // in the morning it is in the east
+  EXPECT_GT(usual.x, 0.5); // in the morning the sun is in the east
   EXPECT_NEAR(glm::length(usual), 1.0, 1e-12);
   EXPECT_NEAR(glm::degrees(std::asin(usual.z)), this->sun->GetElevation(), 1e-9);
   const double north[3] = { 0.0, 2.0, -3.0 }; // the part along Up does not count
@@ -197,7 +197,7 @@ TEST_F(Sun, DaysHaveTheirHours)
     }
     return sum;
   };
-  // 12 hours at an equinox; sunrise and sunset are those of the middle of the disc.
+  // 12 hours at an equinox; sunrise and sunset are those of the disc's centre.
   this->sun->SetPlace(40.0, 0.0);
   this->sun->MakeDayPath(1.0, directions, hours, times);
   EXPECT_NEAR(total(), 12.0, 0.05);
@@ -209,13 +209,13 @@ TEST_F(Sun, DaysHaveTheirHours)
   }
   EXPECT_NEAR(times->GetValue(0), 6.1, 0.1); // 12 hours around noon, which is at 12:07
 
-  // Without air and disc, half of a leap year is day in all places.
+  // Without refraction and disc, half of a leap year is day in all places.
   this->sun->SetPlace(30.0, 50.0);
   this->sun->MakeYearPath(1, 20.0, directions, hours, times);
   EXPECT_NEAR(total(), 366.0 * 12.0, 15.0);
   this->sun->MakeYearPath(7, 20.0, directions, hours);
   EXPECT_NEAR(total(), 366.0 * 12.0, 15.0);
-  // In the polar night no sun is left.
+  // In the polar night there is no sun.
   this->sun->SetPlace(85.0, 0.0);
   this->sun->SetDate(2000, 12, 21);
   this->sun->MakeDayPath(10.0, directions, hours);

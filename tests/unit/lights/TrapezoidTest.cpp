@@ -46,8 +46,8 @@ TEST(Trapezoid, TouchesAllSidesOfTheMap)
 
 TEST(Trapezoid, TakesTheCornersOfTheTrapezoidToThoseOfTheMap)
 {
-  // The trapezoid by geometry of its own: parallel sides across the centre line, legs that touch
-  // what is visible from a point on it before the near side.
+  // Construct the trapezoid by separate geometry. Parallel sides lie across the centre line; the
+  // legs start at a point on it before the near side and touch the visible body.
   for (const glm::dvec3& light : { glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(1.0, 0.0, -1.0),
          glm::dvec3(0.0, 1.0, -1.0), glm::dvec3(0.0, -1.0, -1.0) })
   {
@@ -90,7 +90,7 @@ TEST(Trapezoid, TakesTheCornersOfTheTrapezoidToThoseOfTheMap)
     {
       for (const double y : { -1.0, 1.0 })
       {
-        const double from = y < 0.0 ? before : before + lambda; // the legs' meeting
+        const double from = y < 0.0 ? before : before + lambda; // the point where the legs meet
         const glm::dvec2 corner = (centreLine + from * (x < 0.0 ? leftLeg : rightLeg)) * right +
           (nearSide - before + from) * along;
         EXPECT_LT(glm::length(mapped(map, corner) - glm::dvec2(x, y)), 1e-6);

@@ -53,7 +53,7 @@ TEST(ConvexBody, CutInHalfHasHalfItsExtent)
   EXPECT_EQ(half.size(), 8u);
   EXPECT_EQ(boundsOf(half).lower, glm::dvec3(0.0, -1.0, -1.0));
   EXPECT_EQ(boundsOf(half).upper, glm::dvec3(1.0));
-  // A corner cut off leaves a triangle, whose own corners a later cut must find.
+  // Cutting a corner off leaves a triangle; a later cut must find the triangle's corners.
   const ConvexBody cut = box.clipped({ -1.0, -1.0, -1.0, 2.0 });
   EXPECT_EQ(cut.vertices().size(), 10u);
   const Points again = cut.clipped({ 0.0, 0.0, 1.0, -0.5 }).vertices();
@@ -102,10 +102,10 @@ TEST(VisibleBody, HoldsAllThatIsVisibleAndNoMore)
       glm::length(glm::dvec3(centredFromLight[3]));
     for (const glm::dvec3& vertex : body)
     {
-      // To within rounding a vertex is visible itself.
+      // A vertex is itself visible, to within rounding.
       const glm::dvec3 centred(centredFromLight * glm::dvec4(vertex, 1.0));
       const glm::dvec4 clip = setting.camera.clipFromCentred() * glm::dvec4(centred, 1.0);
-      double largest = 0.0; // what the clip coordinates are rounded in proportion to
+      double largest = 0.0; // the rounding of clip coordinates is proportional to it
       for (int column = 0; column < 4; ++column)
       {
         const glm::dvec4 entries = glm::abs(setting.camera.clipFromCentred()[column]);
@@ -125,7 +125,7 @@ TEST(VisibleBody, HoldsAllThatIsVisibleAndNoMore)
         ASSERT_GT(vertex.z, 0.0);
       }
     }
-    // In no direction does a visible point lie beyond all vertices.
+    // No visible point lies beyond all vertices in any direction.
     for (const glm::dvec3& centred : setting.visiblePoints(random, 50))
     {
       ++seen;

@@ -1,5 +1,5 @@
-// Draws scenes with VTK, and checks at every pixel that the snapshot's triangle, found through
-// drawnSurfaces(), is the one that the pixel's ray hits.
+// Draw scenes with VTK, and check each pixel: drawnSurfaces() must lead to the snapshot's triangle
+// that the pixel's ray hits.
 
 #include "plugin/frame/ShaderManager.h"
 #include "plugin/scene/OccluderCollector.h"
@@ -47,8 +47,7 @@ using namespace gnomon::test;
 namespace
 {
 
-/// Draws the scene with numbers for colours: the primitive numbers, or the drawn surfaces and
-/// sides.
+/// Draws the scene with numbers as colours: primitive numbers, or drawn surfaces and sides.
 class NumberPass : public vtkOpenGLRenderPass
 {
 public:
@@ -107,7 +106,7 @@ struct Hit
   double outside = 0.0; ///< how far outside the triangle, in barycentric units
 };
 
-/// Where a ray meets a triangle's plane.
+/// Return where a ray meets a triangle's plane.
 Hit intersect(
   const glm::dvec3& origin, const glm::dvec3& direction, const std::array<glm::dvec3, 3>& corners)
 {
@@ -149,7 +148,7 @@ protected:
     return actor;
   }
 
-  /// Turns the camera to the whole snapshot, a little from the side.
+  /// Turn the camera to the whole snapshot, a little from the side.
   void lookAtScene()
   {
     this->pass->collector.collect(this->renderer);
@@ -196,19 +195,19 @@ protected:
   struct Count
   {
     int covered = 0; ///< pixels that found a triangle
-    int lost = 0;    ///< pixels of a held surface whose triangle was not found
+    int lost = 0;    ///< pixels of a surface in the snapshot, without a triangle
     int outside = 0; ///< pixels whose ray misses the triangle
     int wrong = 0;   ///< pixels whose triangle's plane is not the nearest surface along the ray
-    int sides = 0;   ///< pixels with the triangle's other side to the camera
+    int sides = 0;   ///< pixels that report the triangle's other side
     int missed = 0;  ///< background pixels where the snapshot has a triangle
-    int notHeld = 0; ///< pixels of surfaces, lines and points that the snapshot does not hold
+    int notHeld = 0; ///< pixels of surfaces, lines and points outside the snapshot
     std::vector<int> pixelsOfSurface;
   };
 
-  /// Draws twice and looks up every pixel.
+  /// Draw twice and look up every pixel.
   ///
-  /// @param tolerance how far outside its triangle a pixel may be, in barycentric units: VTK
-  /// transforms in float, so that at an edge it may show the neighbour
+  /// @param tolerance how far outside its triangle a pixel may be, in barycentric units. VTK
+  /// transforms in float, so a pixel at an edge may show the neighbour.
   Count check(double tolerance = 1e-3)
   {
     this->lookAtScene();
@@ -282,9 +281,9 @@ protected:
     return count;
   }
 
-  /// Every pixel must be right, but for a few on edges: VTK transforms in float and the rasteriser
-  /// snaps vertices to 1/256 pixel, so that an edge may lie off by half of that. Silhouettes here
-  /// are some 500 pixels long, and 500/512 of their pixels have a centre so near.
+  /// Expect every pixel to be right, except a few on edges. VTK transforms in float and the
+  /// rasteriser snaps vertices to 1/256 pixel, so an edge may be off by half of that. Silhouettes
+  /// here are some 500 pixels long, and 500/512 of their pixels have a centre so near.
   void expectRight(const Count& count, int leastCovered = 2000)
   {
     EXPECT_GE(count.covered, leastCovered);
@@ -307,7 +306,7 @@ protected:
   vtkNew<NumberPass> pass;
 
 private:
-  /// The snapshot's triangle for a drawn primitive, as projectReceivers is told to find it.
+  /// Return the snapshot's triangle for a drawn primitive, found as in projectReceivers.
   std::uint32_t find(std::size_t drawnSurface, std::uint32_t primitive) const
   {
     for (const DrawnSurface::Block& block :
@@ -338,7 +337,7 @@ private:
   }
 };
 
-/// A bumpy grid of n x n quads over the unit square.
+/// Return a bumpy grid of n x n quads over the unit square.
 vtkSmartPointer<vtkPolyData> makeBumps(int n, unsigned int seed)
 {
   std::mt19937 random(seed);
@@ -353,7 +352,7 @@ vtkSmartPointer<vtkPolyData> makeBumps(int n, unsigned int seed)
       if (i < n && j < n)
       {
         const vtkIdType corner = j * (n + 1) + i;
-        // Starting corners vary, so that the diagonals do.
+        // The first corner varies, so the diagonals vary.
         const std::array<vtkIdType, 4> loop = { corner, corner + 1, corner + n + 2,
           corner + n + 1 };
         const std::size_t first = random() % 4;
@@ -365,8 +364,8 @@ vtkSmartPointer<vtkPolyData> makeBumps(int n, unsigned int seed)
   return makePolyData(points, quads);
 }
 
-/// Polygons, of which many have coincident vertices and are skipped in part, then strips, lines and
-/// vertices.
+/// Return polygons, then strips, lines and vertices. VTK skips parts of many polygons because their
+/// vertices coincide.
 vtkSmartPointer<vtkPolyData> makeMixed()
 {
   const auto data = makeBumps(6, 7);
@@ -387,7 +386,7 @@ vtkSmartPointer<vtkPolyData> makeMixed()
   return data;
 }
 
-/// Six points around the unit circle, each with an array for every setting of a glyph mapper.
+/// Return six points around the unit circle, with an array for every setting of a glyph mapper.
 vtkSmartPointer<vtkPolyData> makeGlyphPoints()
 {
   const auto points = vtkSmartPointer<vtkPolyData>::New();
@@ -413,19 +412,18 @@ vtkSmartPointer<vtkPolyData> makeGlyphPoints()
     points->GetPoints()->InsertNextPoint(2.0 * std::cos(angle), 2.0 * std::sin(angle), 0.1 * i);
     sizes->SetTuple1(i, 0.5 + 0.15 * i);
     sizes3->SetTuple3(i, 0.6 + 0.1 * i, 1.2 - 0.1 * i, 1.0 + 0.2 * (i % 2));
-    // The first two are the special directions: along -x, and none.
+    // The first two are special cases: along -x, and no direction.
     directions->SetTuple3(
       i, i == 0 ? -2.0 : 0.3 * i - 0.3, i < 2 ? 0.0 : 1.0 - 0.3 * i, i < 2 ? 0.0 : 0.4);
     angles->SetTuple3(i, 20.0 * i, -15.0 * i, 35.0 * i);
     turns->SetTuple4(i, 0.8, 0.1 * i, -0.2, 0.15 * i);
-    sources->SetTuple1(i, i - 1.0); // -1 counts by its magnitude, 4 is beyond the last
+    sources->SetTuple1(i, i - 1.0); // -1 counts as 1, 4 is beyond the last
     mask->SetTuple1(i, i == 2 ? 0 : 1);
   }
   return points;
 }
 
-/// A glyph mapper with two sources, bumps and mixed cells, and an actor that is not where it was
-/// made.
+/// A glyph mapper with two sources, bumps and mixed cells, under an actor with a transform.
 struct Glyphs
 {
   Glyphs()
@@ -490,12 +488,12 @@ TEST_F(DrawnSurfaces, ConcavePolygons)
   this->expectRight(this->check());
 }
 
-/// Polygons, strips, lines and points, however VTK numbers and draws them.
+/// Polygons, strips, lines and points, in all numberings of VTK's mappers.
 TEST_F(DrawnSurfaces, MixedCells)
 {
   const auto asTheyAre = [](vtkActor* actor, vtkPolyData*)
   { actor->GetProperty()->SetLineWidth(3); };
-  // Cell colours make VTK count skipped triangles out, which shifts the strips' numbers.
+  // With cell colours VTK does not count skipped triangles, which shifts the strips' numbers.
   const auto countedExactly = [](vtkActor*, vtkPolyData* data) { addCellScalars(data); };
   const auto withEdges = [](vtkActor* actor, vtkPolyData*)
   {
@@ -507,8 +505,8 @@ TEST_F(DrawnSurfaces, MixedCells)
     addNormals(data->GetCellData(), data->GetNumberOfCells());
     actor->GetProperty()->SetInterpolationToFlat();
   };
-  // VTK multiplies the actor's matrix with the camera's in double, where the distance cancels
-  // before anything becomes float: far away is as good as near.
+  // VTK multiplies the actor's matrix with the camera's in double. There the distance cancels
+  // before rounding to float, so precision does not suffer far away.
   const auto farAway = [](vtkActor* actor, vtkPolyData*) { actor->SetPosition(4e6, 4e6, -4e6); };
   struct Case
   {
@@ -556,12 +554,12 @@ TEST_F(DrawnSurfaces, DroppedTriangles)
     points->SetPoint(i, (i % 7) / 6.0 + i / 1000.0, 0.5, 0.0); // a row of cells becomes a line
   }
   this->add(data);
-  this->renderer->GetCullers()->RemoveAllItems(); // they take NaN bounds for out of view
+  this->renderer->GetCullers()->RemoveAllItems(); // they cull NaN bounds
   const Count count = this->check();
   EXPECT_GT(this->collector().occluders().droppedZeroArea, 0u);
   EXPECT_GT(this->collector().occluders().droppedNonFinite, 0u);
   EXPECT_FALSE(this->collector().occluders().surfaces[0].triangleOfDrawn.empty());
-  // What was dropped is drawn nowhere, and the numbers of what follows it are right.
+  // Dropped triangles are drawn nowhere, and the numbers after them are right.
   this->expectRight(count);
 }
 
@@ -579,7 +577,8 @@ TEST_F(DrawnSurfaces, ClippingPlanes)
   }
   const Count count = this->check();
   EXPECT_GT(count.covered, 2000);
-  // A cut triangle leads to its first piece: the ray meets the right plane, but maybe a sibling.
+  // A cut triangle leads to its first piece: the ray meets the right plane, but maybe another
+  // piece.
   EXPECT_LE(count.lost + count.wrong + count.sides, 2);
   EXPECT_LE(count.missed, 2);
 }
@@ -602,7 +601,7 @@ TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
       addNormals(block->GetPointData(), block->GetNumberOfPoints());
     }
     blocks.push_back(block);
-    root->SetBlock(2 * i, block); // every other one is null
+    root->SetBlock(2 * i, block); // every second block is null
   }
   vtkNew<SharedBlocksMapper> mapper;
   mapper->SetInputDataObject(root);
@@ -619,7 +618,7 @@ TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
   this->expectRight(count);
   EXPECT_GE(this->collector().drawnSurfaces().size(), 6u); // four helpers, two of them with strips
 
-  // The tree changes under the mapper, and triangles are counted exactly.
+  // The tree changes under the mapper. With cell colours VTK does not count skipped triangles.
   root->SetBlock(2, nullptr);
   blocks[3]->SetPolys(makeCells({ { 0, 1, 8, 7 } }));
   for (const auto& block : blocks)
@@ -631,7 +630,7 @@ TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
   this->expectRight(this->check());
 }
 
-/// The mapper that VTK names is one inside the actor's, and may not be there before it draws.
+/// VTK names a mapper inside the actor's, which may not exist before it draws.
 TEST_F(DrawnSurfaces, OfMappersInsideOthers)
 {
   vtkNew<vtkImageData> grid;
@@ -713,11 +712,11 @@ TEST_F(DrawnSurfaces, AssembliesTellTheirCopiesApart)
     ASSERT_EQ(this->collector().occluders().surfaces.size(), 3u);
     EXPECT_EQ(this->collector().drawnSurfaces().size(), 3u);
     this->expectRight(count);
-    inner->RotateX(20); // a part that turns inside is noticed
+    inner->RotateX(20); // turning a part inside is noticed
   }
 }
 
-/// Mirrored matrices swap the sides as in OpenGL.
+/// Mirrored matrices swap the sides, as in OpenGL.
 TEST_F(DrawnSurfaces, ASharedMapperServesActorsWithMatricesOfTheirOwn)
 {
   vtkActor* const first = this->add(makeMixed());

@@ -50,7 +50,7 @@ namespace
 
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
-/// A renderer and the collector that follows it.
+/// A renderer and its collector.
 struct Scene
 {
   vtkNew<vtkRenderer> renderer;
@@ -72,7 +72,7 @@ struct Scene
   const Surface& surface(std::size_t i) const { return this->occluders().surfaces.at(i); }
   std::size_t surfaceCount() const { return this->occluders().surfaces.size(); }
 
-  /// Triangle of a surface, vertices counted from the surface's first.
+  /// Return a triangle of a surface, with vertices counted from the surface's first.
   glm::uvec3 triangle(std::size_t surface, std::uint32_t number) const
   {
     const Surface& s = this->surface(surface);
@@ -134,7 +134,8 @@ struct PlacedGlyphs
 
 TEST(OccluderTriangles, EqualVerticesAreNeverDrawnAndTakeNoNumber)
 {
-  // The second point equals the third: VTK draws one triangle of the quad, which is no drop.
+  // The second point equals the third. VTK draws one triangle of the quad; the other does not count
+  // as dropped.
   Scene scene;
   scene.add(
     makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } }));
@@ -145,7 +146,7 @@ TEST(OccluderTriangles, EqualVerticesAreNeverDrawnAndTakeNoNumber)
   EXPECT_EQ(scene.occluders().droppedNonFinite, 0u);
 }
 
-/// Or has a point that is not there.
+/// A triangle with a missing point is dropped, too.
 TEST(OccluderTriangles, DropsWhatHasNoAreaOrIsNotFinite)
 {
   Scene scene;
@@ -166,7 +167,7 @@ TEST(OccluderTriangles, DropsWhatHasNoAreaOrIsNotFinite)
   }
 }
 
-/// And takes up again what another matrix does not.
+/// Another matrix brings the dropped triangles back.
 TEST(OccluderTriangles, DropsWhatAMatrixFlattensOrBlowsUp)
 {
   Scene scene;
@@ -178,7 +179,7 @@ TEST(OccluderTriangles, DropsWhatAMatrixFlattensOrBlowsUp)
     std::size_t nonFinite;
   };
   for (const auto& [scale, zeroArea, nonFinite] :
-    { Case{ { 1.0, 1e-80, 1.0 }, 2, 0 }, { { 1.0, 1e80, 1.0 }, 0, 2 }, // too large for a float
+    { Case{ { 1.0, 1e-80, 1.0 }, 2, 0 }, { { 1.0, 1e80, 1.0 }, 0, 2 }, // too large for float
       { { 1.0, 1.0, 1.0 }, 0, 0 }, { { 1e-80, 1.0, 1.0 }, 2, 0 } })
   {
     actor->SetScale(scale.x, scale.y, scale.z);
@@ -275,7 +276,7 @@ TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
   }
 }
 
-/// By class, if it is lit.
+/// Left-out props are named by class, if they are lit.
 TEST(OccluderProps, WhatIsNoSurfaceIsNoted)
 {
   Scene scene;
@@ -309,7 +310,7 @@ TEST(OccluderProps, WhatIsNoSurfaceIsNoted)
   EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
 }
 
-/// Of these mappers the snapshot holds triangles only, which are not what is seen.
+/// The snapshot holds only the triangles of these mappers, and the picture shows spheres.
 TEST(OccluderProps, PointsAsSpheresOfOtherMappersAreNoted)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -335,6 +336,10 @@ TEST(OccluderProps, PointsAsSpheresOfOtherMappersAreNoted)
     actor->GetProperty()->LightingOff();
     EXPECT_EQ(scene.collectSurfaces(), 0u);
     EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
+    actor->GetProperty()->LightingOn();
+    actor->GetProperty()->SetDiffuse(0.0); // as the outlines of picked props are
+    EXPECT_EQ(scene.collectSurfaces(), 0u);
+    EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
   }
 }
 
@@ -357,7 +362,7 @@ TEST(OccluderProps, VerticesThatShaderCodeMayMoveAreNoted)
   EXPECT_FALSE(isNoted());
 }
 
-/// Mappers that are not served, and actors whose matrix is not known.
+/// Unsupported mappers, and actors with an unknown matrix, are left out.
 TEST(OccluderProps, WhatIsNotServedIsNoted)
 {
   Scene scene;
@@ -445,7 +450,7 @@ TEST(OccluderGlyphs, WhatVtkDoesNotDrawIsLeftOut)
     scene.collect();
     return scene.occluders().triangles.size();
   };
-  glyphs.mapper->SetOrientationArray("pairs"); // not three components
+  glyphs.mapper->SetOrientationArray("pairs"); // not of three components
   EXPECT_EQ(triangles(), 0u);
   glyphs.mapper->OrientOff();
   EXPECT_EQ(triangles(), 8u);
@@ -492,7 +497,7 @@ TEST(OccluderGlyphs, AreKeptAsInstancesWhereThatIsCheaper)
   EXPECT_FALSE(areInstancesCheaper(0, 1000000));
 }
 
-/// VTK makes 1e-10 of a scale of 0; as triangles such glyphs have no area.
+/// VTK replaces a scale of 0 by 1e-10; the triangles of these glyphs have no area.
 TEST(OccluderGlyphs, InstancesThatCannotBeSeenAreLeftOut)
 {
   Scene scene;
@@ -568,7 +573,7 @@ TEST(OccluderProps, TheViewPropsKeysCountForItsParts)
   expectNothingDone(scene);
 }
 
-/// Which stay where they are in the world.
+/// The planes stay in place in world coordinates.
 TEST(OccluderProps, ClippingPlanesCutTheirSurfaces)
 {
   Scene scene;
@@ -588,7 +593,7 @@ TEST(OccluderProps, ClippingPlanesCutTheirSurfaces)
       const glm::dvec3 a = scene.positionWorld(0, triangle.x);
       const glm::dvec3 cross =
         glm::cross(scene.positionWorld(0, triangle.y) - a, scene.positionWorld(0, triangle.z) - a);
-      sum += 0.5 * cross.z; // signed: the pieces keep their orientation
+      sum += 0.5 * cross.z; // signed, since the pieces keep their orientation
     }
     EXPECT_EQ(scene.surface(0).triangleOfDrawn.size(), 2u);
     EXPECT_EQ(scene.occluders().droppedZeroArea + scene.occluders().droppedNonFinite, 0u);
@@ -636,7 +641,8 @@ TEST(OccluderBlocks, FollowVisibilityAndOpacityAsDrawn)
 
   attributes->RemoveBlockVisibilities();
   attributes->RemoveBlockOpacities();
-  // Until 9.3 VTK skips a translucent actor in the opaque pass; later it draws its opaque blocks.
+  // Up to VTK 9.3 the opaque pass skips a translucent actor; later it draws the actor's opaque
+  // blocks.
   actor->GetProperty()->SetOpacity(0.5);
   attributes->SetBlockOpacity(a, 1.0);
   EXPECT_EQ(scene.collectSurfaces(), actor->HasOpaqueGeometry() ? 1u : 0u);
@@ -700,7 +706,7 @@ TEST(OccluderChanges, EditedPointsAreNoticedHoweverTheyAreReported)
     expectNear(scene.positionWorld(0, 2), { x, 1, 0 });
   }
 
-  // The same triangles throughout: structures built on them need a refit only.
+  // The triangles stay the same, so structures built on them only need a refit.
   EXPECT_EQ(scene.occluders().topologyVersion, topology);
   square->SetPolys(makeCells({ { 0, 1, 2 } }));
   scene.collect();
@@ -782,7 +788,7 @@ TEST(OccluderChanges, TheOthersStayWhenSurfacesComeAndGo)
   expectNear(scene.positionWorld(0, 2), { 1.3, 1, 0 });
   expectNothingDone(scene);
 
-  scene.renderer->AddActor(first); // now behind the other one
+  scene.renderer->AddActor(first); // moves it behind the other one
   EXPECT_EQ(scene.collect().extracted, 1);
   expectNear(scene.positionWorld(0, 2), { 1.3, 1, 0 });
   expectNear(scene.positionWorld(1, 2), { 1, 1, 0 });
@@ -791,7 +797,7 @@ TEST(OccluderChanges, TheOthersStayWhenSurfacesComeAndGo)
 
 TEST(OccluderChanges, ManyPropsAndBlocksStayFollowed)
 {
-  // Guards against work that grows with the square: 10,000 props would take minutes.
+  // Guards against quadratic work: 10,000 props would take minutes.
   Scene scene;
   const auto square = makeSquare();
   for (int i = 0; i < 10000; ++i)
@@ -847,7 +853,7 @@ TEST(OccluderCentre, LiesOnAGridAsCoarseAsTheScene)
         const glm::dvec3 largest = glm::abs(corner - centre);
         EXPECT_LE(std::max({ largest.x, largest.y, largest.z }), 3.0 * box.radius());
       }
-      // Some other box around the centre.
+      // The bounds are another box around the centre.
       EXPECT_EQ(snapshotCentre(around(centre + 0.5 * half, half)), centre);
     }
   }
@@ -914,7 +920,7 @@ TEST(OccluderCentre, DoesNotRememberWhatIsGone)
 namespace
 {
 
-/// A texture of these alphas, side by side.
+/// Return a texture with these alphas, side by side.
 vtkSmartPointer<vtkTexture> makeTexture(const std::vector<int>& alphas)
 {
   vtkNew<vtkImageData> image;
@@ -929,7 +935,7 @@ vtkSmartPointer<vtkTexture> makeTexture(const std::vector<int>& alphas)
   return texture;
 }
 
-/// The unit square, its texture coordinates those of its points.
+/// Return the unit square, with texture coordinates equal to its points.
 vtkSmartPointer<vtkPolyData> makeTexturedSquare()
 {
   auto square = makeSquare();
@@ -969,7 +975,7 @@ TEST(OccluderCutouts, AreHeldForTexturesWithHolesOnly)
   EXPECT_FALSE(scene.surface(1).cutout);
   expectNothingDone(scene);
 
-  // Another mask is no other surface, nor is one that moves.
+  // Neither another mask nor a movement makes another surface.
   const std::uint64_t topology = scene.occluders().topologyVersion;
   const std::uint64_t surface = scene.surface(0).topologyVersion;
   actor->SetTexture(makeTexture({ 255, 0, 0 }));

@@ -1,5 +1,5 @@
-// What is remembered of plain props never hides a change: whatever changes, a collector that has
-// followed the scene holds what one that sees it for the first time holds.
+// The cache of plain props never hides a change. After any change, a collector that has followed
+// the scene equals one that sees it for the first time.
 
 #include "plugin/scene/OccluderCollector.h"
 
@@ -36,8 +36,8 @@ using namespace gnomon::test;
 namespace
 {
 
-/// A prop of which everything can be changed, and parts to exchange that are older than what they
-/// take the place of.
+/// A prop whose parts can all be changed. Its replacement parts are older than the parts that they
+/// replace.
 struct PlainScene
 {
   vtkSmartPointer<vtkPolyData> otherSquare =
@@ -104,7 +104,7 @@ struct PlainScene
   }
 };
 
-/// All that a collector says of a scene, versions aside.
+/// Return all values of a collector for a scene, except versions.
 std::string stateOf(const OccluderCollector& collector)
 {
   const Occluders& occluders = collector.occluders();
@@ -245,7 +245,8 @@ TEST_P(PlainPropChange, isSeen)
 }
 
 //------------------------------------------------------------------------------
-// Where coordinates are is not all: colours in place of others, in an array that says so itself.
+// Coordinates are not all that counts: colours change in place, and only the time of change of
+// their own array shows it.
 TEST(PlainProps, ScalarsInPlaceAreSeen)
 {
   for (const bool ofField : { false, true })
@@ -281,7 +282,7 @@ TEST(PlainProps, ScalarsInPlaceAreSeen)
 TEST(PlainProps, AreFoundAgainAfterOthersCameAndWent)
 {
   PlainScene scene;
-  vtkNew<vtkPlaneSource> source; // a pipeline: no plain prop
+  vtkNew<vtkPlaneSource> source; // a pipeline makes the prop not plain
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(source->GetOutputPort());
   vtkNew<vtkActor> piped;
@@ -295,7 +296,7 @@ TEST(PlainProps, AreFoundAgainAfterOthersCameAndWent)
     EXPECT_EQ(stateOf(scene.collector), stateOf(fresh));
   };
   expectAsFresh(2);
-  scene.renderer->GetViewProps()->ReplaceItem(0, piped); // the first is gone
+  scene.renderer->GetViewProps()->ReplaceItem(0, piped); // removes the first
   scene.renderer->AddActor(scene.actor);
   expectAsFresh(3);
   source->SetResolution(3, 2);

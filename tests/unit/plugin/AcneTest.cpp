@@ -1,4 +1,4 @@
-// What nothing is in the way of is lit: scenes without a shadow, by every technique.
+// Unoccluded receivers are lit: scenes without a shadow, by every technique.
 
 #include "PassScene.h"
 #include "Variant.h"
@@ -33,7 +33,8 @@ ToLight towardsLamp(const glm::dvec3& light)
   return [=](const glm::dvec3& point) { return light - point; };
 }
 
-/// How maps of moments may leave what faces the light. All other techniques leave it fully lit.
+/// The least visibility that maps of moments may give unoccluded receivers. All other techniques
+/// light them fully.
 struct OfMoments
 {
   double mean;
@@ -46,7 +47,7 @@ class LitScenes
 {
 protected:
   static void choose(PassScene& scene) { GetParam().choose(scene); }
-  /// Without a floor of variance: what lights slopes is their own.
+  /// Without a floor of variance, so slopes are lit by the technique's own means.
   static void chooseWithoutFloor(PassScene& scene)
   {
     choose(scene);
@@ -76,29 +77,29 @@ bool hasPlainKernel(const Variant& variant)
   return !variant.isMoments() || variant.text.find("kernel_size") == std::string::npos;
 }
 
-/// Under lamps that see all around. The largest ones would lie in the floors that they light.
+/// For lamps that see all around. The largest ones would intersect the floors that they light.
 bool isForLamps(const Variant& variant)
 {
   return variant.takesCubes() && hasPlainKernel(variant) && !variant.hasSetting("light_radius=4") &&
     !variant.hasSetting("light_radius=10") && variant.text != "montecarlo light_radius=0.5";
 }
 
-/// Under lamps of which walls hide nothing: without an area. Layers take a closed room for solid.
+/// For lamps whose light walls never hide: without an area. Layers treat a closed room as solid.
 bool isForRooms(const Variant& variant)
 {
   return isForLamps(variant) && variant.text.find("light_radius") == std::string::npos &&
     !has(variant.info(), "mc_layers");
 }
 
-/// In corners moments bleed, layers take what they enclose for solid, and walls hide a part of the
-/// largest sun.
+/// Exclusions: moments bleed in corners, layers treat enclosed space as solid, and walls hide a
+/// part of the largest sun.
 bool isForCorners(const Variant& variant)
 {
   return !variant.isMoments() && !variant.hasSetting("light_radius=10") &&
     !has(variant.info(), "mc_layers");
 }
 
-/// At degrees from the floor's normal, and turned around it.
+/// Return a direction at `degrees` from the floor's normal, and turned around it.
 glm::dvec3 slantingBy(double degrees, double turnDegrees)
 {
   const double angle = glm::radians(degrees);
@@ -131,7 +132,7 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderTheSun, isForAll)
     GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
     for (const double degrees : { 0.0, 0.01, 5.0, 60.0, 85.0, 88.0, 89.0 })
     {
-      const glm::dvec3 toLight = slantingBy(degrees, 36.87); // texels and edges do not agree
+      const glm::dvec3 toLight = slantingBy(degrees, 36.87); // texels are not aligned with edges
       placeSun(sun, toLight);
       this->expectLit(scene, towardsSun(toLight), 10000, { 0.999, 0.9 },
         std::to_string(degrees) + " degrees, map " + std::to_string(mapSize));
@@ -140,7 +141,7 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderTheSun, isForAll)
 }
 
 //------------------------------------------------------------------------------
-/// Seen along itself from its near end, where views are warped by much.
+/// A plane seen along itself from its near end, where views are strongly warped.
 TEST_BY_VARIANTS(LitScenes, LongPlane, isForAll)
 {
   PassScene scene(150, 150);
@@ -148,9 +149,9 @@ TEST_BY_VARIANTS(LitScenes, LongPlane, isForAll)
   vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
   this->chooseWithoutFloor(scene);
   scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 0.0 });
-  // A warp makes a hyperbola of the plane's depths, the mean over which may lie before the
-  // receiver: of a kernel that is a quarter as wide as the map, by 0.014 at most. The rectangle
-  // that keeps a kernel of 3 texels even is 6 texels long there.
+  // A warp makes the plane's depths a hyperbola, whose mean may lie before the receiver. For a
+  // kernel a quarter as wide as the map, that costs 0.014 at most. The rectangle that keeps a
+  // kernel of 3 texels even is 6 texels long there.
   const double mean = GetParam().hasSetting("kernel_size=16") ? 0.985
     : GetParam().hasSetting("blur=sat")                       ? 0.998
                                                               : 0.999;
@@ -171,7 +172,7 @@ TEST_BY_VARIANTS(LitScenes, LongPlane, isForAll)
 }
 
 //------------------------------------------------------------------------------
-/// Receivers are rounded by parts of a texel, and levels of the map are coarse.
+/// Receivers are rounded by parts of a texel, and the map's levels are coarse.
 TEST_BY_VARIANTS(LitScenes, PlaneFromFarAway, isForAll)
 {
   PassScene scene(150, 150);
@@ -183,7 +184,7 @@ TEST_BY_VARIANTS(LitScenes, PlaneFromFarAway, isForAll)
     const bool isNarrow = times == 100.0;
     if (!isNarrow && !GetParam().isMoments())
     {
-      continue; // levels
+      continue; // coarse levels of the map
     }
     scene.lookFrom(times * glm::dvec3(1.0, -7.0, 6.0));
     scene.renderer->GetActiveCamera()->SetViewAngle(isNarrow ? 60.0 / times : 30.0);
@@ -214,12 +215,12 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderASpotLight, hasPlainKernel)
       GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
       for (const double height : { cone == 50.0 ? 3.0 : 1.0, cone == 50.0 ? 0.3 : 0.1 })
       {
-        // What is left of a lamp that the floor cuts loses a hundredth in single pixels.
+        // The visible rest of a lamp that the floor cuts loses a hundredth in single pixels.
         const bool isCut = GetParam().technique() == "montecarlo" &&
           GetParam().hasSetting("light_radius=0.5") && height < 0.5;
         const glm::dvec3 light(-3.0, -2.0, height);
         spot->SetPosition(light.x, light.y, light.z);
-        // Half a degree inside, where rounding does not decide.
+        // Half a degree inside the cone, so rounding does not decide.
         const double inside = std::cos(glm::radians(cone - 0.5));
         const ToLight toLight = [=](const glm::dvec3& point)
         {
@@ -237,13 +238,13 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderASpotLight, hasPlainKernel)
 }
 
 //------------------------------------------------------------------------------
-/// At a corner of the floor the light stands at 89.3 degrees when it is lowest. Tilted, the plane
-/// is askew to the faces of the cube.
+/// When the light is lowest, its angle at a corner of the floor is 89.3 degrees. A tilted plane is
+/// askew to the faces of the cube.
 TEST_BY_VARIANTS(LitScenes, PlaneUnderAPointLight, isForLamps)
 {
   PassScene scene(200, 200);
   vtkActor* const floor = scene.addFloor(4.0);
-  scene.addBox({ -0.1, -0.1, 9.0 }, { 0.1, 0.1, 9.1 }); // so that there is more than a plane
+  scene.addBox({ -0.1, -0.1, 9.0 }, { 0.1, 0.1, 9.1 }); // so the scene is more than a plane
   vtkLight* const lamp = scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), allDirections);
   this->choose(scene);
   scene.lookFrom({ 1.0, -7.0, 12.0 });
@@ -269,7 +270,8 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderAPointLight, isForLamps)
 }
 
 //------------------------------------------------------------------------------
-/// Convex: all that faces the light is lit. Within a texel of the terminator, the map cannot tell.
+/// Convex: every surface that faces the light is lit. Within a texel of the terminator, the map
+/// cannot tell.
 TEST_BY_VARIANTS(LitScenes, ConvexSphere, hasPlainKernel)
 {
   PassScene scene(300, 300);
@@ -330,7 +332,7 @@ TEST_BY_VARIANTS(LitScenes, SingleTriangle, isForAll)
 }
 
 //------------------------------------------------------------------------------
-/// From its middle the borders of the faces run along the box's own edges.
+/// From the box's middle, the borders of the cube's faces run along the box's edges.
 TEST_BY_VARIANTS(LitScenes, InsideOfABox, isForRooms)
 {
   PassScene scene(200, 200);
@@ -373,9 +375,9 @@ TEST_BY_VARIANTS(LitScenes, InsideOfASphere, isForRooms)
 }
 
 //------------------------------------------------------------------------------
-/// A floor and two walls without thickness, which the sun sees from within, from near and through a
-/// long lens: from so far that positions are rounded by a good part of a texel, and the receiver's
-/// plane is followed to the kernel's end from there.
+/// A floor and two walls without thickness, under a sun inside the trough, from near and through a
+/// long lens. The lens is so far away that positions are rounded by a good part of a texel. The
+/// receiver's plane is extrapolated from there to the kernel's end.
 TEST_BY_VARIANTS(LitScenes, Trough, isForCorners)
 {
   PassScene scene(200, 200);
@@ -412,8 +414,8 @@ TEST_BY_VARIANTS(LitScenes, Trough, isForCorners)
 }
 
 //------------------------------------------------------------------------------
-/// A hillside beyond a plain, seen along the plain: what a filter reads beyond the valley has other
-/// texels than the point, where views are warped.
+/// A hillside beyond a plain, seen along the plain. In warped views, the texels that a filter reads
+/// beyond the valley differ in size from those of the point.
 TEST_BY_VARIANTS(LitScenes, ValleyAcrossTheView, isForCorners)
 {
   for (const double valley : { -90.0, -60.0, 0.0 })

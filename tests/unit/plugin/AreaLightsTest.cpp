@@ -1,4 +1,4 @@
-// Area lights in frames: soft where a technique can, and hard as ever where not.
+// Area lights in frames: soft with techniques that can, hard with the others.
 
 #include "PassScene.h"
 
@@ -36,7 +36,7 @@ protected:
 
   std::vector<float> visibility() { return drawKept(this->scene).visibility.at(0); }
 
-  /// Pixels that are neither lit nor dark.
+  /// Return the pixels that are neither lit nor dark.
   static std::ptrdiff_t between(const std::vector<float>& visibility)
   {
     return std::count_if(
@@ -81,7 +81,7 @@ TEST_F(AreaLights, areSoftForThoseThatTakeSamples)
     EXPECT_GT(between(soft), 200);
     EXPECT_EQ(this->scene.report().lights[0].lightSamples, 64);
     EXPECT_EQ(this->visibility(), soft) << "the next frame";
-    // What changes shows in the next frame.
+    // Each change shows in the next frame.
     this->light->SetWidth(2.0);
     EXPECT_NE(this->visibility(), soft);
     this->light->SetWidth(1.0);
@@ -115,7 +115,7 @@ TEST_F(AreaLights, countTheirRays)
 } // namespace
 
 //------------------------------------------------------------------------------
-/// Four times as many points in each frame, until the picture is that of all of them.
+/// Each frame adds four times as many points, until the picture uses all of them.
 TEST_F(AreaLights, refineWhileNothingChanges)
 {
   for (const char* technique : { "raytraced", "penumbra" })

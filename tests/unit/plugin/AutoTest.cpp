@@ -1,4 +1,4 @@
-// `auto`: exact while the picture rests, and while it moves as fast as its error allows.
+// `auto` is exact at rest; in motion it takes the fastest technique within the allowed error.
 
 #include "PassScene.h"
 
@@ -25,14 +25,14 @@ using testing::HasSubstr;
 namespace
 {
 
-/// Has timers that run when a test says so.
+/// An interactor whose timers run when a test calls run().
 class PatientInteractor : public vtkRenderWindowInteractor
 {
 public:
   static PatientInteractor* New();
   vtkTypeMacro(PatientInteractor, vtkRenderWindowInteractor);
 
-  int timer = 0;              ///< the one that was started last, 0 once it is gone
+  int timer = 0;              ///< the timer started last; 0 after it is destroyed
   unsigned long patience = 0; ///< milliseconds
 
   void run()
@@ -58,7 +58,7 @@ private:
 };
 vtkStandardNewMacro(PatientInteractor);
 
-/// A box over a floor under the sun, which leaves its technique to the pass.
+/// A box over a floor under a sun that uses the pass's technique.
 class Auto
   : public PassTest
   , public PassScene
@@ -74,7 +74,7 @@ protected:
     this->lookFrom({ 4.0, -9.0, 7.0 });
   }
 
-  /// A frame of a picture that moves, from another place than the one before.
+  /// Draw a frame in motion, from another place than the last one.
   Picture move()
   {
     this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
@@ -94,7 +94,7 @@ protected:
     this->pass->ReadCostFactors(path.c_str());
   }
   std::string technique() const { return this->report().lights[0].technique; }
-  /// The picture by another technique.
+  /// Draw the picture by another technique.
   Picture by(const char* technique)
   {
     this->pass->SetTechnique(technique);
@@ -124,7 +124,7 @@ TEST_F(Auto, restingPicturesAreExact)
 }
 
 //------------------------------------------------------------------------------
-// Nothing that was drawn while the picture moved is left in it.
+// A picture at rest shows nothing of the frames in motion.
 TEST_F(Auto, restingPicturesAfterMotionAreThoseOfAFreshPass)
 {
   this->rest();
@@ -162,7 +162,7 @@ TEST_F(Auto, movingPicturesHaveMapsThatAreNotDrawnAgain)
 }
 
 //------------------------------------------------------------------------------
-// A moving light bakes its map in each frame, which takes as long as rays.
+// A moving light bakes its map in each frame, which costs as much time as rays.
 TEST_F(Auto, lightsThatMoveTakeRaysAndGoBackToMapsLater)
 {
   this->rest();
@@ -182,7 +182,7 @@ TEST_F(Auto, lightsThatMoveTakeRaysAndGoBackToMapsLater)
 }
 
 //------------------------------------------------------------------------------
-// From the second change on, everything that a change needs is there.
+// From the second change on, everything needed is cached.
 TEST_F(Auto, changesCompileAndDrawNothingAnew)
 {
   for (int change = 0; change < 4; ++change)
@@ -214,7 +214,7 @@ TEST_F(Auto, mapsGrowUntilTheErrorIsKept)
 }
 
 //------------------------------------------------------------------------------
-// A caster far away makes the texels of every map half a unit wide.
+// A far caster makes the texels of every map half a unit wide.
 TEST_F(Auto, raysAreTakenWhereNoMapKeepsTheError)
 {
   this->addBox({ 3000.0, 0.0, 0.0 }, { 3001.0, 1.0, 1.0 });
@@ -261,7 +261,7 @@ TEST_F(Auto, numbersOutOfRangeAreErrorsAndChangeNothing)
 }
 
 //------------------------------------------------------------------------------
-// A map that a close view made larger is smaller again in one of the next motions.
+// A close view makes the map larger; one of the next motions makes it smaller again.
 TEST_F(Auto, mapsShrinkWhereSmallerOnesWillDo)
 {
   this->pass->SetMapSize(16);
@@ -275,7 +275,7 @@ TEST_F(Auto, mapsShrinkWhereSmallerOnesWillDo)
   this->pass->SetMaximumError(0.005);
   this->move();
   EXPECT_EQ(this->report().lights[0].mapSizeTexels, large);
-  this->lookFrom({ -12.0, -9.0, 7.0 }, { -12.0, 0.0, 0.0 }); // far from the shadow
+  this->lookFrom({ -12.0, -9.0, 7.0 }, { -12.0, 0.0, 0.0 }); // looks far from the shadow
   this->move();
   for (int motion = 0; motion < 12; ++motion)
   {
@@ -286,7 +286,7 @@ TEST_F(Auto, mapsShrinkWhereSmallerOnesWillDo)
 }
 
 //------------------------------------------------------------------------------
-// Such windows draw a headlight's shadows by the image route, whatever the technique.
+// Windows with several samples draw a headlight's shadows by the image route, with any technique.
 TEST_F(Auto, severalSamplesAndAHeadlight)
 {
   gnomon::CostFactors factors = gnomon::defaultFactors(true);
@@ -307,7 +307,7 @@ TEST_F(Auto, severalSamplesAndAHeadlight)
 }
 
 //------------------------------------------------------------------------------
-// Of an area light without extent, only the texture's mean is left.
+// An area light without extent only uses its texture's mean.
 TEST_F(Auto, texturesWithoutAnAreaAreExact)
 {
   vtkNew<vtkImageData> image;
@@ -334,7 +334,7 @@ TEST_F(Auto, settingsOfWhatItMayTakeAreNoMistakes)
 {
   this->pass->SetSetting("light_radius", "3");
   this->pass->SetSetting("light_samples", "16");
-  this->pass->SetSetting("bias_constant", "0.001"); // of maps
+  this->pass->SetSetting("bias_constant", "0.001"); // a setting of maps
   this->rest();
   EXPECT_EQ(this->report().lights[0].lightSamples, 16);
   this->pass->SetSetting("mc_rays", "4");
@@ -343,7 +343,7 @@ TEST_F(Auto, settingsOfWhatItMayTakeAreNoMistakes)
 }
 
 //------------------------------------------------------------------------------
-// Probes meet what casts: a floor that only receives is not among it.
+// Probes only hit casters; a floor that only receives is none.
 TEST_F(Auto, surfacesThatProbesDoNotSeeTakeRays)
 {
   vtkActor* const shelf = this->addFloor(2.0, 4.0);
@@ -377,7 +377,7 @@ TEST_F(Auto, withoutAnErrorAllFramesAreExact)
 }
 
 //------------------------------------------------------------------------------
-// The first frame, too, may be one that moves.
+// The first frame may be one in motion, too.
 TEST_F(Auto, needsNoPictureAtRestBefore)
 {
   this->move();
@@ -409,7 +409,7 @@ TEST_F(Auto, theSameFramesAreChosenAlike)
 }
 
 //------------------------------------------------------------------------------
-// Factors of another machine choose another way, for pictures that move alone.
+// Cost factors of another machine change the choice for pictures in motion only.
 TEST_F(Auto, restingPicturesDoNotDependOnTheMachine)
 {
   const Picture expected = this->rest();
@@ -439,7 +439,7 @@ TEST_F(Auto, areaLightsTakeFewerSamplesWhileTheyMove)
 }
 
 //------------------------------------------------------------------------------
-// The error wins over a budget that nothing keeps; rays are taken where there is time.
+// If nothing keeps the budget, the allowed error counts; if there is time, rays are traced.
 TEST_F(Auto, aTimeBudgetChoosesWhatIsMostAccurateInIt)
 {
   this->pass->SetTimeBudget(1e6);
@@ -505,15 +505,15 @@ TEST_F(Auto, framesMoveWhileTheInteractorAsksForMoreThanAtRest)
   EXPECT_NE(interactor->timer, 0);
   EXPECT_EQ(interactor->patience, 500u);
 
-  interactor->InvokeEvent(vtkCommand::TimerEvent, nullptr); // as recorded ones are played
+  interactor->InvokeEvent(vtkCommand::TimerEvent, nullptr); // as recorded events are replayed
   EXPECT_EQ(this->technique(), "nsm");
 
-  // A frame at rest that nobody asked for.
+  // A frame at rest that is not requested by the interactor.
   interactor->run();
   EXPECT_EQ(this->technique(), "silhouette");
   EXPECT_EQ(interactor->timer, 0);
 
-  // One that the interactor asks for.
+  // A frame at rest that the interactor requests.
   this->renderer->GetActiveCamera()->Azimuth(1.0);
   this->render();
   EXPECT_NE(interactor->timer, 0);
@@ -527,7 +527,7 @@ TEST_F(Auto, framesMoveWhileTheInteractorAsksForMoreThanAtRest)
   this->render();
   EXPECT_EQ(this->technique(), "silhouette");
 
-  // Pictures that would be the same at rest need none.
+  // No timer is needed if the picture at rest would be the same.
   this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
   this->pass->SetTechnique("nsm");
   this->render();
@@ -536,7 +536,7 @@ TEST_F(Auto, framesMoveWhileTheInteractorAsksForMoreThanAtRest)
 }
 
 //------------------------------------------------------------------------------
-// On screen, what follows a motion shows some samples at first, and a timer draws the rest.
+// After a motion, the window first shows some samples, and a timer draws the rest.
 TEST_F(Auto, areaLightsRefineOnceTheyRest)
 {
   this->pass->SetSetting("light_radius", "3");
@@ -579,7 +579,7 @@ TEST_F(Auto, areaLightsRefineOnceTheyRest)
 }
 
 //------------------------------------------------------------------------------
-// The report says what was chosen. Lights that name it show the same.
+// The report names the choice. Lights set to that choice show the same picture.
 TEST_F(Auto, whatATimeBudgetChoseCanBeNamed)
 {
   this->pass->SetTimeBudget(1e-6);
@@ -593,7 +593,7 @@ TEST_F(Auto, whatATimeBudgetChoseCanBeNamed)
 }
 
 //------------------------------------------------------------------------------
-// Lights that name a technique have it, whatever the pass leaves open.
+// A light that names a technique uses it, whatever the pass's technique is.
 TEST_F(Auto, lightsThatNameATechniqueKeepIt)
 {
   vtkLight* const other = this->addSun({ 0.0, 1.0, -1.0 });

@@ -1,4 +1,4 @@
-// When optional maps are baked, over sequences of frames that change and rest.
+// When optional maps are baked, over sequences of changing and resting frames.
 
 #include "plugin/frame/BakeBackoff.h"
 
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 constexpr int least = BakeBackoff::leastPatience;
 constexpr int most = BakeBackoff::mostPatience;
 
-/// A light, and the frames and bakes that it had.
+/// A light, with counts of its frames and bakes.
 struct Light
 {
   /// @return true if the frame used a map
@@ -29,7 +29,7 @@ struct Light
     this->bakes += this->hasMap && !baked ? 1 : 0;
     return this->hasMap;
   }
-  /// A change, and frames in which nothing changes.
+  /// Draw one changing frame, then frames in which nothing changes.
   void moveAndRest(int restingFrames)
   {
     this->draw(true);
@@ -82,7 +82,7 @@ TEST(BakeBackoff, doublesThePatienceWhenAMapServedTooShortly)
     const int bounded = std::min(patience, most);
     EXPECT_EQ(light.backoff.patience(), bounded);
     const int before = light.bakes;
-    light.moveAndRest(bounded + bounded - 1); // one frame less than it takes
+    light.moveAndRest(bounded + bounded - 1); // one frame less than a bake needs
     EXPECT_EQ(light.bakes, before + 1);
     light.draw(true);
   }
@@ -107,7 +107,7 @@ TEST(BakeBackoff, halvesThePatienceWhenAMapServedForLongEnough)
   EXPECT_EQ(light.backoff.patience(), least);
 }
 
-/// A pass that was told to bake at once may have left a map.
+/// A map may be there because the pass baked at once earlier.
 TEST(BakeBackoff, usesAMapThatIsThere)
 {
   BakeBackoff backoff;
@@ -135,7 +135,8 @@ TEST(BakeBackoff, isBoundedOverAnySequence)
   EXPECT_GT(bakes, 10000);
 }
 
-/// The worst sequences: a light moves once its map was baked, or once it served just long enough.
+/// The worst sequences: a light moves right after each bake, or after the map was used just long
+/// enough.
 TEST(BakeBackoff, isBoundedForALightThatMovesWhenItHurtsMost)
 {
   for (const bool servesLongEnough : { false, true })

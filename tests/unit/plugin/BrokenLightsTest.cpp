@@ -1,5 +1,5 @@
-// Lights whose numbers are none: each is left out with a reason that says what is wrong, or gives
-// visibilities in [0, 1]; never anything else.
+// Lights with invalid numbers. Each is left out with a reason that names the fault, or gives
+// visibilities in [0, 1].
 
 #include "PassScene.h"
 
@@ -39,7 +39,7 @@ struct BrokenLight
 {
   const char* name;
   void (*breakIt)(vtkLight* light);
-  const char* reason; ///< empty: it casts
+  const char* reason; ///< empty if the light casts
 };
 
 const BrokenLight brokenLights[] = {
@@ -125,7 +125,7 @@ const BrokenLight brokenLights[] = {
     [](vtkLight* l)
     {
       makeLamp(l);
-      setBox(l, { nan, -1.0, 0.0, 0.0, 0.0, 0.0 }); // which no lamp has
+      setBox(l, { nan, -1.0, 0.0, 0.0, 0.0, 0.0 }); // lamps have no box
     },
     "" },
 };
@@ -156,7 +156,7 @@ TEST_P(BrokenLights, areLeftOutWithAReasonOrGiveVisibilities)
     vtkLight* light = scene.addSun({ 0.3, 0.2, -1.0 });
     broken.breakIt(light);
 
-    const VisibilityImages& kept = drawKept(scene); // which looks at the numbers
+    const VisibilityImages& kept = drawKept(scene); // checks the numbers
     ASSERT_EQ(scene.report().lights.size(), 1u);
     EXPECT_EQ(scene.report().lights[0].reason, broken.reason);
     const bool casts = std::string(broken.reason).empty();

@@ -15,7 +15,7 @@
 namespace gnomon::test
 {
 
-/// A built-in scene in a square window of its own, with the pass in place, which keeps visibility.
+/// A built-in scene in its own square window, under a pass that keeps visibility.
 struct BuiltinPass
 {
   vtkSmartPointer<vtkRenderer> renderer;
@@ -34,7 +34,7 @@ struct BuiltinPass
   }
 };
 
-/// The name of a built-in scene as a part of a test's name.
+/// Return a built-in scene's name as a part of a test's name.
 inline std::string testNameOf(std::string scene)
 {
   std::replace(scene.begin(), scene.end(), '-', '_');

@@ -1,4 +1,4 @@
-// Every kind of vtkLight, and what each of them can ask for.
+// Every kind of vtkLight, and the settings of each.
 
 #include "PassScene.h"
 
@@ -39,7 +39,7 @@ protected:
     this->scene.lookFrom({ 1.0, -9.0, 7.0 });
   }
 
-  /// Makes a light without a transform of one that is in the same place.
+  /// Make a light a scene light without a transform, in the same place.
   static void fix(vtkLight* light)
   {
     double position[3];
@@ -58,7 +58,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Ways, CastingLights, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, CastingLights, testing::Values(planarWay), nameOf);
 
-/// Whether a colour lies on the way from one to another, as half a shadow does.
+/// True if a colour lies between two others, as for half a shadow.
 bool isBetween(const glm::ivec3& colour, const glm::ivec3& a, const glm::ivec3& b)
 {
   const glm::dvec3 way(b - a);
@@ -69,9 +69,9 @@ bool isBetween(const glm::ivec3& colour, const glm::ivec3& a, const glm::ivec3& 
   return distance.r <= 1.5 && distance.g <= 1.5 && distance.b <= 1.5;
 }
 
-/// Each pixel must be what plain VTK draws with all lights, or without the one that casts, or where
-/// the technique filters a mixture: nothing but that light may ever be taken away. Returns how many
-/// pixels had it taken away.
+/// Check that shadows remove only the casting light. Each pixel must be that of plain VTK with all
+/// lights or without that light; a technique that filters may give a mixture.
+/// @return the number of pixels from which the light is removed
 std::size_t shadowedPixels(
   const Picture& picture, const Picture& allLights, const Picture& withoutTheLight, bool filters)
 {
@@ -114,7 +114,7 @@ TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
     actor->GetProperty()->SetSpecularPower(20.0);
   }
   this->scene.renderer->SetBackground(0.1, 0.2, 0.3);
-  // Each of the others is skipped for another reason, and all but the first give light.
+  // Each other light is skipped for another reason. All but the first give light.
   this->scene.addSun({ 1.0, 0.0, -1.0 })->SwitchOff();
   vtkLight* mute = this->scene.addSun({ 0.0, 1.0, -1.0 });
   mute->SetColor(1.0, 0.2, 0.2);
@@ -184,7 +184,7 @@ TEST_P(CastingLights, lightsThatFollowTheCameraAreWhereVtkHasThem)
     this->scene.renderer->RemoveAllLights();
     vtkNew<vtkLight> light;
     light->SetLightType(head ? VTK_LIGHT_TYPE_HEADLIGHT : VTK_LIGHT_TYPE_CAMERA_LIGHT);
-    light->SetPosition(-0.8, 0.5, 0.3); // which a head light forgets
+    light->SetPosition(-0.8, 0.5, 0.3); // a head light ignores it
     vtkGnomonLightKeys::SetCasts(light, true);
     this->scene.renderer->AddLight(light);
     this->scene.lookFrom({ 1.0, -9.0, 7.0 });
@@ -232,12 +232,12 @@ TEST_P(CastingLights, aHeadlightAloneCastsIfAsked)
 }
 
 //------------------------------------------------------------------------------
-/// A projection that a lamp cannot have leaves the sun its own.
+/// A projection that a lamp cannot have does not affect the sun's.
 TEST_P(CastingLights, oneLightsTroubleIsItsOwn)
 {
   this->scene.addSun({ 1.0, 0.4, -1.5 });
   const auto sunAlone = this->scene.render();
-  this->scene.addSpot({ -3.0, -1.0, 4.0 }, { 0.0, 0.0, 0.0 }, 90.0); // on all sides
+  this->scene.addSpot({ -3.0, -1.0, 4.0 }, { 0.0, 0.0, 0.0 }, 90.0); // a lamp
   for (const char* technique : { "pssm", "lispsm", "tsm" })
   {
     this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
@@ -298,7 +298,7 @@ TEST_P(CastingLights, spotLightCastsWithinItsCone)
     const double along = glm::dot(glm::normalize(-toLight), glm::normalize(target - position));
     const bool inCone = along >= std::cos(glm::radians(coneAngle));
     const bool lit = inCone && !hitsBox(floor, toLight, lower, upper);
-    // A whole number, so that it stays the same over a few pixels.
+    // Quantise, so the value stays the same over a few pixels.
     return lit ? std::floor(255.0 * toLight.z / glm::length(toLight) / 40.0) * 40.0 + 20.0 : 0.0;
   };
   const FloorCheck check = checkFloor(scene, scene.render(), exact, 0.06);
@@ -337,7 +337,7 @@ TEST_P(CastingLights, eachLightHasItsOwnTechniqueInOneFrame)
   const gnomon::VisibilityImages mixed = this->scene.pass->GetVisibility();
   EXPECT_THAT(mixed.sceneIndices, ElementsAre(0, 1));
   EXPECT_EQ(mixed.visibility[1], traced.visibility[1]);
-  vtkGnomonLightKeys::SetMapSize(first, 0); // the pass's own size again
+  vtkGnomonLightKeys::SetMapSize(first, 0); // back to the pass's size
   this->scene.render();
   EXPECT_EQ(this->scene.pass->GetVisibility().visibility[0], mapped.visibility[0]);
   EXPECT_NE(mixed.visibility[0], mapped.visibility[0]);

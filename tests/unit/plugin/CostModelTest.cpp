@@ -20,7 +20,7 @@ namespace
 class CostFactorsFile : public gnomon::test::PassTest
 {
 protected:
-  /// Why a text is no such file; empty if it is one.
+  /// Return why a text is no file of cost factors; empty if it is one.
   std::string refusal(const std::string& text)
   {
     std::ofstream(this->path_) << text;
@@ -73,7 +73,7 @@ TEST_F(CostFactorsFile, ofAPassThatIsNoneIsAnError)
   pass->ReadCostFactors(nullptr); // the default ones
 }
 
-// What may be chosen follows from them: where maps cost nothing, they are taken.
+// Choices follow from the factors: if maps cost nothing, maps are chosen.
 TEST(CostModel, costsGrowWithWhatThereIs)
 {
   const CostFactors factors = defaultFactors(true);

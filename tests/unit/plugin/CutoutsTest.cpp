@@ -1,4 +1,4 @@
-// Textures with holes: what VTK does not draw of a surface casts no shadow.
+// Textures with holes: parts of a surface that VTK does not draw cast no shadow.
 
 #include "PassScene.h"
 
@@ -36,18 +36,18 @@ namespace
 using Pattern = std::vector<std::string>;
 
 const Pattern checker = { "#.#.", ".#.#", "#.#.", ".#.#" };
-/// Without a symmetry.
+/// A pattern without symmetry.
 const Pattern letter = { "###..", "#....", "##..#" };
 const Pattern whole = { "##", "##" };
 
-/// How a pattern is shown.
+/// How a pattern is sampled.
 struct Sampling
 {
   int wrap = vtkTexture::Repeat;
   bool interpolated = false;
 };
 
-/// All of them.
+/// All samplings.
 std::vector<Sampling> samplings()
 {
   std::vector<Sampling> all;
@@ -60,7 +60,7 @@ std::vector<Sampling> samplings()
   return all;
 }
 
-/// What is left of a pattern, which CutoutMaskTest.cpp compares with what OpenGL specifies.
+/// Return the mask of a pattern. CutoutMaskTest.cpp compares masks with OpenGL's specification.
 gnomon::CutoutMask maskOf(const Pattern& pattern, const Sampling& sampling = {})
 {
   gnomon::CutoutMask mask;
@@ -81,7 +81,7 @@ gnomon::CutoutMask maskOf(const Pattern& pattern, const Sampling& sampling = {})
   return mask;
 }
 
-/// The alpha at texture coordinates, in [0, 1], between the four texels that are nearest.
+/// Return the alpha at texture coordinates, in [0, 1], interpolated from the four nearest texels.
 double alphaAt(gnomon::CutoutMask mask, const glm::dvec2& coordinates)
 {
   if (!mask.interpolated)
@@ -128,8 +128,8 @@ vtkSmartPointer<vtkTexture> makeTexture(const Pattern& pattern, const Sampling& 
   return texture;
 }
 
-/// The square of half side 2 around the z axis at height 5, its front up. Its texture coordinates
-/// go from `first` to `last`.
+/// Return the square of half side 2 around the z axis at height 5, its front up. Its texture
+/// coordinates go from `first` to `last`.
 vtkSmartPointer<vtkPolyData> makeSquare(const glm::dvec2& first = glm::dvec2(0.0),
   const glm::dvec2& last = glm::dvec2(1.0), const char* array = nullptr)
 {
@@ -160,8 +160,8 @@ vtkSmartPointer<vtkPolyData> makeSquare(const glm::dvec2& first = glm::dvec2(0.0
   return square;
 }
 
-/// The exact answer, or a negative one where it is another within a square of half side `band`:
-/// holes have corners.
+/// Return the exact answer, or a negative one if it is not constant over a square of half side
+/// `band`. A square is needed because holes have corners.
 ExactFloor awayFromEdges(const ExactFloor& exact, double band)
 {
   return [&exact, band](const glm::dvec2& point)
@@ -182,11 +182,12 @@ ExactFloor awayFromEdges(const ExactFloor& exact, double band)
   };
 }
 
-/// Where a floor point's ray to the light meets the square's plane: as a share of its sides.
+/// The place where a floor point's ray to the light meets the square's plane, in shares of its
+/// sides.
 using PlaceOnSquare = std::function<glm::dvec2(const glm::dvec2&)>;
 
 /// A square with holes above a floor, under a sun at 45 degrees that moves its shadow by 5 along x,
-/// out of the square's way. The camera sees the shadow from straight above.
+/// out from under the square. The camera sees the shadow from straight above.
 class Cutouts
   : public PassTest
   , public testing::WithParamInterface<Way>
@@ -200,14 +201,14 @@ protected:
     this->scene.lookDown(2.6, 5.0);
   }
 
-  /// The width of the edges that are not looked at: exact answers have none to speak of.
+  /// Return the width of the band at edges that is skipped; nearly 0 for exact techniques.
   static double band()
   {
     const std::string technique = GetParam().technique;
     return technique == "raytraced" ? 1e-4 : technique == "nsm" ? 0.06 : 0.15;
   }
 
-  /// @param drawn whether the caster has something at a place, as a share of the square's sides
+  /// @param drawn true if the caster has a surface at a place, as a share of the square's sides
   void expectShadow(const std::function<bool(const glm::dvec2&)>& drawn, const char* what = "",
     const PlaceOnSquare& place = underSun)
   {
@@ -227,7 +228,7 @@ protected:
   {
     return (point - glm::dvec2(3.0, -2.0)) / 4.0;
   }
-  /// @param coordinates by the share of the square's sides
+  /// @param coordinates texture coordinates, from a share of the square's sides
   void expectPattern(
     const Pattern& pattern, const Sampling& sampling = {}, const char* what = "",
     const PlaceOnSquare& coordinates = [](const glm::dvec2& share) { return share; })
@@ -283,7 +284,7 @@ TEST_P(Cutouts, ofABorderThatIsDrawnGoOn)
 //------------------------------------------------------------------------------
 TEST_P(Cutouts, ofTranslucentSurfacesCountWhereTheseCast)
 {
-  // Between texels without alpha and with it there is some of it: VTK takes the square for
+  // Between texels with and without alpha, alpha lies in between, so VTK treats the square as
   // translucent.
   vtkActor* square = this->scene.add(makeSquare());
   const Sampling interpolated{ vtkTexture::Repeat, true };
@@ -295,7 +296,7 @@ TEST_P(Cutouts, ofTranslucentSurfacesCountWhereTheseCast)
 }
 
 //------------------------------------------------------------------------------
-/// Which stay in the world.
+/// The clipping planes stay in place in world coordinates.
 TEST_P(Cutouts, areCutAtClippingPlanes)
 {
   vtkActor* square = this->addSquare(makeTexture(letter));
@@ -397,7 +398,7 @@ TEST_P(Cutouts, ofATextureThatActorsShare)
       letter, {}, "twice", [](const glm::dvec2& share) { return share * glm::dvec2(2.0, 1.0); });
   };
   expectTwice();
-  // Its texels are held once, and go with the texture.
+  // The texels are stored once, and are freed with the texture.
   const std::size_t before = this->scene.report().bytesOccluders;
   const auto large = makeImage(Pattern(512, std::string(512, '#')));
   large->SetScalarComponentFromDouble(0, 0, 0, 3, 0.0);
@@ -447,7 +448,7 @@ TEST_P(Cutouts, ofAlbedoTexturesCountForPhysicalMaterials)
   square->GetProperty()->SetInterpolationToPBR();
   this->expectPattern(letter, { vtkTexture::Repeat, true });
   EXPECT_TRUE(square->HasOpaqueGeometry());
-  // What is behind the holes shows its own visibility: the square itself is in this box's shadow.
+  // Surfaces behind the holes show their own visibility: the square itself is in this box's shadow.
   vtkActor* box = this->scene.addBox({ -5.5, -2.5, 8.0 }, { -0.9, 2.5, 8.1 });
   this->scene.lookDown(2.6);
   const Picture picture = this->scene.render();
@@ -577,7 +578,7 @@ TEST_P(Cutouts, underASpotAndALamp)
   for (const double cone : { 50.0, allDirections })
   {
     vtkLight* light = this->scene.addSpot(lamp, { 2.0, 0.0, 0.0 }, cone);
-    square->SetPosition(-20.0, 0.0, 20.0); // where some views do not see it
+    square->SetPosition(-20.0, 0.0, 20.0); // outside some views
     this->scene.render();
     square->SetPosition(0.0, 0.0, -2.0);
     const Picture picture = this->scene.render();
@@ -658,8 +659,8 @@ TEST_P(Cutouts, ofAnImageWithOneColumnCountAsVtkTakesItForARow)
 }
 
 //------------------------------------------------------------------------------
-// What VTK draws of a surface is what casts: seen from the sun, the floor behind a hole is lit, and
-// once the surface is out of the camera's sight, the floor is dark where it was drawn.
+// A surface casts the shape that VTK draws. Seen from the sun, the floor behind a hole is lit. With
+// the surface out of the camera's view, the floor is dark where the surface was drawn.
 TEST_F(PassTest, CutoutsCastWhatVtkDraws)
 {
   PassScene scene(200, 200);
@@ -686,7 +687,7 @@ TEST_F(PassTest, CutoutsCastWhatVtkDraws)
     {
       const glm::dvec3 position = positionOf(seen, i);
       const bool hit = position.z > 2.5;
-      // What OpenGL filters it rounds, and VTK may then draw nothing where alpha is below 1/255.
+      // OpenGL rounds filtered alpha, so VTK may draw nothing where alpha is below 1/255.
       const glm::dvec2 share = (glm::dvec2(position) + 2.0) / 4.0;
       const double alpha = alphaAt(mask, first + share * (last - first));
       const float below = shadow.visibility[0][i];

@@ -1,5 +1,5 @@
-// The deferred route: the picture is drawn once, lit and in shadow, and visibility chooses. It must
-// show what the image route shows, to the byte.
+// The deferred route draws the picture once, lit and in shadow, and visibility selects. It must
+// equal the image route's picture to the byte.
 
 #include "PassScene.h"
 
@@ -48,12 +48,12 @@ class DeferredScenes
 {
 };
 
-// Holes that textures cut, open sheets, a point light, and spheres and sticks that shaders draw.
+// Scenes with holes in textures, open sheets, a point light, and impostors of spheres and sticks.
 INSTANTIATE_TEST_SUITE_P(Scenes, DeferredScenes,
   testing::Values("bunny", "screens", "posts", "cups", "room", "terrain", "molecule", "primitives"),
   [](const testing::TestParamInfo<const char*>& scene) { return std::string(scene.param); });
 
-/// As a mapper is that draws in its own way.
+/// A mapper of a class that Gnomon does not know, as one that draws in its own way.
 class UnusualMapper : public vtkOpenGLPolyDataMapper
 {
 public:
@@ -81,7 +81,7 @@ protected:
     return this->scene.render();
   }
 
-  /// Draws by both routes, the deferred one twice, and with another camera in between.
+  /// Draw by both routes, by the deferred one twice, with another camera in between.
   void expectTheSame(const std::string& what)
   {
     SCOPED_TRACE(what);
@@ -98,14 +98,14 @@ protected:
     this->scene.renderer->GetActiveCamera()->Azimuth(-20.0);
   }
 
-  /// Says what the automatic route is, and why.
+  /// Return the automatic route and its reason.
   std::string autoRoute()
   {
     this->draw(vtkGnomonShadowPass::ROUTE_AUTO);
     return this->scene.report().route;
   }
 
-  PassScene scene{ 203, 157 }; ///< no whole tiles
+  PassScene scene{ 203, 157 }; ///< not a multiple of the tiles
   vtkActor* floor;
   vtkActor* sphere;
   vtkLight* sun;
@@ -170,7 +170,7 @@ TEST_F(Deferred, AllOfVtksShadingIsLitTwice)
   this->expectTheSame("unlit");
   property->LightingOn();
 
-  // VTK multiplies by the texture after it has lit.
+  // VTK multiplies by the texture after lighting.
   vtkActor* textured = this->scene.addFloor(1.5, 0.5);
   vtkNew<vtkTexture> texture;
   texture->SetInputData(
@@ -218,8 +218,8 @@ TEST_F(Deferred, WhatIsNotOpaqueComesAfterwards)
 }
 
 //------------------------------------------------------------------------------
-/// Annotations' parts have shaders of their own, which say nothing of shadows: in front of a shadow
-/// they are as bright as VTK draws them, behind something they are hidden.
+/// Annotations' parts have their own shaders, without shadows. In front of a shadow they are as
+/// bright as VTK draws them; behind other surfaces they are hidden.
 TEST_F(Deferred, WhatPassesDoNotReachIsAsVtkDrawsIt)
 {
   vtkNew<vtkAnnotatedCubeActor> cube;
@@ -275,8 +275,8 @@ TEST_F(Deferred, WhatPassesDoNotReachIsAsVtkDrawsIt)
 }
 
 //------------------------------------------------------------------------------
-/// The part of an opaque prop that is half transparent is blended over what is behind it, in light
-/// and in shadow.
+/// The translucent part of an opaque prop is blended over the surfaces behind it, in light and in
+/// shadow.
 TEST_F(Deferred, OpaquePropsThatBlend)
 {
   this->scene.renderer->GradientBackgroundOn();
@@ -296,7 +296,7 @@ TEST_F(Deferred, OpaquePropsThatBlend)
   veil->SetTexture(texture);
   veil->ForceOpaqueOn();
   veil->GetProperty()->SetAmbient(0.2);
-  this->floor->VisibilityOff(); // so that the background is behind the shadow
+  this->floor->VisibilityOff(); // the background is then behind the shadow
   this->scene.window->SetSize(200, 200);
   this->expectTheSame("a veil");
 }
@@ -306,13 +306,13 @@ TEST_F(Deferred, WhereverThePictureIs)
 {
   this->scene.renderer->SetViewport(0.3, 0.2, 0.9, 0.8);
   this->expectTheSame("in a part of the window");
-  this->scene.renderer->SetViewport(0.35, 0.2, 0.95, 0.8); // as large, elsewhere
+  this->scene.renderer->SetViewport(0.35, 0.2, 0.95, 0.8); // the same size, elsewhere
   this->expectTheSame("in another part");
   const Picture there = this->draw(vtkGnomonShadowPass::ROUTE_AUTO);
   this->scene.renderer->SetViewport(0.3, 0.2, 0.9, 0.8);
   const Picture back = this->scene.render();
   EXPECT_GT(differingPixels(there, back), 100u);
-  this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU); // which reads the receivers again
+  this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU); // the GPU reads the receivers again
   EXPECT_EQ(differingPixels(this->scene.render(), back), 0u);
   this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_AUTO);
   EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), back), 0u);
@@ -361,7 +361,7 @@ TEST_F(Deferred, DrawsOnceAndComputesWhatChanged)
 }
 
 //------------------------------------------------------------------------------
-/// Shaders are made anew when the picture has rested for a while, and when it moves again.
+/// VTK rebuilds shaders after the picture has rested for a while, and when it moves again.
 TEST_F(Deferred, ShowsTheSameAtRest)
 {
   vtkNew<vtkSphereSource> fine;
@@ -396,7 +396,7 @@ TEST_F(Deferred, ShowsTheSameAtRest)
 }
 
 //------------------------------------------------------------------------------
-/// Receivers are stored while a light moves on.
+/// Receivers are cached while only a light moves.
 TEST_F(Deferred, ShowsTheSameWhileALightMoves)
 {
   this->autoRoute();

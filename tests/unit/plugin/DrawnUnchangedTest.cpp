@@ -1,4 +1,4 @@
-// What is no surface is drawn as plain VTK draws it.
+// Props that are no surfaces are drawn as by plain VTK.
 
 #include "PassScene.h"
 
@@ -30,7 +30,7 @@ using namespace gnomon::test;
 namespace
 {
 
-/// Something that VTK draws near the origin, or over the picture.
+/// A prop that VTK draws near the origin, or over the picture.
 struct Thing
 {
   const char* name;
@@ -193,8 +193,8 @@ const Thing things[] = {
     } },
 };
 
-/// A floor that shows no shadows, below a plate that shades all of it. What is put between them may
-/// not change.
+/// A floor that shows no shadows, below a plate that shades all of it. Props between them must look
+/// unchanged.
 class DrawnUnchanged
   : public PassTest
   , public testing::WithParamInterface<std::tuple<Thing, Way>>
@@ -213,7 +213,7 @@ protected:
     this->scene.choose(std::get<1>(GetParam()));
   }
 
-  /// Pixels that the pass draws otherwise than plain VTK.
+  /// Return the pixels that differ from plain VTK's picture.
   std::size_t changedPixels()
   {
     this->scene.usePlain();
@@ -248,6 +248,6 @@ TEST_P(DrawnUnchanged, inTheShadowToo)
   EXPECT_GT(differingPixels(without, this->scene.render()), 40u) << "it is not seen";
   EXPECT_EQ(this->changedPixels(), 0u);
 
-  this->scene.renderer->AddActor(makeBall(VTK_SURFACE)); // which is what would change
+  this->scene.renderer->AddActor(makeBall(VTK_SURFACE)); // a surface would change
   EXPECT_GT(this->changedPixels(), 100u);
 }

@@ -51,8 +51,8 @@ public:
     return this->scene_.pass->GetVisibility();
   }
 
-  /// The mean visibility of what a pixel shows: of 256 places those on the plane and the side of
-  /// what its centre shows; negative where that is turned away from the light.
+  /// Return each pixel's mean visibility. Of its 256 samples, those count that lie on the plane and
+  /// side of its centre's surface. Negative if that surface is turned away from the light.
   std::vector<double> truth(const VisibilityImages& centres)
   {
     const VisibilityImages fine = this->draw("1", perSide * side);
@@ -102,7 +102,7 @@ private:
 struct Error
 {
   double rms = 0.0;
-  int missed = 0; ///< pixels between light and shadow that are said to be one of both
+  int missed = 0; ///< partly lit pixels reported as fully lit or dark
 };
 Error errorOf(const VisibilityImages& images, const std::vector<double>& truth)
 {
@@ -125,7 +125,7 @@ Error errorOf(const VisibilityImages& images, const std::vector<double>& truth)
 struct Case
 {
   const char* scene;
-  double factor; ///< by which 16 samples are closer to the truth than one
+  double factor; ///< ratio of the errors of one sample and of 16
 };
 
 std::ostream& operator<<(std::ostream& stream, const Case& of)
@@ -141,7 +141,7 @@ protected:
   const char* scene() const { return GetParam().scene; }
 };
 
-// The bunny's triangles are smaller than pixels here: few samples lie on those that pixels show.
+// The bunny's triangles are smaller than pixels here, so few samples lie on a pixel's own triangle.
 INSTANTIATE_TEST_SUITE_P(Scenes, EdgeSamplesOf,
   testing::Values(Case{ "bunny", 2.4 }, Case{ "posts", 3.0 }, Case{ "cups", 3.0 },
     Case{ "plates", 3.0 }, Case{ "stack", 3.0 }),
@@ -163,7 +163,7 @@ protected:
 
   void set(const char* samples) { this->scene.pass->SetSetting("edge_samples", samples); }
 
-  /// How many pixels are between light and shadow.
+  /// Count the pixels that are neither lit nor dark.
   std::size_t countMixed()
   {
     std::size_t mixed = 0;
@@ -199,7 +199,7 @@ TEST_P(EdgeSamplesOf, areCloserToTheTruth)
 }
 
 //------------------------------------------------------------------------------
-/// Where all nine pixels around show one surface in one light, nothing changes.
+/// If all nine pixels around show one surface in one light, nothing changes.
 TEST_P(EdgeSamplesOf, changeNothingAwayFromEdges)
 {
   SampledScene scene(this->scene());
@@ -230,7 +230,7 @@ TEST_P(EdgeSamplesOf, changeNothingAwayFromEdges)
 }
 
 //------------------------------------------------------------------------------
-/// The picture mixes the bytes of light and shadow, where the image route rounds once.
+/// The deferred route mixes the bytes of light and shadow; the image route rounds once.
 TEST_P(EdgeSamplesOf, lookAlikeByBothRoutes)
 {
   const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene(this->scene()), 1.0);
@@ -257,7 +257,7 @@ TEST_P(EdgeSamplesOf, lookAlikeByBothRoutes)
 }
 
 //------------------------------------------------------------------------------
-/// A lit plate over ground that is all in its shadow, and ground in light before a dark wall.
+/// A lit plate over ground wholly in its shadow, and lit ground before a dark wall.
 TEST_F(EdgeSamples, haveNoFringesAtOutlines)
 {
   this->scene.renderer->RemoveActor(this->sphere);
@@ -311,7 +311,7 @@ TEST_F(EdgeSamples, areThereForAllLightsCamerasAndShapes)
 }
 
 //------------------------------------------------------------------------------
-/// Maps decide samples as rays do.
+/// Maps decide samples with the same result as rays.
 TEST_F(EdgeSamples, agreeBetweenExactTechniques)
 {
   this->scene.pass->SetSetting("bake", "always");

@@ -1,5 +1,5 @@
-// Exact techniques show what ray tracing shows while casters are deformed, moved, parted, taken
-// away and put back: nothing that they remember of casters is out of date.
+// Exact techniques equal ray tracing while casters are deformed, moved, split, removed and
+// restored: no cached data of casters are stale.
 
 #include "PassScene.h"
 
@@ -21,7 +21,7 @@ namespace gnomon::test
 namespace
 {
 
-/// A pass that lives through all changes.
+/// A pass that exists through all changes.
 struct ExactPass
 {
   const char* technique;
@@ -39,7 +39,7 @@ std::string nameOfPass(const testing::TestParamInfo<ExactPass>& pass)
   return pass.param.rasterizer == vtkGnomonShadowPass::RASTERIZER_GPU ? name + "_gpu" : name;
 }
 
-/// Gives each triangle corners of its own, so that moving points tears the surface.
+/// Give each triangle corners of its own, so that moving points tears the surface.
 void partTriangles(vtkPolyData* shape)
 {
   vtkNew<vtkPoints> corners;
@@ -96,7 +96,7 @@ protected:
     this->truth->SetTechnique("raytraced");
     this->truth->KeepVisibilityOn();
     this->truth->SmoothTerminatorsOff();
-    this->scene.pass->SetSetting("bake", "always"); // of those that have it
+    this->scene.pass->SetSetting("bake", "always"); // for techniques that have it
     this->scene.pass->SetTechnique(GetParam().technique);
     this->scene.pass->SetMapSize(256);
     for (const auto& [name, value] : GetParam().settings)
@@ -107,10 +107,10 @@ protected:
     this->scene.pass->KeepVisibilityOn();
   }
 
-  /// From -1 to 1.
+  /// Return a random number from -1 to 1.
   double some() { return std::uniform_real_distribution<double>(-1.0, 1.0)(this->random); }
 
-  /// Moves a shape's points.
+  /// Move a shape's points.
   template <typename Move>
   static void deform(vtkPolyData* shape, const Move& move)
   {
@@ -141,7 +141,7 @@ protected:
     deform(shape, [&](const glm::dvec3&) { return corners[next++]; });
   }
 
-  /// Takes the first of a shape's cells away, and turns the order of the others round.
+  /// Remove the first of a shape's cells and reverse the order of the others.
   static void changeCells(vtkPolyData* shape)
   {
     vtkNew<vtkCellArray> cells;
@@ -152,7 +152,7 @@ protected:
     shape->SetPolys(cells);
   }
 
-  /// Holds the technique to ray tracing.
+  /// Compare the technique with ray tracing.
   void expectTruth(const std::string& after)
   {
     // A pass that changes its tracer reuses nothing.
@@ -188,7 +188,7 @@ protected:
   std::array<vtkNew<vtkPolyData>, 2> sheetShapes;
   vtkActor* ball;
   vtkActor* cup;
-  std::array<vtkSmartPointer<vtkActor>, 2> sheets; // which the renderer may let go
+  std::array<vtkSmartPointer<vtkActor>, 2> sheets; // owned here, since the renderer may drop them
   vtkLight* sun;
   vtkLight* lamp;
   std::mt19937 random;

@@ -1,4 +1,4 @@
-// Exact techniques show what ray tracing shows, in all built-in scenes but the largest.
+// Exact techniques equal ray tracing in all built-in scenes but the largest.
 
 #include "BuiltinPass.h"
 #include "PassScene.h"
@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ExactScenes,
       std::vector<std::string> names;
       for (const tool::BuiltinScene& scene : tool::builtinScenes())
       {
-        // What is exact of an area light is what its centre casts.
+        // For area lights, these techniques are exact for the centre's shadow.
         // 64 conservative maps of a cube each take 4 GB.
         const bool large =
           scene.name == "city" || scene.name == "molecule" || scene.name == "building";
@@ -84,7 +84,7 @@ TEST_P(ExactScenes, showWhatIsTraced)
         continue;
       }
       scene.pass->SetRasterizer(rasterizer);
-      // OpenGL in software draws 16 times as many cells in as many times the time.
+      // Software OpenGL needs 16 times the time for 16 times as many cells.
       scene.pass->SetMapSize(rasterizer == vtkGnomonShadowPass::RASTERIZER_GPU ? 256 : 1024);
       scene.window->Render();
       const std::string what = technique.name + ", rasterizer " + std::to_string(rasterizer);
@@ -103,8 +103,8 @@ TEST_P(ExactScenes, showWhatIsTraced)
   }
 }
 
-/// Cameras and lights of which no scene's author has thought: from inside of things, too, and with
-/// lamps that touch them.
+/// Cameras and lights that no scene's author intended: also inside surfaces, and with lamps that
+/// touch them.
 class ExactScenesFromAnywhere : public testing::TestWithParam<const char*>
 {
 };
@@ -122,10 +122,10 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
   double lowest[3], highest[3];
   bounds.GetBounds(lowest[0], highest[0], lowest[1], highest[1], lowest[2], highest[2]);
   const glm::dvec3 low = glm::make_vec3(lowest), high = glm::make_vec3(highest);
-  // Seeded by the scene, so that no two of them share cameras.
+  // Seeded by the scene, so no two scenes share cameras.
   std::seed_seq seeds(name.begin(), name.end());
   Random random(seeds);
-  /// Somewhere in the scene's box, grown by that share of its sides.
+  /// Return a random place in the scene's box, grown by that share of its sides.
   const auto somewhere = [&](double grown)
   {
     const glm::dvec3 share(uniform(random, -grown, 1.0 + grown),
@@ -134,8 +134,7 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
   };
 
   scene.pass->SetSetting("bake", "always");
-  // Selective is exact where it looks at all of the picture, and believes no texel that others
-  // agree with.
+  // `selective` is exact if its contour is the whole picture and it accepts no texel by coherence.
   scene.pass->SetSetting("contour", "image");
   scene.pass->SetSetting("coherence", "off");
   const std::array<std::string, 4> techniques = { "crsm", "crsma", "silhouette", "selective" };
@@ -191,7 +190,7 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
   EXPECT_GT(sumReceivers, 0);
   for (std::size_t number = 0; number < techniques.size(); ++number)
   {
-    // Where two pictures are all that selective gets, it may have to trace them whole.
+    // `selective` may have to trace both pictures whole.
     if (techniques[number] != "selective")
     {
       EXPECT_LT(sumsTraced[number], sumReceivers) << techniques[number];
@@ -200,7 +199,7 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
 }
 
 /// A lit face's texels hold other layers, too: faces of its own solid that are turned away from the
-/// light, and the ground. Rays need not start off the noise of those.
+/// light, and the ground. Their noise must not force rays.
 TEST(ExactFaces, areDecidedWhateverTheNoiseOfWhatIsBehindThem)
 {
   for (const char* name : { "long-cube", "stack" })
@@ -225,7 +224,8 @@ TEST(ExactFaces, areDecidedWhateverTheNoiseOfWhatIsBehindThem)
   }
 }
 
-/// Whole in the truth, in pieces in a plain map, and traced by the hybrid: none of it is certain.
+/// A pole is whole in the truth and in pieces in a plain map. The hybrid traces it: no part is
+/// certain.
 TEST(ExactPoles, thatTheMapHasInPiecesAreTracedWhole)
 {
   PassScene scene(256, 256);
@@ -270,7 +270,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ExactSoftScenes,
     "plates", "screens", "cups", "office", "room", "terrain", "bench-side", "atrium"),
   [](const testing::TestParamInfo<const char*>& scene) { return testNameOf(scene.param); });
 
-/// Whoever traces.
+/// All exact techniques equal tracing all rays, on every tracer.
 TEST_P(ExactSoftScenes, showWhatAllRaysShow)
 {
   const BuiltinPass scene(GetParam(), 160);

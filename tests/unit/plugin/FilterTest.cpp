@@ -1,4 +1,4 @@
-// Filters on all kinds of maps, and kinds of depth and early-outs that show the same.
+// Filters on all kinds of maps; kinds of depth and early-outs that show the same.
 
 #include "PassScene.h"
 
@@ -43,8 +43,8 @@ void addClosedWorld(PassScene& scene)
 } // namespace
 
 //------------------------------------------------------------------------------
-/// Along a shadow's edge that runs away from the camera, the texels of one split end and those of
-/// the next begin. Between them lie values of both.
+/// Along a shadow's edge that runs away from the camera, one split's texels end and the next
+/// split's begin. Values in between must lie between both.
 TEST_F(PassTest, blendedSplitsFadeIntoEachOther)
 {
   PassScene scene(200, 200);
@@ -65,7 +65,7 @@ TEST_F(PassTest, blendedSplitsFadeIntoEachOther)
   EXPECT_GT(countBetween("0.3"), 20);
   EXPECT_EQ(scene.report().lights.at(0).fit, "frustum");
 
-  // Both routes, and against the truth.
+  // Compare both routes, and compare with the truth.
   const VisibilityImages blended = drawKept(scene);
   scene.pass->SetTechnique("raytraced");
   EXPECT_GT(compareVisibility(blended, drawKept(scene)).agreeing(), 0.97);
@@ -77,8 +77,8 @@ TEST_F(PassTest, blendedSplitsFadeIntoEachOther)
   EXPECT_EQ(differingPixels(scene.render(), image, 1), 0u);
 }
 
-/// A filter's edges get as wide as a split's texels are. Where splits are blended, brightness
-/// changes by less from row to row of pixels than where one ends.
+/// A filter's edges are as wide as a split's texels require. With blended splits, brightness
+/// changes less from row to row of pixels than where one split ends.
 TEST_F(PassTest, blendedSplitsHaveNoBorder)
 {
   PassScene scene(200, 400);
@@ -201,7 +201,7 @@ TEST_F(PassTest, secondAndMidpointMapsOfClosedCastersHaveNoAcneAndTheSameShadows
         RecordProperty(
           std::string(depth) + technique + (lamp ? "Lamp" : "Sun"), std::to_string(wrong));
         EXPECT_LT(wrong, 0.02) << depth << ", " << technique << ", lamp: " << lamp;
-        // The slab's middle and the sphere, where they are lit, far from any shadow.
+        // Count the slab's middle and the sphere, where they are lit, far from any shadow.
         std::size_t dark = 0;
         std::size_t lit = 0;
         for (std::size_t i = 0; i < traced.coverage.size(); ++i)

@@ -1,5 +1,5 @@
-// The views that are hardest to fit, by every technique: visibility is finite and in [0, 1], OpenGL
-// has nothing to complain about, and the inline route draws them, too.
+// The views that are hardest to fit, by every technique. Visibility is finite and in [0, 1], OpenGL
+// reports no error, and the inline route draws them, too.
 
 #include "PassScene.h"
 #include "Variant.h"
@@ -30,7 +30,7 @@ protected:
 
   static void draw(PassScene& scene)
   {
-    drawKept(scene); // which holds that numbers are finite and in [0, 1]
+    drawKept(scene); // checks that numbers are finite and in [0, 1]
     scene.pass->KeepVisibilityOff();
     const bool isPointwise = GetParam().info().isPointwise();
     scene.pass->SetRoute(
@@ -40,14 +40,14 @@ protected:
     scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
   }
 
-  /// The widest that has a single view, and the one that sees all around.
+  /// The widest cone that has a single view, and a light that sees all around.
   static std::vector<double> cones()
   {
     return GetParam().takesCubes() ? std::vector<double>{ 0.1, 45.0, 89.0, allDirections }
                                    : std::vector<double>{ 0.1, 45.0, 60.0 };
   }
 
-  /// With maps of two sizes by turns, the smaller of which is smaller than some kernels.
+  /// Two map sizes take turns; the smaller one is smaller than some kernels.
   void drawByTurns(PassScene& scene)
   {
     this->isSmall_ = !this->isSmall_;
@@ -67,7 +67,7 @@ bool isSoft(const Variant& variant)
 } // namespace
 
 //------------------------------------------------------------------------------
-/// Along the axes, in the floor's plane and nearly so.
+/// Along the axes, in the floor's plane and nearly in it.
 TEST_BY_VARIANTS(DegenerateScenes, UnderAnySun, isForAll)
 {
   PassScene scene(64, 48);
@@ -103,7 +103,7 @@ TEST_BY_VARIANTS(DegenerateScenes, UnderAnyLamp, isForAll)
 }
 
 //------------------------------------------------------------------------------
-/// Areas from a point's to far larger than the scene.
+/// Areas from that of a point to far larger than the scene.
 TEST_BY_VARIANTS(DegenerateScenes, UnderLightsOfAnySize, isSoft)
 {
   PassScene scene(64, 48);
@@ -136,8 +136,8 @@ TEST_BY_VARIANTS(DegenerateScenes, UnderLightsOfAnySize, isSoft)
 }
 
 //------------------------------------------------------------------------------
-/// Nothing at all; away from everything; from inside a caster; in the floor's plane; from below,
-/// where no receiver faces the light. What comes after is as if it had not been.
+/// Cameras that see nothing at all, away from everything, inside a caster, and in the floor's
+/// plane. From below, no receiver faces the light. They do not affect later frames.
 TEST_BY_VARIANTS(DegenerateScenes, SeenFromAnywhere, isForAll)
 {
   PassScene scene(64, 48);

@@ -1,5 +1,5 @@
-// Views that are fitted to the receivers that are drawn: what the report says of them, when they
-// are fitted again, and what the picture gains and keeps.
+// Views fitted to the visible receivers: what the report states, when views are fitted again, and
+// how the picture changes.
 
 #include "PassScene.h"
 
@@ -43,7 +43,7 @@ protected:
     scene.pass->SetSetting("fit", fit);
     scene.pass->SetSetting("snap", snap);
   }
-  /// Wrong pixels of a frame with kept visibility.
+  /// Return the wrong pixels of a frame with kept visibility.
   static std::size_t wrong(PassScene& scene, const char* technique, const VisibilityImages& truth)
   {
     scene.pass->SetTechnique(technique);
@@ -145,7 +145,7 @@ TEST_F(Fitting, reportSaysWhatViewsAreFittedTo)
   EXPECT_EQ(fitOf("pcf", "frame", image), "frustum");
   EXPECT_THAT(reason(), HasSubstr("width in world units"));
   EXPECT_EQ(fitOf("nsm", "frame", image), "receivers");
-  // Translucent surfaces are not among the receivers that are drawn.
+  // Translucent surfaces are no receivers of the prepass.
   scene.addBox({ 1.0, 1.0, 1.0 }, { 1.5, 1.5, 1.5 })->GetProperty()->SetOpacity(0.5);
   EXPECT_EQ(fitOf("nsm", "frame", image), "frustum");
   EXPECT_THAT(reason(), HasSubstr("translucent"));
@@ -170,7 +170,7 @@ TEST_F(Fitting, isDoneAgainOnlyWhenOtherReceiversMayBeSeen)
   expectBakedOnce();
   scene.renderer->GetActiveCamera()->Azimuth(1.0);
   expectBakedOnce();
-  // What is no surface hides receivers, too.
+  // Props that are no surfaces hide receivers, too.
   vtkNew<vtkLineSource> line;
   line->SetPoint1(-1.0, -1.0, 1.0);
   line->SetPoint2(1.0, -1.0, 1.0);
@@ -217,7 +217,7 @@ TEST_F(Fitting, bringsEveryEstimatorNearerToTheTruth)
   scene.addSun({ 1.0, 0.4, -1.5 });
   scene.pass->SetMapSize(256);
   const VisibilityImages truth = this->truthOf(scene);
-  // Filters blur over texels, so that smaller ones blur less.
+  // Filters blur over texels, so smaller texels blur less.
   const auto error = [&](const char* technique, const char* fit)
   {
     this->fit(scene, fit, "off");
@@ -254,7 +254,7 @@ TEST_P(FittingOfKinds, leavesOutCastersWithoutChangingThePicture)
   this->fill(scene);
   vtkLight* light = GetParam().add(scene);
   this->fit(scene, "frame");
-  // All in the box of the scene and its casters, and far from what is seen.
+  // All in the box of the scene and its casters, and far from the visible part.
   std::vector<vtkActor*> others;
   for (const glm::dvec2& place :
     { glm::dvec2(25.0, 25.0), { 25.0, -25.0 }, { -25.0, 25.0 }, { -25.0, -25.0 }, { 30.0, 0.0 } })
@@ -339,8 +339,8 @@ TEST_F(Fitting, warpUnderLightAlongTheViewIsAsGoodAsNone)
 //------------------------------------------------------------------------------
 TEST_F(Fitting, snappedEdgesStayWhereTheyAreWhenTheCameraMoves)
 {
-  // The floor from straight above: a pixel is a tenth of a texel or less, and the camera moves by
-  // pixels, so that the same places of the floor can be compared.
+  // The floor from straight above. A pixel is a tenth of a texel or less. The camera moves by whole
+  // pixels, so the same places of the floor can be compared.
   constexpr int side = 512;
   constexpr double halfHeight = 3.0;
   const double pixel = 2.0 * halfHeight / side;

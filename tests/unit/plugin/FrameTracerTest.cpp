@@ -1,4 +1,4 @@
-// Which tracer a frame takes, and what becomes of the other.
+// Which tracer a frame uses, and when the other one's data are dropped.
 
 #include "plugin/frame/FrameTracer.h"
 
@@ -81,7 +81,7 @@ protected:
   }
   ~FrameTracers() override { this->window_->MakeCurrent(); }
 
-  /// Gives the snapshot more vertices than shaders read, of which little is ever touched.
+  /// Give the snapshot more vertices than shaders can address. Few of them are ever touched.
   void makeHuge()
   {
     GLint64 most = 0;
@@ -103,7 +103,7 @@ protected:
     return visibility;
   }
 
-  vtkNew<vtkGnomonEGLRenderWindow> window_; // outlives what is in its context
+  vtkNew<vtkGnomonEGLRenderWindow> window_; // outlives the objects in its context
   Occluders occluders_ =
     makeOccluders({ { makePlane(8.0) }, { makeBox({ -1.0, -1.0, 0.5 }, { 1.0, 1.0, 2.0 }) } });
   const std::size_t vertices_ = this->occluders_.positionsCentred.size();
@@ -133,7 +133,7 @@ TEST_F(FrameTracers, oneAtATimeHasAStructure)
   EXPECT_TRUE(this->tracer_.taken().gpu);
   EXPECT_EQ(this->trace(), byEmbree);
   EXPECT_EQ(this->tracer_.bytesOfTable(), 0u);
-  // 2 x 5 tiles of 64 x 16 pixels, a ray and an answer each.
+  // 2 x 5 tiles of 64 x 16 pixels, each pixel with a ray and an answer.
   EXPECT_GE(this->tracer_.bytesOfRays(), 10u * 1024u * 32u);
   EXPECT_EQ(this->tracer_.update(gpuChoice, this->occluders_).builds, 0);
 
@@ -164,7 +164,7 @@ TEST_F(FrameTracers, embreeTakesOverWhatTheGpuHasNoRoomFor)
   const std::vector<float> visibility = this->trace();
   EXPECT_GT(std::count(visibility.begin(), visibility.end(), 0.0f), 200);
 
-  // It is not tried again for the same, and Embree's structure is kept.
+  // The GPU is not tried again for the same snapshot, and Embree's structure is reused.
   ++this->occluders_.positionsVersion;
   EXPECT_EQ(this->tracer_.update(gpuIfPossible, this->occluders_).builds, 0);
   EXPECT_FALSE(this->tracer_.taken().gpu);

@@ -1,5 +1,5 @@
-// What the pass does to OpenGL: it leaves the state as a plain VTK frame does, gives back every
-// texture unit, and neither leaks nor loses objects.
+// The pass's effect on OpenGL: it leaves the state like a plain VTK frame, returns every texture
+// unit, and neither leaks nor loses objects.
 
 #include "LiveObjects.h"
 #include "PassScene.h"
@@ -30,7 +30,7 @@ namespace
 
 using State = std::map<std::string, std::vector<double>>;
 
-/// All of OpenGL's state that a neighbour could trip over.
+/// All OpenGL state that a neighbouring pass could depend on.
 State readState()
 {
   State state;
@@ -153,8 +153,7 @@ std::set<std::string> changedNames(const State& before, const State& after)
   return names;
 }
 
-/// Draws through another pass, or as plain VTK where there is none, and looks at the state around
-/// it.
+/// Draws by another pass, or like plain VTK without one, and records the state around it.
 class ProbePass : public vtkRenderPass
 {
 public:
@@ -212,7 +211,7 @@ class GlState : public PassTest
 {
 };
 
-/// Texture units that VTK's manager can still give.
+/// Return the number of texture units that VTK's manager can still give.
 int freeTextureUnits(vtkOpenGLRenderWindow* window)
 {
   vtkTextureUnitManager* manager = window->GetState()->GetTextureUnitManager();
@@ -228,11 +227,11 @@ int freeTextureUnits(vtkOpenGLRenderWindow* window)
   return static_cast<int>(units.size());
 }
 
-/// Expects a pass to change state only where plain VTK does, too.
-/// @param choose gives the scene's pass its settings, and says which pass is to draw: that one, or
-/// one around it
-/// @param ofVtk what VTK leaves behind of its last drawing, which may be another one than that of
-/// the frame before
+/// Expect a pass to change state only where plain VTK does, too.
+/// @param choose sets up the scene's pass and returns the pass to draw with: that one, or one
+/// around it
+/// @param ofVtk state that VTK leaves after its last drawing, which may differ from the last
+/// drawing of the frame before
 void expectChangesOfPlainVtkOnly(
   const std::function<vtkRenderPass*(PassScene&)>& choose, const std::set<std::string>& ofVtk = {})
 {
@@ -429,7 +428,7 @@ TEST_P(GlStateOfWay, objectsStayTheSameInNumber)
   }
   const LiveObjects toggled = countLiveObjects(scene.window);
   EXPECT_TRUE(toggled.sameButPrograms(live)) << toggled << " after the pass was off and on";
-  // Plain VTK's own programs have joined those with the hook; no more come.
+  // Plain VTK's own programs have been added to those with the hook; no more follow.
   scene.usePlain();
   scene.render();
   scene.useGnomon();
@@ -507,7 +506,7 @@ TEST_P(GlStateOfWay, passMayDieWhileAnotherWindowIsDrawn)
   fill(b);
   b.usePlain();
   const Picture plain = b.render();
-  // Both windows draw the same actor, whose mapper holds the pass until it is drawn without it.
+  // Both windows draw the same actor; its mapper refers to the pass until drawn without it.
   vtkActor* shared = b.addSphere({ 1.5, -1.0, 1.0 }, 0.5);
   a.addFloor(4.0);
   a.renderer->AddActor(shared);
@@ -588,7 +587,7 @@ TEST_P(GlStateOfWay, withoutFreeTextureUnitsTheSceneIsDrawnWithoutShadows)
   const bool fetches = GetParam().route != vtkGnomonShadowPass::ROUTE_INLINE;
   if (fetches)
   {
-    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE); // the deferred one needs no unit
+    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE); // the deferred route needs no unit
   }
   scene.usePlain();
   const Picture plain = scene.render();
@@ -600,7 +599,7 @@ TEST_P(GlStateOfWay, withoutFreeTextureUnitsTheSceneIsDrawnWithoutShadows)
   {
     taken.push_back(unit);
   }
-  manager->Free(taken.back()); // one is not enough for two maps
+  manager->Free(taken.back()); // one unit is not enough for two maps
   taken.pop_back();
   if (fetches)
   {

@@ -1,4 +1,4 @@
-// Glyphs that the snapshot keeps as instances show what their triangles show.
+// Glyphs stored as instances in the snapshot show the same as their triangles.
 
 #include "PassScene.h"
 
@@ -60,7 +60,7 @@ protected:
       mask->SetTuple1(i, i % 9 == 4 ? 0 : 1);
       sources->SetTuple1(i, i % 2);
     }
-    // Open, so that its sides differ.
+    // An open source, whose sides differ.
     this->cup->SetThetaResolution(13);
     this->cup->SetPhiResolution(5);
     this->cup->SetEndPhi(110.0);
@@ -84,8 +84,8 @@ protected:
     return array;
   }
 
-  /// Whether they are kept as instances is not to be seen. A clipping plane that cuts nothing has
-  /// them expanded.
+  /// Expect the same picture as from expanded glyphs. A clipping plane that cuts nothing expands
+  /// them.
   void expectSameAsExpanded(std::size_t instances)
   {
     const Picture kept = this->scene.render();
@@ -95,13 +95,13 @@ protected:
     const Picture expanded = this->scene.render();
     EXPECT_EQ(this->scene.report().instances, 0u);
     this->mapper->RemoveAllClippingPlanes();
-    // Rays that meet an edge to within rounding, and texels that an edge crosses so near. With
-    // holes there are several times as many edges.
+    // Tolerance: rays that meet an edge to within rounding, and texels that an edge crosses so
+    // closely. With holes there are several times as many edges.
     EXPECT_LE(differingPixels(kept, expanded, 2),
       kept.pixels() / (this->actor->GetTexture() ? 10000 : 20000));
     this->expectShadows(kept);
   }
-  /// Some of the picture is dark, and not all.
+  /// Expect some of the picture to be dark, but not all.
   void expectShadows(const Picture& picture)
   {
     std::size_t dark = 0;
@@ -152,7 +152,7 @@ TEST_P(GlyphInstances, ofSeveralSourcesAreSurfacesOfTheirOwn)
   vtkNew<vtkSphereSource> ball;
   ball->SetThetaResolution(16);
   ball->SetPhiResolution(8);
-  ball->SetCenter(0.3, 0.0, 100.0); // far from its origin, in the source's own measure
+  ball->SetCenter(0.3, 0.0, 100.0); // far from its origin, in the source's units
   this->mapper->SetSourceConnection(1, ball->GetOutputPort());
   this->mapper->SourceIndexingOn();
   this->mapper->SetSourceIndexArray("sources");
@@ -177,7 +177,7 @@ TEST_P(GlyphInstances, mirroredAndOneSided)
 //------------------------------------------------------------------------------
 TEST_P(GlyphInstances, withHolesAreSeenThrough)
 {
-  // A third of each row is left, another one in every row, so that no shift goes unnoticed.
+  // A third of each row is opaque, shifted in every row, so any shift is noticed.
   vtkNew<vtkImageData> image;
   image->SetDimensions(9, 5, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
@@ -208,7 +208,7 @@ TEST_P(GlyphInstances, withHolesAreSeenThrough)
   vtkGnomonPropKeys::SetOneSided(this->actor, true);
   this->expectSameAsExpanded(glyphCount);
 
-  // Only what the texture leaves is new, or where they are.
+  // Only the texture's mask or the placement changes.
   vtkGnomonPropKeys::SetOneSided(this->actor, false);
   this->scene.render();
   this->actor->SetPosition(0.5, 0.0, 0.2);
@@ -242,7 +242,7 @@ TEST_P(GlyphInstances, thatWouldLosePrecisionAreExpanded)
 {
   vtkNew<vtkMatrix4x4> matrix;
   this->actor->SetUserMatrix(matrix);
-  matrix->SetElement(0, 2, 0.3); // sheared a little
+  matrix->SetElement(0, 2, 0.3); // slightly sheared
   this->expectSameAsExpanded(glyphCount);
   matrix->SetElement(0, 2, 8.0);
   matrix->Modified();
@@ -287,7 +287,7 @@ TEST_P(GlyphInstances, changesCostWhatChanged)
   boxes[3]->SetPosition(0.1, 0.2, 0.0);
   expectUpdate(0, 1, 0, 1);
 
-  // A point moves: the instances are read again.
+  // A point moves: the instances are extracted again.
   this->points->GetPoints()->SetPoint(5, 0.0, 0.0, 6.0);
   this->points->GetPoints()->Modified();
   this->points->Modified();
@@ -295,7 +295,7 @@ TEST_P(GlyphInstances, changesCostWhatChanged)
   this->expectSameAsExpanded(glyphCount);
   this->scene.render();
   expectUpdate(0, 0, 0, 0);
-  // Others than before are drawn.
+  // Other instances than before are drawn.
   this->points->GetPoints()->SetPoint(5, std::nan(""), 0.0, 6.0);
   this->points->GetPoints()->Modified();
   this->points->Modified();

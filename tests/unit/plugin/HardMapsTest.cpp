@@ -1,5 +1,4 @@
-// The quality of hard shadow maps of all projections, with their default settings: no
-// detached shadows.
+// The quality of hard shadow maps of all projections with default settings: no detached shadows.
 
 #include "PassScene.h"
 #include "Variant.h"
@@ -68,7 +67,7 @@ TEST_P(BakedMaps, receiversThatDoNotCastMayLieBehindAllCasters)
 //------------------------------------------------------------------------------
 TEST_P(HardMaps, shadowsTouchTheirCasters)
 {
-  // A wall on a floor, seen from above; its shadow begins at x = 0.1 and must do so within a texel.
+  // A wall on a floor, seen from above. Its shadow must begin within a texel of x = 0.1.
   PassScene scene(400, 400);
   this->choose(scene);
   scene.addFloor(4.0);
@@ -79,7 +78,7 @@ TEST_P(HardMaps, shadowsTouchTheirCasters)
     scene.pass->SetMapSize(mapSize);
     scene.lookDown(0.2, 0.2);
     const Picture picture = scene.render();
-    // The floor's extent across the light, and how long a texel's footprint on the floor is.
+    // The floor's extent across the light, and the length of a texel's footprint on the floor.
     const double texel = (8.0 + 1.0) / mapSize * std::sqrt(2.0);
     for (const int y : { 100, 200, 300 })
     {

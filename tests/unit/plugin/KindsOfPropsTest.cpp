@@ -25,7 +25,7 @@ class KindsOfProps
   , public testing::WithParamInterface<const char*>
 {
 protected:
-  /// What ambient light alone shows of it.
+  /// The colour under ambient light alone.
   static constexpr glm::ivec3 darkGroundColour{ 38, 38, 37 };
 
   KindsOfProps()
@@ -34,7 +34,7 @@ protected:
     this->scene.pass->KeepVisibilityOff();
   }
 
-  /// What a frame shows.
+  /// Counts of a frame.
   struct Shown
   {
     std::size_t darkGround = 0;   ///< pixels of the picture with the ground's colour in shadow
@@ -64,7 +64,7 @@ protected:
     return shown;
   }
 
-  /// Draws without one prop after the other, and calls `check` with its name and what is shown.
+  /// Draw without one prop after the other, and call `check` with its name and the frame's counts.
   template <typename Check>
   void hideEach(const Check& check)
   {
@@ -74,7 +74,8 @@ protected:
     for (std::size_t i = 0; i < props.size(); ++i)
     {
       SCOPED_TRACE(props[i].name);
-      auto* prop = vtkProp::SafeDownCast(all->GetItemAsObject(static_cast<int>(i) + 1)); // a ground
+      // The ground is prop 0.
+      auto* prop = vtkProp::SafeDownCast(all->GetItemAsObject(static_cast<int>(i) + 1));
       prop->VisibilityOff();
       check(props[i].name, this->draw());
       prop->VisibilityOn();
@@ -98,15 +99,15 @@ TEST_P(KindsOfProps, castOrAreListed)
   this->hideEach(
     [&](const std::string& name, const Shown& without)
     {
-      // Other bounds are other texels: a few pixels at edges of other shadows change with them.
+      // Without the prop, bounds and texels differ, so a few pixels at other shadows' edges change.
       const bool casts = without.darkGround + 30 < all.darkGround;
       const bool isListed = without.leftOut != all.leftOut;
-      EXPECT_EQ(casts, !isListed && name != "text"); // which VTK does not light
+      EXPECT_EQ(casts, !isListed && name != "text"); // VTK does not light text
     });
 }
 
 //------------------------------------------------------------------------------
-/// Below a plate that hides the sun from everything and the camera from nothing.
+/// A plate hides the sun from everything and nothing from the camera.
 TEST_P(KindsOfProps, receiveOrAreListed)
 {
   vtkNew<vtkPlaneSource> plate;

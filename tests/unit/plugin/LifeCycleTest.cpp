@@ -1,7 +1,7 @@
-// What hundreds of changes leave behind: nothing. Live OpenGL objects stay the same in number, and
-// resident memory grows by less than 1.5 MB from the first half of the changes to the second, which
-// is what 125 leaks of 12 kB would be. The longest loops also run without the pass, to tell apart
-// what VTK and the driver keep for themselves.
+// Hundreds of changes must leave nothing behind. The number of live OpenGL objects stays the same.
+// Resident memory grows by less than 1.5 MB from the first half of the changes to the second: 125
+// leaks of 12 kB would grow that much. The longest loops also run without the pass, to separate the
+// memory of VTK and the driver.
 
 #include "LiveObjects.h"
 #include "PassScene.h"
@@ -29,8 +29,8 @@ constexpr int warmUp = 50;
 constexpr int manyTimes = 250;
 constexpr double mostGrowthMegabytes = 1.5;
 
-/// Memory of this process that is in use and not swapped out, in megabytes. Earlier cases leave
-/// free memory in malloc, which a leak would fill unseen: it is given back first.
+/// Return this process's memory that is in use and not swapped out, in megabytes. Earlier cases
+/// leave free memory in malloc, which would hide a leak, so it is returned first.
 double residentMegabytes()
 {
   malloc_trim(0);
@@ -51,7 +51,7 @@ void fillWithSunAndSpot(PassScene& scene)
   scene.pass->SetMapSize(128);
 }
 
-/// What many repetitions of something leave behind.
+/// Objects and memory left by many repetitions.
 struct LeftBehind
 {
   LiveObjects before;
@@ -59,9 +59,9 @@ struct LeftBehind
   double growthMegabytes = 0.0;
 };
 
-/// Repeats something, and compares live objects after the first few times and at the end. Memory
-/// goes up and down by megabytes with the number of threads that build the tracer. A leak raises
-/// both the least and the most of the second half over those of the first: the lesser rise counts.
+/// Repeat an action, and compare live objects after the first few times and at the end. Memory
+/// varies by megabytes with the number of threads that build the tracer. A leak raises both the
+/// minimum and the maximum of the second half over those of the first, so the smaller rise counts.
 LeftBehind repeat(vtkRenderWindow* window, int times, const std::function<void(int)>& action)
 {
   for (int time = 0; time < warmUp; ++time)
@@ -103,7 +103,7 @@ void expectNothingLeftBehind(const LeftBehind& left)
   record("growthKilobytes", left);
 }
 
-/// What plain VTK leaves behind in the same loop must be near what it leaves with the pass.
+/// Expect the memory growth with the pass to be near that of plain VTK in the same loop.
 void expectNoMoreThanPlainVtk(const LeftBehind& left, const LeftBehind& plain)
 {
   record("growthKilobytesOfPlainVtk", plain);
@@ -164,7 +164,7 @@ TEST_P(LifeCycle, lightsSwitchedOffAndOnManyTimes)
       const bool on = time % 2 == 1;
       sun->SetSwitch(on);
       this->draw();
-      spot->SetShadowAttenuation(on ? 1.0f : 0.0f); // 0: its shadows take nothing away
+      spot->SetShadowAttenuation(on ? 1.0f : 0.0f); // 0: its shadows remove no light
       this->draw();
     }));
 }
@@ -270,7 +270,7 @@ TEST_P(LifeCycle, lightSamplingReleasesEverything)
     EXPECT_EQ(picture, this->scene_.render()) << "drawn again after the release";
     this->scene_.usePlain();
   }
-  // It may die before its window, and move to another one.
+  // The pass may be deleted before its window, and may move to another window.
   const LiveObjects after = countLiveObjects(this->scene_.window);
   EXPECT_TRUE(after.sameButPrograms(plain)) << after << "; plain: " << plain;
   vtkNew<vtkGnomonLightSamplingPass> sampling;

@@ -1,4 +1,4 @@
-// Directional lights that are limited to a box.
+// Directional lights limited to a box.
 
 #include "PassScene.h"
 
@@ -55,7 +55,7 @@ protected:
     this->casters.push_back(caster);
   }
 
-  /// What the floor must show, with the light's box this deep.
+  /// Return the exact answer for the floor, with the light's box this deep.
   ExactFloor exact(double depth) const
   {
     return [this, depth](const glm::dvec2& floor)
@@ -76,11 +76,11 @@ protected:
         along <= depth && std::abs(across) <= 0.5 * width && std::abs(floor.y) <= 0.5 * height;
       const bool shadow = std::any_of(this->casters.begin(), this->casters.end(),
         [&](const Caster& caster) { return this->blocks(caster, floor, along); });
-      return inBox && !shadow ? 180.0 : 0.0; // 255 at 45 degrees
+      return inBox && !shadow ? 180.0 : 0.0; // 255 times the cosine of 45 degrees
     };
   }
 
-  /// Whether the way from the floor to the near face, `length` long, meets a caster.
+  /// True if the segment from the floor to the near face, `length` long, meets a caster.
   bool blocks(const Caster& caster, const glm::dvec2& floor, double length) const
   {
     double first = 0.0;
@@ -120,7 +120,7 @@ TEST_P(LightBox, lightsAndCastsWithinOnly)
   this->addCaster({ { -3.3, 1.0, 2.7 }, { -2.7, 1.3, 3.3 } });   // across it
   this->addCaster({ { -0.2, 1.9, 0.3 }, { 0.2, 2.5, 0.6 } });    // across a side
   this->addCaster({ { 2.4, 0.2, 0.3 }, { 2.8, 0.6, 0.9 } });     // beside
-  for (const double depth : { 9.0, 4.5 }) // past the floor, and over a part of it
+  for (const double depth : { 9.0, 4.5 }) // past the floor, and above a part of it
   {
     vtkGnomonLightKeys::SetBox(this->light, width, height, depth, this->up);
     const FloorCheck check =
@@ -129,7 +129,7 @@ TEST_P(LightBox, lightsAndCastsWithinOnly)
     EXPECT_EQ(check.falseLight, 0u) << depth;
     EXPECT_EQ(check.falseShadow, 0u) << depth;
   }
-  // Without the box the casters outside cast, and all of the floor is reached.
+  // Without the box, the casters outside cast, and the light reaches all of the floor.
   vtkGnomonLightKeys::RemoveBox(this->light);
   const FloorCheck check = checkFloor(this->scene, this->scene.render(), this->exact(9.0), 0.06);
   EXPECT_GT(check.falseLight, 10000u);

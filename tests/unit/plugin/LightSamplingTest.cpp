@@ -54,7 +54,7 @@ using testing::HasSubstr;
 namespace
 {
 
-/// Counts the pictures that the pass within draws.
+/// Counts the pictures that the delegate pass draws.
 class CountingPass : public vtkRenderPass
 {
 public:
@@ -76,7 +76,7 @@ public:
 };
 vtkStandardNewMacro(CountingPass);
 
-/// A picture's channels before they are rounded.
+/// A picture's channels, unrounded.
 using Channels = std::vector<double>;
 
 Channels channelsOf(const Picture& picture)
@@ -118,7 +118,7 @@ std::string nameOfLight(const testing::TestParamInfo<Named>& info)
 
 const glm::dvec3 lampPlace(-2.0, -2.5, 4.0);
 
-/// @param change what else it is
+/// @param change further changes to the light
 vtkSmartPointer<vtkGnomonAreaLight> rectangle(
   double coneAngleDegrees, const std::function<void(vtkGnomonAreaLight*)>& change = {})
 {
@@ -136,8 +136,8 @@ vtkSmartPointer<vtkGnomonAreaLight> rectangle(
   return light;
 }
 
-/// Two rows of grey, red and dark, and of blue, white and black, with no mean that their middle
-/// has.
+/// Two rows of grey, red and dark, and of blue, white and black. No mean of them equals the
+/// middle's colour.
 vtkSmartPointer<vtkImageData> makePanes()
 {
   constexpr std::array<std::array<unsigned char, 3>, 6> panes = { { { 90, 90, 90 }, { 255, 20, 10 },
@@ -227,7 +227,7 @@ std::vector<Named> allLights()
   const auto castingHeadlight = [](vtkLight* light)
   {
     light->SetLightTypeToHeadlight();
-    vtkGnomonLightKeys::SetCasts(light, true); // which one that is alone is asked for
+    vtkGnomonLightKeys::SetCasts(light, true); // a headlight that is alone needs the key
   };
   const auto ofTheCamera = [](vtkGnomonAreaLight* light)
   {
@@ -251,8 +251,8 @@ std::vector<Named> allLights()
   };
 }
 
-/// What the points of a light shine with: the colours of its texture there, brightened or darkened
-/// together until their mean is that of the texture.
+/// Return the colours of a light's points: those of its texture there, all scaled until their mean
+/// is that of the texture.
 std::vector<glm::dvec3> shineByHand(
   const gnomon::ShadowLight& light, const std::vector<glm::dvec3>& offsets)
 {
@@ -273,7 +273,7 @@ std::vector<glm::dvec3> shineByHand(
   return shine;
 }
 
-/// A box, a shining sphere and a floor, lit by an area light, and shaded from each of its points.
+/// A box, a shining sphere and a floor, lit by an area light and shaded from each of its points.
 class LightSamplingScene : public PassTest
 {
 protected:
@@ -300,7 +300,7 @@ protected:
     this->scene.renderer->AddLight(areaLight);
   }
 
-  /// Expects the delegate's picture from the centre, bit for bit; where the light has a texture,
+  /// Expect the delegate's picture from the centre, bit for bit; where the light has a texture,
   /// the delegate may have rounded its mean elsewhere.
   void expectHard(const Picture& picture, const Picture& hard)
   {
@@ -317,9 +317,8 @@ protected:
     return picture;
   }
 
-  /// Pictures of a pass, one for each point of the light, by a light of VTK's that is placed there
-  /// by hand.
-  /// @param add gets each of them
+  /// Draw a picture of a pass for each point of the light, by a VTK light placed there by hand.
+  /// @param add called with each picture
   void forEachPoint(vtkRenderPass* pass, const std::function<void(const Picture&)>& add)
   {
     this->scene.render(); // head lights follow the camera
@@ -356,8 +355,8 @@ protected:
     this->scene.renderer->AddLight(this->light);
   }
 
-  /// Their mean.
-  /// @param gamma what the pictures' values stand for is their power of it
+  /// Return the pictures' mean.
+  /// @param gamma the pictures' values to this power are linear light
   Channels meanByHand(vtkRenderPass* pass, double gamma = 1.0)
   {
     Channels sum;
@@ -379,8 +378,8 @@ protected:
     return sum;
   }
 
-  /// Expects a picture to be that mean but for roundings: eight bits round each of the pictures,
-  /// and the mean.
+  /// Expect a picture to be that mean except for roundings: each of the pictures and the mean are
+  /// rounded to eight bits.
   void expectMean(const Picture& seen, vtkRenderPass* pass, double tolerance = 1.0)
   {
     EXPECT_LE(largestDifference(channelsOf(seen), this->meanByHand(pass)), tolerance);
@@ -406,7 +405,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Lights, LightSamplingOf, testing::ValuesIn(allLights()), nameOfLight);
 
 //------------------------------------------------------------------------------
-/// By one point it is the hard picture, bit for bit, whatever the delegate makes of area lights.
+/// With one sample it is the hard picture, bit for bit, however the delegate treats area lights.
 TEST_P(LightSamplingOf, oneSampleIsTheHardPicture)
 {
   this->sampling->SetSamples(1);
@@ -419,7 +418,7 @@ TEST_P(LightSamplingOf, oneSampleIsTheHardPicture)
 }
 
 //------------------------------------------------------------------------------
-/// What is drawn is what pictures say that are drawn with VTK's own lights at the points.
+/// The picture equals the mean of pictures with VTK's own lights at the points.
 TEST_P(LightSamplingOf, meanIsThatOfPicturesByHand)
 {
   for (const int samples : { 6, 7 })
@@ -429,7 +428,7 @@ TEST_P(LightSamplingOf, meanIsThatOfPicturesByHand)
     EXPECT_GT(differingPixels(seen, this->pictureOf(this->scene.pass), 10), 100u) << "soft";
     this->expectMean(seen, this->scene.pass);
   }
-  // Where nobody makes shadows, too.
+  // Also without a delegate, that is without shadows.
   this->sampling->SetDelegatePass(nullptr);
   this->expectMean(this->scene.render(), nullptr);
 }
@@ -461,7 +460,7 @@ TEST_P(LightSamplingOf, lightsAreAsTheyWere)
     EXPECT_EQ(this->light->GetInformation()->GetMTime(), keysTime);
   }
   EXPECT_EQ(modified, 0);
-  // Nor do shaders remember where the lights have been, whoever they are of.
+  // Shaders keep no former light places, with a delegate or without.
   EXPECT_EQ(this->pictureOf(nullptr), plain);
   this->sampling->SetDelegatePass(nullptr);
   this->scene.render();
@@ -507,7 +506,7 @@ protected:
     this->sphere->VisibilityOff();
   }
 
-  /// Renders until all is shown.
+  /// Render until the picture is complete.
   void finish()
   {
     int frame = 0;
@@ -520,7 +519,7 @@ protected:
 };
 
 //------------------------------------------------------------------------------
-/// Unoccluded, no frame is brighter or darker than the others by more than what a larger light is.
+/// Without occlusion, frames differ in brightness only by the effect of the light's size.
 TEST_F(LightSampling, refinesAtConstantBrightness)
 {
   this->leaveFloorAlone();
@@ -545,7 +544,7 @@ TEST_F(LightSampling, refinesAnewWhenSomethingChanges)
   vtkNew<vtkTextActor> text;
   text->SetInput("3");
   this->scene.renderer->AddViewProp(text);
-  // A caster that the camera does not see.
+  // A caster outside the camera's view.
   vtkNew<vtkPlaneSource> behind;
   behind->SetOrigin(-2.2, -3.0, 3.0);
   behind->SetPoint1(-1.8, -3.0, 3.0);
@@ -625,8 +624,8 @@ TEST_F(LightSampling, tellsOfItsProgress)
 }
 
 //------------------------------------------------------------------------------
-/// Lambert and 1 / d^2 under a large near light: the mean over a rectangle of h / d^3 is the solid
-/// angle that it fills, over its area.
+/// Lambert and 1 / d^2 under a large near light. The mean over a rectangle of h / d^3 is its solid
+/// angle over its area.
 TEST_F(LightSampling, attenuatedCosinesAreThoseOfGeometry)
 {
   this->leaveFloorAlone();
@@ -663,7 +662,7 @@ TEST_F(LightSampling, attenuatedCosinesAreThoseOfGeometry)
       const double value = 255.0 * lamp->GetIntensity() * exact(at);
       if (value < 60.0)
       {
-        continue; // rounded to more than a percent
+        continue; // rounding exceeds a percent
       }
       worst = std::max(worst, (std::abs(seen.red(x, y) - value) - 0.5) / value);
       const double distance = glm::length(glm::dvec3(at, height));
@@ -672,11 +671,11 @@ TEST_F(LightSampling, attenuatedCosinesAreThoseOfGeometry)
     }
   }
   EXPECT_LT(worst, 0.01);
-  EXPECT_GT(worstOfCentre, 0.5); // what shading from the centre is off by
+  EXPECT_GT(worstOfCentre, 0.5); // the error of shading from the centre
 }
 
 //------------------------------------------------------------------------------
-/// VTK's physically based shading gives the 2.2th root of light: what is averaged is the light.
+/// VTK's physically based shading outputs light to the power 1 / 2.2. Light is averaged.
 TEST_F(LightSampling, physicallyBasedShadingIsAveragedAsLight)
 {
   for (vtkActor* actor : { this->floor, this->box, this->sphere })
@@ -686,9 +685,9 @@ TEST_F(LightSampling, physicallyBasedShadingIsAveragedAsLight)
     actor->GetProperty()->SetMetallic(0.3);
     actor->GetProperty()->SetCoatStrength(0.5);
   }
-  this->light->SetIntensity(0.7); // so that no picture is brighter than white
+  this->light->SetIntensity(0.7); // no picture is then clipped
   const Channels seen = channelsOf(this->scene.render());
-  // What eight bits round is more after a root, where it is dark.
+  // In dark pixels, the root enlarges the rounding to eight bits.
   EXPECT_LE(largestDifference(seen, this->meanByHand(this->scene.pass, 2.2)), 1.5);
   this->sampling->SetGamma(1.0);
   const Channels asShown = channelsOf(this->scene.render());
@@ -701,7 +700,7 @@ TEST_F(LightSampling, lightsWithoutAreaStay)
 {
   vtkLight* sun = this->scene.addSun({ -1.0, 0.3, -1.5 });
   sun->SetIntensity(0.3);
-  this->light->SetIntensity(0.5); // so that no picture is brighter than white
+  this->light->SetIntensity(0.5); // no picture is then clipped
   this->expectMean(this->scene.render(), this->scene.pass);
   this->light->SwitchOff();
   this->counting->Count = 0;
@@ -748,7 +747,8 @@ TEST_F(LightSampling, depthsAreThoseOfThePlainPicture)
 }
 
 //------------------------------------------------------------------------------
-/// What is below a layer is a part of its pictures, and may change in every frame: they get all.
+/// The layers below are part of the pictures and may change in every frame, so every frame takes
+/// all samples.
 TEST_F(LightSampling, partsOfWindowsAndLayersAreShown)
 {
   this->sampling->SetSamplesPerFrame(2);
@@ -776,7 +776,7 @@ TEST_F(LightSampling, alphaIsThatOfThePlainPicture)
   this->scene.window->AlphaBitPlanesOn();
   this->sphere->GetProperty()->SetOpacity(0.5);
   this->scene.lookFrom({ 2.0, -12.0, 3.0 });
-  vtkNew<vtkRenderStepsPass> steps; // as in all framebuffers of passes
+  vtkNew<vtkRenderStepsPass> steps; // as in every framebuffer of a pass
   this->scene.pass->SetDelegatePass(steps);
   const auto alphasOf = [&](vtkRenderPass* pass)
   {
@@ -807,7 +807,7 @@ TEST_F(LightSampling, translucentSurfacesAreShown)
   peeling->SetTranslucentPass(translucent);
   steps->SetTranslucentPass(peeling);
   this->scene.pass->SetDelegatePass(steps);
-  // Eight bits round what lies behind, too.
+  // The background is rounded to eight bits, too.
   this->expectMean(this->scene.render(), this->scene.pass, 2.0);
 }
 
@@ -848,7 +848,7 @@ TEST_F(LightSampling, severalViewsGetAllInEveryFrame)
 }
 
 //------------------------------------------------------------------------------
-/// Nine tiles, which the camera sees one after the other.
+/// Nine tiles, which the camera sees one by one.
 TEST_F(LightSampling, tilesShowAllOfEachPart)
 {
   this->sampling->SetSamplesPerFrame(2);
@@ -866,7 +866,7 @@ TEST_F(LightSampling, tilesShowAllOfEachPart)
   const auto* tiled = static_cast<const unsigned char*>(large->GetOutput()->GetScalarPointer());
   Picture joined = seen;
   std::copy(tiled, tiled + joined.rgb.size(), joined.rgb.begin());
-  EXPECT_LT(differingPixels(seen, joined, 20), 300u); // edges, of pixels that are split otherwise
+  EXPECT_LT(differingPixels(seen, joined, 20), 300u); // edges, since pixels are split differently
 }
 
 //------------------------------------------------------------------------------
@@ -875,7 +875,7 @@ TEST_F(LightSampling, otherPassesStandAroundAndInside)
   const Picture seen = this->scene.render();
   const auto alike = [&](vtkRenderPass* pass)
   {
-    // Edges aside, which those passes smooth.
+    // Except edges, which those passes smooth.
     const Picture through = this->pictureOf(pass);
     EXPECT_LT(differingPixels(seen, through, 40), 700u) << pass->GetClassName();
     EXPECT_NEAR(meanOf(channelsOf(through)), meanOf(channelsOf(seen)), 2.0) << pass->GetClassName();
@@ -900,12 +900,12 @@ TEST_F(LightSampling, otherPassesStandAroundAndInside)
 }
 
 //------------------------------------------------------------------------------
-// What cannot be
+// Unsupported uses
 //------------------------------------------------------------------------------
 
 TEST_F(LightSampling, refusesWhatItCannotShow)
 {
-  // Ambient occlusion around it wants positions as well.
+  // Ambient occlusion around the pass needs positions as well.
   vtkNew<vtkSSAOPass> occlusion;
   occlusion->SetDelegatePass(this->sampling);
   occlusion->SetRadius(0.1);
@@ -932,12 +932,12 @@ TEST_F(LightSampling, refusesWhatItCannotShow)
 }
 
 //------------------------------------------------------------------------------
-/// Who looks up at a texture in the sky sees it as it is: what a plate over one half of the floor
-/// hides of it says which half is where.
+/// A viewer who looks up at a texture in the sky sees it unmirrored. A plate over one half of the
+/// floor hides a part of it, which shows how it lies.
 TEST_F(LightSampling, aTextureInTheSkyLiesAsItIsSeen)
 {
   this->leaveFloorAlone();
-  const double slope = 0.2;  // of the way to the sky's window's sides
+  const double slope = 0.2;  // of the directions to the window's sides
   const double height = 5.0; // of the plate, so that its penumbra ends at 1 and -1
   auto* sky = vtkGnomonAreaLight::SafeDownCast(this->light);
   sky->PositionalOff();
@@ -954,8 +954,8 @@ TEST_F(LightSampling, aTextureInTheSkyLiesAsItIsSeen)
     glm::dvec3 end(8.0, 8.0, height + 0.01);
     end[axis] = 0.0;
     vtkActor* const plate = this->scene.addBox({ -8.0, -8.0, height }, end);
-    // Its left is at +x for who looks up with +y upwards, and its top at +y: what is seen from
-    // where the plate ends last.
+    // Looking up with +y upwards, the texture's left is at +x and its top at +y. Those parts are
+    // visible from where the plate's penumbra ends.
     sky->SetTexture(makeImage(axis == 0 ? 2 : 1, axis == 0 ? 1 : 2,
       [&](int x, int y)
       {
@@ -979,7 +979,7 @@ TEST_F(LightSampling, aTextureInTheSkyLiesAsItIsSeen)
 }
 
 //------------------------------------------------------------------------------
-/// Of a channel that no point has there is nothing to scale.
+/// If no point has light in a channel, there is nothing to scale.
 TEST_F(LightSampling, channelsThatNoPointHasStayDark)
 {
   auto* lamp = vtkGnomonAreaLight::SafeDownCast(this->light);
@@ -994,7 +994,7 @@ TEST_F(LightSampling, channelsThatNoPointHasStayDark)
   lamp->SwitchOn();
   for (const double red : { 0.0, 1.0 })
   {
-    // Red at most, where neither of the two points is.
+    // Red at most, at a texel with neither of the two points.
     lamp->SetTexture(makeImage(
       16, 16, [&](int x, int y) { return glm::dvec3(x + y == 0 ? red : 0.0, 0.0, 0.0); }));
     const Picture with = this->scene.render();
@@ -1005,7 +1005,7 @@ TEST_F(LightSampling, channelsThatNoPointHasStayDark)
 }
 
 //------------------------------------------------------------------------------
-/// Lights that cannot be sampled are not passed over in silence, unless nothing is lit by them.
+/// Lights that cannot be sampled are reported, unless they light nothing.
 TEST_F(LightSampling, saysWhichLightsAreNotSampled)
 {
   auto* lamp = vtkGnomonAreaLight::SafeDownCast(this->light);
@@ -1023,7 +1023,7 @@ TEST_F(LightSampling, saysWhichLightsAreNotSampled)
   this->scene.render();
   EXPECT_THAT(this->takeErrors(), HasSubstr("light 0: its texture"));
   lamp->SetTexture(nullptr);
-  // A light without area has none that could be wrong.
+  // A light without an area cannot have a wrong one.
   vtkNew<vtkLight> nowhere;
   nowhere->SetPosition(0.0, 0.0, 0.0);
   nowhere->SetFocalPoint(0.0, 0.0, 0.0);
@@ -1062,7 +1062,7 @@ TEST_F(LightSampling, printsItself)
 }
 
 //------------------------------------------------------------------------------
-/// A thousand pictures and one add up in the memory of two.
+/// A thousand and one pictures are added up in the memory of two.
 TEST_F(LightSampling, takesAThousandPictures)
 {
   this->scene.window->SetSize(24, 16);

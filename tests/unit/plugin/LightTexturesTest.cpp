@@ -1,5 +1,5 @@
-// Lights with textures in frames: coloured visibility against what is known and against rays, and
-// what of it all techniques and routes show.
+// Lights with textures in frames: coloured visibility against known values and rays, and the
+// support of techniques and routes.
 
 #include "PassScene.h"
 #include "Scene.h"
@@ -36,7 +36,7 @@ using testing::HasSubstr;
 namespace
 {
 
-/// Those that see textures.
+/// Techniques that support textures.
 const std::vector<const char*> seeing = { "raytraced", "penumbra", "montecarlo", "sampled",
   "coherence" };
 
@@ -76,8 +76,8 @@ protected:
     this->scene.lookDown(1.2);
   }
 
-  /// A plate halfway to the lamp that hides from the origin what of it is on one side of its
-  /// middle.
+  /// Add a plate halfway to the lamp. It hides the part of the lamp on one side of its middle from
+  /// the origin.
   void addPlate(const glm::dvec3& lower, const glm::dvec3& upper)
   {
     this->scene.addBox(lower + glm::dvec3(0.0, 0.0, 5.0), upper + glm::dvec3(0.0, 0.0, 5.001));
@@ -104,7 +104,7 @@ protected:
     return drawKept(this->scene);
   }
 
-  /// Expects that visibility is what `expected` says at the places of all pixels of the floor.
+  /// Expect visibility to equal `expected` at the places of all pixels of the floor.
   void expectFloor(const std::string& technique,
     const std::function<Colour(const glm::dvec3&)>& expected, double mean, double most)
   {
@@ -144,7 +144,7 @@ protected:
 TEST_F(LightTextures, haveTheirMeanWhereNothingHidesThem)
 {
   this->addFloor();
-  this->scene.pass->SetSetting("mc_classify", "off"); // bounds would decide without any ray
+  this->scene.pass->SetSetting("mc_classify", "off"); // bounds would decide all without rays
   for (const bool disk : { false, true })
   {
     disk ? this->lamp->SetShapeToDisk() : this->lamp->SetShapeToRectangle();
@@ -175,8 +175,7 @@ TEST_F(LightTextures, areSeenHalfByHalf)
   this->addFloor();
   this->addPlate({ -8.0, -8.0, 0.0 }, { 0.0, 8.0, 0.0 });
   this->lamp->SetTexture(makeRedAndBlue());
-  // From x the lamp is seen where it is beyond -x. Its picture's right is -x for who looks up at
-  // it.
+  // From x, the part of the lamp beyond -x is visible. Looking up, the picture's right is -x.
   const auto expected = [](const glm::dvec3& place)
   {
     return Colour{ 0.5 * std::clamp(1.0 + place.x, 0.0, 1.0), 0.0,
@@ -209,7 +208,7 @@ TEST_F(LightTextures, standUpright)
 //------------------------------------------------------------------------------
 TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
 {
-  // The lowest quarter of a lamp beside the floor, in green, is below it. The highest one, in red,
+  // The lowest quarter of a lamp beside the floor (green) is below it. The highest quarter (red)
   // counts twice there.
   this->addFloor();
   this->lamp->SetPosition(-5.0, 0.0, 0.5);
@@ -233,8 +232,8 @@ TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
 //------------------------------------------------------------------------------
 TEST_F(LightTextures, giveWayWhereTheyAreCutBetweenTheRim)
 {
-  // Of a lamp as above on its corner, only that corner is below the floor. None of the rim points
-  // need be there.
+  // If a lamp like that above stands on its corner, only that corner is below the floor. There may
+  // be no rim point in it.
   this->addFloor();
   this->lamp->SetPosition(-5.0, 0.0, 1.3);
   this->lamp->SetFocalPoint(0.0, 0.0, 1.3);
@@ -266,7 +265,7 @@ TEST_F(LightTextures, areFilteredAsLightIsWithout)
 }
 
 //------------------------------------------------------------------------------
-/// A light with a texture and without size is hard, and coloured by the texture's mean.
+/// A light with a texture and no size is hard, coloured by the texture's mean.
 TEST_F(LightTextures, ofPointsStandBesideOtherHardLights)
 {
   this->addFloor();
@@ -395,7 +394,7 @@ TEST_F(LightTextures, colourThePicture)
       EXPECT_LT(glm::distance(at(1.0), lit), 6.0) << what << ", what shows no shadows";
     }
   }
-  // Half a shadow leaves half of the light that there would be.
+  // Half a shadow leaves half of the light.
   this->scene.pass->SetTechnique("raytraced");
   this->addPlate({ -8.0, -8.0, 0.1 }, { 8.0, 8.0, 0.1 });
   this->scene.lookFrom({ 0.0, -8.0, 3.0 }); // from below the plate
@@ -497,7 +496,7 @@ TEST_F(LightTextures, areSeenToChange)
     EXPECT_EQ(this->draw(technique).visibility.size(), 1u) << technique;
     this->lamp->SetTexture(texture);
     EXPECT_EQ(this->draw(technique).visibility, before.visibility) << technique;
-    // The darkest grey, whose points count as those of no texture do.
+    // The darkest grey: its points count like those of no texture.
     this->lamp->SetTexture(nullptr);
     this->draw(technique);
     const double grey = 1.0 / 255.0;
@@ -531,7 +530,7 @@ TEST_F(LightTextures, areRefined)
 }
 
 //------------------------------------------------------------------------------
-/// Whatever the colour is in the middle.
+/// The colour in the middle does not matter.
 TEST_F(LightTextures, areRefinedFromTheHardShadow)
 {
   this->buildScene();
@@ -547,12 +546,12 @@ TEST_F(LightTextures, areRefinedFromTheHardShadow)
   {
     different += std::abs(begun.visibility[1][i] - hard.visibility[1][i]) > 1e-6;
   }
-  EXPECT_LT(different, 10u); // the maps are laid out otherwise
+  EXPECT_LT(different, 10u); // the maps' layouts differ
 }
 
 //------------------------------------------------------------------------------
-/// On a matt floor under a window, shading from all points shows what rays to all of them see, but
-/// for the cosines, which are not those of the window's centre.
+/// On a matt floor under a window, shading from all points equals rays to all of them. Only the
+/// cosines differ: they are not those of the window's centre.
 TEST_F(PassTest, aWindowsPointsShadeAMattFloorAsRaysSeeIt)
 {
   const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene("soft-window"), 1.0);
@@ -567,7 +566,7 @@ TEST_F(PassTest, aWindowsPointsShadeAMattFloorAsRaysSeeIt)
   window->SetSize(100, 100);
   window->AddRenderer(renderer);
   auto* lamp = vtkGnomonAreaLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
-  lamp->SetIntensity(1.0); // so that nothing is clipped
+  lamp->SetIntensity(1.0); // nothing is then clipped
   const auto draw = [&](vtkRenderPass* pass)
   {
     renderer->SetPass(pass);
@@ -617,7 +616,7 @@ TEST_F(PassTest, aWindowsPointsShadeAMattFloorAsRaysSeeIt)
       for (int channel = 0; channel < 3; ++channel)
       {
         const int rays = seen.at(x, y)[channel];
-        // Beyond the cosines, two sets of points differ.
+        // Besides the cosines, the two sets of points differ.
         wrong += std::abs(shaded.at(x, y)[channel] - rays) > off * rays + 3.0;
         unlikeEven += std::abs(even.at(x, y)[channel] - rays) > off * rays + 3.0;
       }
@@ -631,7 +630,7 @@ TEST_F(PassTest, aWindowsPointsShadeAMattFloorAsRaysSeeIt)
 //------------------------------------------------------------------------------
 TEST_F(LightTextures, mayHaveColoursThatFewPointsFind)
 {
-  // One texel of many is lit, and that is nowhere near the centre.
+  // One texel of many is lit, far from the centre.
   this->addFloor();
   this->lamp->SetTexture(
     makeImage(31, 31, [](int x, int y) { return x == 3 && y == 7 ? white : black; }));

@@ -20,7 +20,7 @@ std::ostream& operator<<(std::ostream& stream, const LiveObjects& live)
 LiveObjects countLiveObjects(vtkRenderWindow* window)
 {
   window->MakeCurrent();
-  // Mesa counts on with vertex arrays instead of giving a name again.
+  // Mesa never reuses the names of vertex arrays.
   constexpr GLuint firstUnused = 1u << 16;
   LiveObjects live;
   for (GLuint name = 1; name < firstUnused; ++name)

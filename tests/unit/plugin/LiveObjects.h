@@ -11,7 +11,7 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon::test
 {
 
-/// OpenGL objects that are alive in a context.
+/// Live OpenGL objects of a context.
 struct LiveObjects
 {
   int textures = 0;
@@ -37,7 +37,7 @@ struct LiveObjects
 
 std::ostream& operator<<(std::ostream& stream, const LiveObjects& live);
 
-/// Counts those of a window's context, which is current afterwards.
+/// Count the live objects of a window's context, which is current afterwards.
 LiveObjects countLiveObjects(vtkRenderWindow* window);
 
 } // namespace gnomon::test

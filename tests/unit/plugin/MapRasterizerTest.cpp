@@ -1,4 +1,4 @@
-// Who draws conservative maps, what the report says of it, and when they are drawn anew.
+// Which rasterizer bakes conservative maps, how it is reported, and when maps are baked again.
 
 #include "plugin/frame/MapRasterizer.h"
 
@@ -140,7 +140,7 @@ TEST_F(Rasterizers, leaveNothingOnTheGpu)
   this->scene_.pass->SetRasterizer(cpu);
   this->render();
   this->scene_.pass->SetRasterizer(gpuWished);
-  this->render(); // programs stay
+  this->render(); // programs stay compiled
   this->scene_.pass->SetRasterizer(cpu);
   this->render();
   const LiveObjects before = countLiveObjects(this->scene_.window);

@@ -29,7 +29,7 @@ namespace gnomon::test
 namespace
 {
 
-/// An array of RGB tuples that change from one to the next.
+/// Return an array of RGB tuples, each different from the next.
 vtkSmartPointer<vtkUnsignedCharArray> makeColours(vtkIdType count)
 {
   const auto colours = vtkSmartPointer<vtkUnsignedCharArray>::New();
@@ -174,7 +174,7 @@ void shadePhysically(vtkActor* actor)
   actor->GetProperty()->SetRoughness(0.6);
 }
 
-/// The light of a small picture all around, which is never shadowed.
+/// Light the scene by a small environment picture; its light is never shadowed.
 void lightByImage(vtkRenderer* renderer)
 {
   auto* openGl = vtkOpenGLRenderer::SafeDownCast(renderer);
@@ -188,7 +188,7 @@ void lightByImage(vtkRenderer* renderer)
 const glm::dvec3 sunDirection(0.1, 0.3, -1.0);
 const glm::dvec3 lampPosition(-1.0, -2.0, 8.0);
 
-/// A sun that begins above the beam, and leaves out the floor's far parts.
+/// A sun that starts above the beam and does not reach the floor's far parts.
 vtkLight* addSunInABox(PassScene& scene)
 {
   vtkLight* sun = scene.addSun(sunDirection);

@@ -12,7 +12,7 @@
 namespace gnomon::test
 {
 
-/// A way to bring a ball or a few into the scene.
+/// A way to bring one or several balls into the scene.
 struct MatrixKind
 {
   const char* name;
@@ -21,15 +21,15 @@ struct MatrixKind
 };
 const std::vector<MatrixKind>& matrixKinds();
 
-/// A way to colour and shade them.
+/// A look: colours and shading of the balls.
 struct MatrixLook
 {
   const char* name;
   void (*apply)(vtkActor* actor, vtkRenderer* renderer);
-  bool gamma = false; ///< whether VTK's shader ends with a power of 1/2.2, as PBR's does
+  bool gamma = false; ///< true if VTK's shader ends with a power of 1/2.2, like PBR's
 };
 const std::vector<MatrixLook>& matrixLooks();
-/// Of the looks, the light of a picture all around. It takes VTK a second or two to prepare.
+/// The look lit by an environment picture. VTK needs a second or two to prepare it.
 std::size_t imageBasedLook();
 
 /// A light that puts a part of the balls in the beam's shadow.
@@ -40,7 +40,7 @@ struct MatrixLight
 };
 const std::vector<MatrixLight>& matrixLights();
 
-/// The balls of a kind with a look on a green floor, half in the shadow of a blue beam.
+/// The balls of a kind with a look, on a green floor, half in the shadow of a blue beam.
 class MatrixScene : public PassScene
 {
 public:

@@ -1,9 +1,8 @@
-// Mapper x look x light x way x window: the visibility that reaches the picture is the one that is
-// kept.
+// Mapper x look x light x way x window: the picture shows the visibility that is kept.
 //
 // Every mapper meets every look, with two lights and three ways in the whole window, and in every
-// other window. In the windows the lights and ways take turns, so that any two of the five
-// dimensions meet in every pair of values.
+// other window. In the windows, lights and ways take turns, so each pair of the five dimensions
+// meets in every pair of values.
 
 #include "MatrixScene.h"
 #include "MatrixWindows.h"
@@ -21,22 +20,21 @@ const std::vector<Way> ways = { { "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
   { "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, { "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE },
   { "pcf", vtkGnomonShadowPass::ROUTE_INLINE }, { "pcf", vtkGnomonShadowPass::ROUTE_IMAGE } };
 
-/// Places of the light and the way that take their turn for a mapper, a look and a window.
+/// Return the places of the light and the way whose turn it is, for a mapper, a look and a window.
 std::pair<std::size_t, std::size_t> turnOf(std::size_t kind, std::size_t look, std::size_t window)
 {
   return { (kind + look + window) % matrixLights().size(),
     (kind + 2 * look + 3 * window) % ways.size() };
 }
 
-/// What a pixel shows whose light has this visibility, in a channel that it brightens from `unlit`
-/// to `lit`; a range, since what VTK clamps to 255 may be any more.
+/// Return the range of values of a pixel at this visibility, in a channel that the light brightens
+/// from `unlit` to `lit`. It is a range because a value that VTK clamps to 255 has no upper bound.
 std::pair<double, double> expectedChannel(int unlit, int lit, double visibility, bool gamma)
 {
   const auto linear = [&](int value) { return gamma ? std::pow(value, 2.2) : value; };
   const double mixed = linear(unlit) + visibility * (linear(lit) - linear(unlit));
   const double shown = gamma ? std::pow(mixed, 1.0 / 2.2) : mixed;
-  // A value that was rounded to 8 bits before it is mixed is half of one off, and a whole one
-  // after.
+  // Rounding to 8 bits before mixing costs half a value, and one value after it.
   const double tolerance = visibility == 0.0 || visibility == 1.0 ? 1.0 : 2.0;
   const bool clamped = visibility > 0.0 && lit == 255;
   return { shown - tolerance, clamped ? 255.0 : shown + tolerance };
@@ -47,8 +45,8 @@ class Matrix
   , public testing::WithParamInterface<std::tuple<std::size_t, std::size_t>>
 {
 protected:
-  /// The same view four times: as VTK draws it, without the light, the technique's visibility of
-  /// the light from the bottom row up, and the picture that is to be judged.
+  /// Four pictures of one view: as VTK draws it, without the light, the technique's visibility of
+  /// the light from the bottom row up, and the picture under test.
   struct View
   {
     Picture lit;
@@ -88,7 +86,7 @@ protected:
     return result;
   }
 
-  /// Whether all samples of a pixel can be taken to have its visibility.
+  /// True if all samples of a pixel have its visibility.
   static bool isUniform(const View& view, int x, int y)
   {
     const auto at = [&](int column, int row)
@@ -107,7 +105,7 @@ protected:
     return true;
   }
 
-  /// Whether a pixel of the picture shows this visibility.
+  /// True if a pixel of the picture shows this visibility.
   bool shows(double visibility, const View& view, int x, int y) const
   {
     const glm::ivec3 unlit = view.unlit.at(x, y);
@@ -125,7 +123,7 @@ protected:
     return true;
   }
 
-  /// Compares the picture with the visibility, pixel by pixel, in all of a window's views.
+  /// Compare the picture with the visibility, pixel by pixel, in all of a window's views.
   /// @return the visibility, one view after the other
   std::vector<float> check(MatrixWindow& window, vtkLight* light, const Way& way)
   {
@@ -159,8 +157,8 @@ protected:
         }
       }
     }
-    // The routes may differ where rounding decides; and a pixel may have a sample of something that
-    // no centre of a pixel shows.
+    // The routes may differ by rounding. A pixel may also have a sample of a surface that no
+    // pixel's centre shows.
     EXPECT_LE(wrong, window.hasSeveralSamples() ? compared / 1000 : 1);
     EXPECT_GT(compared, visibility.size() / 2);
     const std::size_t some = window.hasSeveralSamples() ? 5 : 15;
@@ -214,7 +212,7 @@ TEST_P(Matrix, pictureShowsTheVisibilityThatIsKept)
       SCOPED_TRACE(testing::Message() << ways.at(way));
       visibilities.push_back(this->check(window, added, ways.at(way)));
     }
-    // The map's are the ray-traced ones but for shadows' edges.
+    // The map's visibility equals the ray-traced one, except at shadows' edges.
     std::size_t different = 0;
     for (std::size_t k = 0; k < visibilities[0].size(); ++k)
     {

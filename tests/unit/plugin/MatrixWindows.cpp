@@ -37,13 +37,13 @@ public:
   explicit SeveralSamples(PassScene& scene)
     : MatrixWindow(scene)
   {
-    scene.window->SetMultiSamples(4); // as many as llvmpipe has before Mesa 26, which has 8
+    scene.window->SetMultiSamples(4); // llvmpipe's number before Mesa 26, which has 8
   }
   ~SeveralSamples() override { this->scene_.window->SetMultiSamples(0); }
   bool hasSeveralSamples() const override { return true; }
 };
 
-/// A viewport that is not the whole window, and as large as the scene's window was.
+/// A viewport that is a part of the window, and as large as the scene's window was.
 class Part : public MatrixWindow
 {
 public:
@@ -112,7 +112,7 @@ public:
   }
 };
 
-/// The layer above another renderer, which has shadows of its own.
+/// A layer above another renderer, which has its own shadows.
 class SecondLayer : public MatrixWindow
 {
 public:
@@ -169,9 +169,9 @@ private:
 };
 vtkStandardNewMacro(BorrowedContextWindow);
 
-/// As a toolkit's widget: VTK leaves the picture in the framebuffer that was bound before. The
-/// context stays the scene's: VTK 9.1 crashes where a vtkGlyph3DMapper with CullingAndLOD comes to
-/// another.
+/// Behaves like a toolkit's widget: VTK leaves the picture in the framebuffer that was bound. The
+/// context stays the scene's, because VTK 9.1 crashes if a vtkGlyph3DMapper with CullingAndLOD
+/// moves to another one.
 class Widget : public MatrixWindow
 {
 public:

@@ -8,8 +8,8 @@
 namespace gnomon::test
 {
 
-/// Shows a scene's renderer in a window of some kind. When it goes, the renderer is back in the
-/// scene's own window, which is as it was.
+/// Shows a scene's renderer in a window of some kind. Its destructor returns the renderer to the
+/// scene's own window, unchanged.
 class MatrixWindow
 {
 public:
@@ -18,9 +18,9 @@ public:
   MatrixWindow(const MatrixWindow&) = delete;
   MatrixWindow& operator=(const MatrixWindow&) = delete;
 
-  /// How many pictures it takes to show the renderer: of tiles and of eyes there are several.
+  /// Return the number of pictures that show the renderer: tiles and eyes take several.
   virtual int views() const { return 1; }
-  /// Draws the renderer's part of the window, which must raise no OpenGL error.
+  /// Draw the renderer's part of the window, which must raise no OpenGL error.
   virtual Picture draw(int view);
   virtual bool hasSeveralSamples() const { return false; }
 

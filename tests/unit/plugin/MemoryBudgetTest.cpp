@@ -1,4 +1,4 @@
-// SetMemoryBudget: which lights keep their maps.
+// SetMemoryBudget decides which lights have maps.
 
 #include "PassScene.h"
 
@@ -24,7 +24,7 @@ namespace
 
 constexpr double mebibyte = 1024.0 * 1024.0;
 
-/// A light whose map of 1024 texels a side takes 4 MiB, and shaders may ask it.
+/// Return a light whose map of 1024 texels a side takes 4 MiB; shaders may call its technique.
 LightNeed lamp(double mostLight)
 {
   LightNeed need;
@@ -64,7 +64,7 @@ TEST(MemoryBudget, brightLightsKeepTheirMaps)
 }
 
 //------------------------------------------------------------------------------
-// Images come first: they show the shadows of rays, too. What they leave, maps share.
+// Images come first, since they also show the shadows of rays. Maps share the rest.
 TEST(MemoryBudget, thenTheyTakeRaysAndThenNone)
 {
   const std::vector<LightNeed> lights = { lamp(1.0), lamp(3.0), lamp(2.0) };
@@ -86,13 +86,14 @@ TEST(MemoryBudget, mapsWhoseSizeNobodyKnowsGiveWayToRays)
   unknown.isHard = true;
   unknown.bytesPerTexel = std::numeric_limits<double>::infinity();
   EXPECT_EQ(sidesOf(shareMemory({ unknown }, 1e12, megapixel, true)), (std::vector{ 0 }));
-  unknown.bytesPerTexel = 0.0; // it has none
+  unknown.bytesPerTexel = 0.0; // it has no map
   EXPECT_EQ(
     sidesOf(shareMemory({ unknown }, 8.0 * mebibyte, megapixel, true)), (std::vector{ 1024 }));
 }
 
 //------------------------------------------------------------------------------
-// 64 hard lights share an image of bits. Others have one each, and so have techniques' own.
+// 64 hard lights share an image of bits. Other lights, and techniques with their own images, take
+// one each.
 TEST(MemoryBudget, imagesAreCountedWhereThereAreAny)
 {
   LightNeed rays;
@@ -166,13 +167,13 @@ protected:
 } // namespace
 
 //------------------------------------------------------------------------------
-// What a map takes is known before it is drawn, for all techniques that say so.
+// The bytes of a map are known before baking, for all techniques that state them.
 TEST_F(MemoryBudgetOfPass, mapsTakeAtMostWhatIsExpected)
 {
   this->addLamp(0.0, 1.0);
   constexpr int side = 512;
   this->pass->SetMapSize(side);
-  this->pass->SetSetting("light_radius", "0.5"); // for those with soft shadows
+  this->pass->SetSetting("light_radius", "0.5"); // for techniques with soft shadows
   for (const TechniqueEntry& entry : registry())
   {
     const TechniqueInfo& info = entry.estimator->info;
@@ -238,7 +239,7 @@ TEST_F(MemoryBudgetOfPass, theReportSaysWhatIsLeft)
 }
 
 //------------------------------------------------------------------------------
-// What lights with names have is not there for `auto`.
+// Memory of lights with named techniques is not available to `auto`.
 TEST_F(MemoryBudgetOfPass, automaticLightsTakeWhatOthersLeave)
 {
   vtkLight* const lamp = this->addLamp(0.0, 1.0);
@@ -256,7 +257,7 @@ TEST_F(MemoryBudgetOfPass, automaticLightsTakeWhatOthersLeave)
 }
 
 //------------------------------------------------------------------------------
-// `auto` is exact at rest with any budget, and takes maps while it moves only where they fit.
+// `auto` is exact at rest with any budget. In motion it uses maps only if they fit the budget.
 TEST_F(MemoryBudgetOfPass, automaticLightsKeepToIt)
 {
   this->addSun(slantingSun);

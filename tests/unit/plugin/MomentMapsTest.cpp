@@ -1,5 +1,5 @@
-// The quality of maps of moments of all techniques and projections, with their default settings:
-// lit surfaces are lit, shadows begin where they should, and no view breaks them.
+// The quality of moment maps of all techniques and projections with default settings: lit surfaces
+// are lit, shadows begin at their casters, and no view breaks them.
 
 #include "LiveObjects.h"
 #include "PassScene.h"
@@ -33,7 +33,7 @@ void addSphereOverFloor(PassScene& scene)
   scene.lookFrom({ 0.0, -9.0, 7.0 });
 }
 
-/// The mean difference of what two frames have, over the pixels that both cover.
+/// Return the mean difference of two frames' visibilities, over the pixels that both cover.
 double meanDifference(const VisibilityImages& a, const VisibilityImages& b)
 {
   double sum = 0.0;
@@ -90,7 +90,7 @@ TEST_P(MomentMaps, shadowsTouchTheirCasters)
   scene.pass->SetMapSize(1024);
   scene.lookDown(0.2, 0.2);
   const VisibilityImages& kept = drawKept(scene);
-  const double texel = (8.0 + 1.0) / 1024 * std::sqrt(2.0); // at most, on the floor
+  const double texel = (8.0 + 1.0) / 1024 * std::sqrt(2.0); // on the floor, at most
   for (const std::size_t y : { 100, 200, 300 })
   {
     double begin = 1.0;
@@ -136,14 +136,14 @@ TEST_P(MomentMaps, areBakedForWhatTheMapDependsOn)
   EXPECT_EQ(scene.report().mapBakes, 1);
   if (!GetParam().hasSetting("blur=sat"))
   {
-    EXPECT_LT(scene.report().bytesMaps, bytes); // no layer to blur over
+    EXPECT_LT(scene.report().bytesMaps, bytes); // no second layer for blurring
   }
 }
 
 //------------------------------------------------------------------------------
 TEST_P(MomentMaps, severalSamplesOfATexelAreNearerToItsMean)
 {
-  // A plate whose edges run across the texels of a coarse map, of which one sample makes stairs.
+  // A plate whose edges cross the texels of a coarse map; one sample per texel shows stairs.
   PassScene scene(200, 200);
   choose(scene);
   scene.addFloor(4.0);
@@ -164,7 +164,7 @@ TEST_P(MomentMaps, severalSamplesOfATexelAreNearerToItsMean)
     EXPECT_EQ(scene.report().lights[0].mapSamples, std::stoi(samples));
     return kept;
   };
-  // A texel's mean and the bilinear filter over it are as wide as 1.75 texels of equal weight.
+  // A texel's mean together with the bilinear filter is as wide as 1.75 texels of equal weight.
   const VisibilityImages smooth = draw(512, "14", "1");
   const double one = meanDifference(draw(64, "1", "1"), smooth);
   const std::size_t bytes = scene.report().bytesMaps;
@@ -187,8 +187,8 @@ TEST_F(PassTest, samplesThatOpenGlDoesNotHaveAreNoted)
   std::vector<std::string> expected;
   if (samples != 8)
   {
-    expected.push_back("light 0: OpenGL draws maps with at most " + std::to_string(samples) +
-      " samples of a texel, not 8");
+    expected.push_back("light 0: OpenGL supports at most " + std::to_string(samples) +
+      " samples per texel of a map, not 8");
   }
   EXPECT_EQ(scene.report().notes, expected);
 }
@@ -196,7 +196,7 @@ TEST_F(PassTest, samplesThatOpenGlDoesNotHaveAreNoted)
 namespace
 {
 
-/// A long floor with bars over it along and across the map, near and far, and a sphere.
+/// A long floor with near and far bars over it, along and across the map, and a sphere.
 void fillWithBars(PassScene& scene)
 {
   scene.addFloor(20.0);
@@ -211,7 +211,7 @@ void fillWithBars(PassScene& scene)
 } // namespace
 
 //------------------------------------------------------------------------------
-/// Where texels are even, the rectangle of a look-up is the box.
+/// If texels are even, the lookup's rectangle equals the box.
 TEST_F(PassTest, tablesShowWhatBoxesShow)
 {
   for (const char* technique : { "vsm", "msm" })
@@ -245,7 +245,7 @@ TEST_F(PassTest, tablesShowWhatBoxesShow)
 }
 
 //------------------------------------------------------------------------------
-/// A kernel of a width across the light is as wide on warped, split and fitted maps as on a fine
+/// A kernel's width across the light is the same on warped, split and fitted maps as on a fine
 /// uniform one.
 TEST_F(PassTest, tablesBlurAllMapsAlike)
 {
@@ -309,8 +309,8 @@ void fillWithFences(PassScene& scene, const glm::dvec3& sun = { 0.25, 1.0, -0.8 
   scene.addSun(sun);
 }
 
-/// What is lit of the floor in each pixel: 8 x 8 shadow rays. Less than 0 where it shows anything
-/// else, too.
+/// Return the lit share of the floor in each pixel, by 8 x 8 shadow rays. Negative if the pixel
+/// also shows other surfaces.
 std::vector<float> litShareOfFloor(PassScene& scene)
 {
   constexpr int rays = 8;
@@ -339,7 +339,7 @@ std::vector<float> litShareOfFloor(PassScene& scene)
   return share;
 }
 
-/// How far a picture is from that in the mean.
+/// Return a picture's mean difference from that share.
 double meanError(const VisibilityImages& kept, const std::vector<float>& truth)
 {
   double sum = 0.0;
@@ -415,7 +415,7 @@ TEST_F(PassTest, levelsLeaveNearShadowsAsTheyAre)
 }
 
 //------------------------------------------------------------------------------
-/// The inline route knows how large pixels are as the image route does.
+/// The inline route knows the size of pixels like the image route.
 TEST_F(PassTest, levelsAreTheSameOnBothRoutes)
 {
   PassScene scene(120, 80);
@@ -457,7 +457,7 @@ TEST_F(PassTest, settingsBackAndForthKeepTheNumberOfObjects)
   };
   const std::size_t sat = 128u * 128u * (8 + 4 + 8); // the map, its depth, and the rows
   for (const auto& [setting, off, on, more] : { Case{ "map_samples", "1", "4", 0 },
-         { "blur", "box", "sat", 0 }, // the table is in the place of the rows
+         { "blur", "box", "sat", 0 },                            // the table replaces the rows
          { "mip_maps", "off", "on", 8 * (128 * 128 - 1) / 3 } }) // 64^2 + 32^2 + ... + 1
   {
     draw(setting, on);

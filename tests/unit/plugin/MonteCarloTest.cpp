@@ -1,5 +1,5 @@
-// `montecarlo` in frames: against known penumbrae, against rays to the same points of the light,
-// and what its settings change.
+// `montecarlo` in frames: compared with known penumbrae and with rays to the same points of the
+// light, and the effects of its settings.
 
 #include "PassScene.h"
 
@@ -28,7 +28,7 @@ using SettingList = std::vector<std::pair<const char*, const char*>>;
 struct Errors
 {
   double meanAbsolute = 0.0;
-  std::size_t wrong = 0; ///< pixels that are off by more than a half
+  std::size_t wrong = 0; ///< pixels with an error above a half
 };
 
 Errors errorsOf(const std::vector<float>& visibility, const std::vector<float>& truth)
@@ -43,7 +43,7 @@ Errors errorsOf(const std::vector<float>& visibility, const std::vector<float>& 
   return errors;
 }
 
-/// Pixels that differ by more than a tolerance.
+/// Count pixels that differ by more than a tolerance.
 std::size_t differing(
   const std::vector<float>& a, const std::vector<float>& b, float tolerance = 0.0f)
 {
@@ -55,8 +55,7 @@ std::size_t differing(
   return count;
 }
 
-/// Whether a light's classes are those of its pixels, as many as are counted, and a decision is
-/// what its class says.
+/// Expect each pixel's class to agree with its decision, and the classes' counts with the pixels.
 void expectClassesOfPixels(
   const VisibilityImages& kept, const std::vector<gnomon::ClassCount>& counted, vtkLight* light)
 {
@@ -91,7 +90,7 @@ void expectClassesOfPixels(
   }
 }
 
-/// Of the pixels whose positions are looked at, and of those only.
+/// Return the errors of the pixels whose positions `isLookedAt` selects.
 Errors errorsWhere(const VisibilityImages& kept, const std::vector<float>& truth,
   const std::function<bool(const glm::dvec3& at, float truth)>& isLookedAt, std::size_t least)
 {
@@ -135,8 +134,8 @@ protected:
     this->addLamp({ -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 50.0, 1.0);
   }
 
-  /// A plate that ends at x = 0 over a floor that casts nothing, seen from above, whose shadow ends
-  /// around x = 1.
+  /// A plate over a floor that casts nothing, seen from above. It ends at x = 0, and its shadow
+  /// ends around x = 1.
   void buildHalfPlane()
   {
     this->floor = this->scene.addFloor(6.0);
@@ -145,9 +144,9 @@ protected:
     this->scene.lookDown(0.5, 1.0, 0.0);
     this->addLamp({ -4.0, 0.0, 10.0 }, { -4.0, 0.0, 0.0 }, 60.0, 2.0);
   }
-  /// The visible share of that lamp: its side is 2, at height 10, the plate's 2.
+  /// Return the visible share of that lamp: its side is 2, at height 10, the plate's height 2.
   static double halfPlaneAt(double x) { return std::clamp(0.5 + 2.0 * (x - 1.0), 0.0, 1.0); }
-  /// By how much the pixels in its penumbra are off.
+  /// Return the RMS error of the pixels in its penumbra.
   static double rmsOfHalfPlane(const VisibilityImages& kept)
   {
     double squares = 0.0;
@@ -177,14 +176,14 @@ protected:
   {
     return this->draw(technique, settings).visibility.at(0);
   }
-  /// Of rays to the same points.
+  /// The truth by rays to the same points.
   std::vector<float> truth()
   {
     return this->visibility(
       "raytraced", { { "light_sampling", "jittered" }, { "light_samples", "9" } });
   }
 
-  /// Of rays to many points.
+  /// The truth by rays to many points.
   std::vector<float> fineTruth()
   {
     return this->visibility(
@@ -206,10 +205,10 @@ TEST_F(MonteCarlo, hasThePenumbraOfAHalfPlane)
     const VisibilityImages& kept = this->draw(
       "montecarlo", { { "mc_rays", std::to_string(rays).c_str() }, { "mc_filter", "0" } });
     EXPECT_EQ(this->scene.report().lights[0].lightSamples, rays * rays);
-    // Of the pixels in the penumbra: how visibility rises across it.
+    // Fit the slope of visibility across the pixels of the penumbra.
     double count = 0.0;
-    glm::dvec2 sums(0.0);     // of places and visibilities
-    glm::dvec2 products(0.0); // of places with both
+    glm::dvec2 sums(0.0);     // sums of places and visibilities
+    glm::dvec2 products(0.0); // sums of places times both
     for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
     {
       const double x = positionOf(kept, i).x;
@@ -231,22 +230,22 @@ TEST_F(MonteCarlo, hasThePenumbraOfAHalfPlane)
     EXPECT_NEAR(slope, 2.0, 0.1) << rays << " x " << rays << " rays: the width within 5 %";
     EXPECT_NEAR(means.y, halfPlaneAt(means.x), 0.01) << rays;
     const double rms = rmsOfHalfPlane(kept);
-    // What a line across the light makes jittered rays err by.
+    // The error of jittered rays for a line across the light.
     const double expected = std::sqrt(1.0 / (6.0 * rays * rays * rays));
     EXPECT_NEAR(rms, expected, 0.05 * expected) << rays;
     EXPECT_LT(rms, before);
     before = rms;
     EXPECT_LE(rms, rays == 2 ? 0.15 : rays == 3 ? 0.082 : 1.0) << "specified: " << rays;
   }
-  // Without the grid, as `raytraced` can have them: sqrt(1 / 54) is expected, and 0.135 specified.
+  // Random rays of `raytraced`, without the grid: sqrt(1 / 54) is expected, and 0.135 specified.
   const double random = rmsOfHalfPlane(
     this->draw("raytraced", { { "light_sampling", "random" }, { "light_samples", "9" } }));
   EXPECT_NEAR(random, 0.135, 0.05 * 0.135);
 }
 
 //------------------------------------------------------------------------------
-/// Visibility column by column, each of which has its own distance from the edge: an error that
-/// cancels over the penumbra shows.
+/// Compare visibility column by column. Each column has its own distance from the edge, so errors
+/// that cancel over the penumbra are found.
 TEST_F(MonteCarlo, hasTheProfileOfAHalfPlane)
 {
   this->buildHalfPlane();
@@ -256,9 +255,9 @@ TEST_F(MonteCarlo, hasTheProfileOfAHalfPlane)
   {
     if (ofMany)
     {
-      // A caster outside of the picture, with its shadow: the plate no longer ends where its map
-      // does, but within a texel. Half of one, 8e-3 across the plate, moves the shadow by a quarter
-      // more, and visibility by 0.02.
+      // A caster outside the picture, with its shadow, enlarges the map: the plate ends within a
+      // texel, not at the map's border. Half a texel, 8e-3 across the plate, moves the shadow by a
+      // quarter more, and visibility by 0.02.
       this->scene.addBox({ 3.0, 5.0, 1.0 }, { 4.1, 6.0, 1.001 });
     }
     const VisibilityImages& kept = this->draw("montecarlo", { { "mc_filter", "0" } });
@@ -318,7 +317,7 @@ TEST_F(MonteCarlo, decidesByBoundsWhatRaysWouldSay)
     for (const char* classify : { "off", "pixels", "rays" })
     {
       const VisibilityImages& kept = this->draw("montecarlo", { { "mc_classify", classify } });
-      // Rounding moves the ends of rays that are cut elsewhere.
+      // Rays that are cut elsewhere end elsewhere, by rounding.
       EXPECT_LE(differing(kept.visibility[0], searched), searched.size() / 10000) << classify;
       const auto& classes = this->scene.report().lights[0].classes;
       ASSERT_EQ(classes.size(), 6u);
@@ -333,8 +332,8 @@ TEST_F(MonteCarlo, decidesByBoundsWhatRaysWouldSay)
 }
 
 //------------------------------------------------------------------------------
-/// A ground that casts lies in the map beside its own rays. Bounds decide most of it all the same,
-/// under lights of all kinds and sizes, with and without a texture, to the map's border.
+/// A ground that casts is in the map along its own rays. Bounds still decide most of it, under
+/// lights of all kinds and sizes, with and without a texture, to the map's border.
 TEST_F(MonteCarlo, decidesGroundsThatCast)
 {
   this->buildScene();
@@ -356,7 +355,7 @@ TEST_F(MonteCarlo, decidesGroundsThatCast)
     EXPECT_GT(classes[2].pixels, mostly ? 2 * undecided : 0) << what << ": lit by bounds";
   };
   expectDecided("a rectangle", true);
-  // What rises above the ground by a texel, 0.02, shades as much of it.
+  // A step that rises above the ground by a texel, 0.02, shades as much of it.
   this->scene.addBox({ 1.5, -2.5, 0.0 }, { 2.0, -2.0, 0.02 });
   this->scene.lookDown(0.1, 2.0, -2.25);
   expectDecided("a low step", false);
@@ -374,7 +373,7 @@ TEST_F(MonteCarlo, decidesGroundsThatCast)
   this->lamp->SetShapeToDisk();
   this->lamp->SetRadius(0.3);
   expectDecided("a disk", true);
-  this->lamp->SetPosition(-6.0, -2.5, 0.6); // low: some of it is below walls' and floor's horizon
+  this->lamp->SetPosition(-6.0, -2.5, 0.6); // low: partly below the walls' and floor's horizon
   expectDecided("a low disk", false);
   this->lamp->PositionalOff();
   this->lamp->SetPosition(-2.0, -2.5, 6.0);
@@ -404,16 +403,15 @@ TEST_F(MonteCarlo, findsTheSameInBothHierarchies)
     this->scene.pass->SetSetting("map_size", size);
     this->scene.pass->SetSetting("mc_filter", "0");
     EXPECT_LT(difference(), 2e-5) << size;
-    // Bounds that decide a ray say where it is blocked as nearly as they know, which the filter
-    // goes by.
+    // Bounds that decide a ray know only roughly where it is blocked, and the filter depends on
+    // that place.
     this->scene.pass->SetSetting("mc_filter", "5");
     EXPECT_LT(difference(), 2e-4) << size;
   }
 }
 
 //------------------------------------------------------------------------------
-/// A small one's shadow is that of a map, filtered or not: hardly a pixel at an edge takes another
-/// value.
+/// A small light's shadow is that of a map, filtered or not: hardly a pixel at an edge differs.
 TEST_F(MonteCarlo, ofASmallLightIsTheHardShadow)
 {
   this->buildScene();
@@ -434,8 +432,8 @@ TEST_F(MonteCarlo, ofASmallLightIsTheHardShadow)
 //------------------------------------------------------------------------------
 TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
 {
-  // Rays enter a tower by one side and leave it by another, neither of which a sun from straight
-  // above sees.
+  // Rays enter a tower by one side and leave it by another. A sun from straight above sees neither
+  // side.
   this->scene.addFloor(2.0);
   this->scene.addBox({ -0.1, -0.1, 0.0 }, { 0.1, 0.1, 4.0 });
   this->scene.lookFrom({ 0.0, -4.0, 3.0 });
@@ -444,7 +442,7 @@ TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
   this->draw("montecarlo", settings);
   const std::vector<float> truth = this->truth();
   const VisibilityImages& kept = this->draw("montecarlo", {});
-  // On the floor: whether sides that are parallel to the light face it, rounding decides.
+  // Count the floor alone: rounding decides whether sides parallel to the light face it.
   const Errors onFloor = errorsWhere(
     kept, truth, [](const glm::dvec3& at, float v) { return v < 1.0f && std::abs(at.z) < 1e-3; },
     300);
@@ -452,8 +450,8 @@ TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
 }
 
 //------------------------------------------------------------------------------
-/// Of meshes with triangles of a texel's size, the middle of a receiver's texel may be in a
-/// triangle that rises from its own.
+/// On meshes with triangles of a texel's size, the middle of a receiver's texel may lie in a
+/// triangle that rises from the receiver's own.
 TEST_F(MonteCarlo, smoothMeshesHaveNoDarkSpecks)
 {
   vtkNew<vtkPlaneSource> plane;
@@ -480,7 +478,7 @@ TEST_F(MonteCarlo, smoothMeshesHaveNoDarkSpecks)
     {
       const std::vector<float> seen = this->visibility(
         "montecarlo", { { "mc_filter", "0" }, { "light_radius", "1" }, { "map_size", size } });
-      // Without it 8 to 107, with it one in two of the pictures.
+      // Without the correction 8 to 107 dark pixels; with it one pixel in two of the pictures.
       EXPECT_LE(std::count_if(seen.begin(), seen.end(), [](float v) { return v < 1.0f; }), 2)
         << size << " texels, " << turn;
       EXPECT_EQ(this->scene.report().lights[0].classes.at(1).pixels, 0); // none is turned away
@@ -489,8 +487,8 @@ TEST_F(MonteCarlo, smoothMeshesHaveNoDarkSpecks)
 }
 
 //------------------------------------------------------------------------------
-/// The foot of a sheet lies in texels whose centres may see the ground before it. What that lets
-/// through is at most as wide as a texel, and half of that on the mean.
+/// The foot of a sheet lies in texels whose centres may see the ground in front of it. The leak is
+/// at most a texel wide, and half of that on average.
 TEST_F(MonteCarlo, sheetsThatStandOnTheGroundLeakATexelAtMost)
 {
   this->scene.addFloor(4.0);
@@ -524,7 +522,7 @@ TEST_F(MonteCarlo, sheetsThatStandOnTheGroundLeakATexelAtMost)
           farthest = std::max(farthest, kept.visibility[0][i] > 0.0f ? behind : 0.0);
         }
       }
-      const double mean = lit / 120.0 * (0.4 / 120.0); // of the picture's rows
+      const double mean = lit / 120.0 * (0.4 / 120.0); // scaled by the picture's rows
       EXPECT_GT(looked, 1000u);
       EXPECT_GT(farthest, 0.0) << "light that no longer leaks: say so in montecarlo.md";
       EXPECT_LT(farthest, texel) << slope << ", map " << mapSize;
@@ -544,7 +542,7 @@ TEST_F(MonteCarlo, filterTakesNoiseOffAndLeavesWhatHasNone)
   const std::vector<std::uint8_t> classes = noisy.classes[0].ofPixels;
   const std::vector<float> filtered = this->visibility("montecarlo", { { "mc_filter", "2" } });
   EXPECT_LT(errorsOf(filtered, truth).meanAbsolute, errorsOf(unfiltered, truth).meanAbsolute);
-  // Pixels far from all that rays decided are the same bit for bit.
+  // Pixels far from all ray decisions are the same, bit for bit.
   std::size_t left = 0;
   for (int y = 2; y < 118; ++y)
   {
@@ -577,9 +575,8 @@ TEST_F(MonteCarlo, filterTakesNoiseOffAndLeavesWhatHasNone)
 TEST_F(MonteCarlo, oneLayerHasOuterPenumbraeOnly)
 {
   this->buildHalfPlane();
-  // What is behind the first surface is in its shadow, wherever rays go from there. From the eye
-  // behind the light, 0.816 above it, that is x < 0.907, of which the lamp lights what is above
-  // 0.75.
+  // Every point behind the first surface is in its shadow, wherever its rays go. For the eye behind
+  // the light, 0.816 above it, that is x < 0.907. The lamp lights x > 0.75 of it.
   const VisibilityImages& kept =
     this->draw("montecarlo", { { "mc_layers", "near" }, { "mc_filter", "0" } });
   std::size_t inside = 0;
@@ -603,7 +600,7 @@ TEST_F(MonteCarlo, oneLayerHasOuterPenumbraeOnly)
 TEST_F(MonteCarlo, eyeLayerEmptiesWhatTheCameraSeesToBeEmpty)
 {
   // Two plates and a wall that joins them: a C that opens towards the camera and the lamp. Two
-  // layers hold it for a solid body.
+  // layers treat it as a solid body.
   this->floor = this->scene.addFloor(4.0);
   vtkGnomonPropKeys::SetCasts(this->floor, false);
   this->scene.addBox({ -1.2, -1.0, 0.1 }, { 1.2, 1.0, 0.3 });
@@ -612,7 +609,7 @@ TEST_F(MonteCarlo, eyeLayerEmptiesWhatTheCameraSeesToBeEmpty)
   this->scene.lookFrom({ 0.7, -8.0, 3.2 }, { 0.0, 0.0, 0.8 });
   this->addLamp({ 0.0, -5.5, 6.0 }, glm::dvec3(0.0), 35.0, 2.0);
   const std::vector<float> truth = this->fineTruth();
-  /// Of what the camera sees inside of the C, into which the lamp shines.
+  /// Count visible pixels inside the C, into which the lamp shines.
   std::size_t lit = 0;
   const auto isWithin = [&lit](const glm::dvec3& at, float v)
   {

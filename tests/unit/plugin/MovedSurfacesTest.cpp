@@ -1,5 +1,5 @@
-// Surfaces that move among many: only the tiles of a picture that they may change are traced, and
-// the picture is the one that a new pass shows.
+// Some surfaces of many move: only the tiles that they may change are traced, and the picture
+// equals that of a new pass.
 
 #include "PassScene.h"
 
@@ -21,7 +21,7 @@ using namespace gnomon::test;
 namespace
 {
 
-/// A technique, and what it draws the light as.
+/// A technique, and a light for it.
 struct LitBy
 {
   const char* name;
@@ -99,7 +99,7 @@ protected:
     this->scene.lookFrom({ 0.0, -9.0, 9.0 });
   }
 
-  /// Draws by another pass, which reuses nothing, since it changes its tracer each time.
+  /// Draw by another pass; it changes its tracer each time, so it reuses nothing.
   gnomon::VisibilityImages drawAnew()
   {
     this->anew_->SetTracer(this->anew_->GetTracer() == vtkGnomonShadowPass::TRACER_AUTO
@@ -111,7 +111,7 @@ protected:
     return this->anew_->GetVisibility();
   }
 
-  PassScene scene{ 500, 330 }; ///< 8 x 21 tiles, of which the last ones are cut off
+  PassScene scene{ 500, 330 }; ///< 8 x 21 tiles, the last ones cut off
   vtkNew<vtkGnomonShadowPass> anew_;
   vtkNew<vtkGnomonAreaLight> light_;
   std::vector<vtkActor*> props_;
@@ -160,16 +160,16 @@ TEST_P(MovedSurfaces, areTracedAlone)
   const std::int64_t all = this->scene.report().raysTraced;
   for (int step = 0; step < 12; ++step)
   {
-    // Of the lower rows: what leaves the view gives all surfaces other numbers.
+    // Move props of the lower rows: a prop that leaves the view changes all surfaces' numbers.
     vtkActor* const moved = this->props_[random() % (this->props_.size() / 2)];
     moved->AddPosition(number(), number(), number());
     moved->RotateX(60.0 * number());
-    // Nothing is kept as data in some frames, and no class.
+    // In some frames neither visibility nor classes are kept.
     this->scene.pass->SetKeepVisibility(step % 5 != 3);
     this->scene.render();
     EXPECT_GT(this->scene.report().raysTraced, 0) << step;
-    // Classes that are asked for again are known of no tile. What moves without casting lets
-    // `silhouette` draw its map, by which it decides all.
+    // When classes are asked for again, no tile has cached ones. A prop that moves without casting
+    // lets `silhouette` bake its map, which then decides all pixels.
     const std::string technique = GetParam().technique;
     if (technique != "silhouette")
     {
@@ -183,7 +183,7 @@ TEST_P(MovedSurfaces, areTracedAlone)
     const gnomon::VisibilityImages anew = this->drawAnew();
     EXPECT_TRUE(technique == "silhouette" || this->anew_->GetReport().raysTraced > all / 2);
     EXPECT_EQ(kept.visibility, anew.visibility) << step;
-    // `penumbra` also looks at what is near its rays.
+    // `penumbra` classes also depend on casters near its rays.
     if (technique != "penumbra" && technique != "silhouette")
     {
       EXPECT_EQ(kept.classes[0].ofPixels, anew.classes[0].ofPixels) << step;

@@ -1,4 +1,4 @@
-// Windows with several samples per pixel, which is what VTK's own windows have by default.
+// Windows with several samples per pixel, the default of VTK's own windows.
 
 #include "BuiltinPass.h"
 #include "PassScene.h"
@@ -35,9 +35,10 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-constexpr int samples = 8; ///< llvmpipe makes 4 of them
+constexpr int samples = 8; ///< llvmpipe gives 4
 
-/// Pixels whose surroundings are all lit, or all in shadow, of one frame or of a finer one.
+/// Pixels whose surroundings are all lit or all in shadow, in a frame of the same size or a finer
+/// one.
 class Surroundings
 {
 public:
@@ -48,7 +49,7 @@ public:
     , finer_(finer)
   {
   }
-  /// Whether the pixel and half a pixel or more on all sides show this visibility.
+  /// True if the pixel and half a pixel or more on all sides show this visibility.
   bool are(float visibility, int x, int y) const
   {
     const int margin = (this->finer_ + 1) / 2;
@@ -83,7 +84,7 @@ private:
   int finer_;
 };
 
-/// What a picture with shadows shows where the truth leaves no doubt.
+/// Counts of a picture's pixels where the truth is certain.
 struct Specks
 {
   std::size_t lit = 0;   ///< pixels within light
@@ -115,7 +116,7 @@ Specks countSpecks(const Picture& shadowed, const Picture& plain, const Visibili
   return specks;
 }
 
-/// The visibility of a scene by rays, one sample per pixel.
+/// Return a scene's visibility by rays, one sample per pixel.
 template <typename MakeScene>
 VisibilityImages traced(const MakeScene& makeScene)
 {
@@ -126,7 +127,7 @@ VisibilityImages traced(const MakeScene& makeScene)
   return scene->pass->GetVisibility();
 }
 
-/// Four flaps around a hollow, each ending where the next begins.
+/// Return four flaps around a hollow, each ending where the next begins.
 vtkSmartPointer<vtkPolyData> makeHollow()
 {
   vtkNew<vtkPoints> points;
@@ -147,8 +148,8 @@ vtkSmartPointer<vtkPolyData> makeHollow()
   return hollow;
 }
 
-/// A ball and a hollow above a floor. Nothing stands on anything: of a floor on which a box stands,
-/// a pixel's only fragment may have its centre inside the box.
+/// A ball and a hollow above a floor. No box stands on the floor: a pixel's only fragment of the
+/// floor may have its centre inside the box.
 std::unique_ptr<PassScene> makeSurfaces(bool parallel)
 {
   auto scene = std::make_unique<PassScene>(400, 300);
@@ -172,7 +173,7 @@ std::unique_ptr<PassScene> makeSurfaces(bool parallel)
   return scene;
 }
 
-/// Leaves a scene's surfaces a colour each, times the light that arrives.
+/// Shade each surface in its own colour times the light that arrives.
 void makeMatt(vtkRenderer* renderer)
 {
   renderer->SetBackground(0.0, 0.0, 0.0);
@@ -183,7 +184,7 @@ void makeMatt(vtkRenderer* renderer)
   }
 }
 
-/// Where a window has a pixel's samples, in pixels from its centre.
+/// Return a window's sample positions in a pixel, in pixels from its centre.
 std::vector<glm::dvec2> samplesOf(vtkOpenGLRenderWindow* window)
 {
   window->GetState()->PushFramebufferBindings();
@@ -207,14 +208,14 @@ struct Sample
   Picture plain; ///< without shadows
   VisibilityImages kept;
 
-  /// Where `kept`, whose first row is the top one, has a pixel of `plain`.
+  /// Return the index in `kept`, whose first row is the top one, of a pixel of `plain`.
   std::size_t indexOf(int x, int y) const
   {
     return static_cast<std::size_t>(this->kept.height - 1 - y) *
       static_cast<std::size_t>(this->kept.width) +
       static_cast<std::size_t>(x);
   }
-  /// What is not covered reads as lit.
+  /// Uncovered pixels read as lit.
   double visibility(std::size_t i) const
   {
     return this->kept.coverage[i] > 0.0f ? this->kept.visibility[0][i] : 1.0;
@@ -223,7 +224,7 @@ struct Sample
   {
     return { this->kept.normalX[i], this->kept.normalY[i], this->kept.normalZ[i] };
   }
-  /// Whether another sample of a pixel shows another plane.
+  /// True if another sample of a pixel shows another plane.
   bool differs(const Sample& other, std::size_t i) const
   {
     if (this->kept.coverage[i] == 0.0f || other.kept.coverage[i] == 0.0f)
@@ -236,7 +237,7 @@ struct Sample
   }
 };
 
-/// The mean of what the samples of a pixel show, as VTK takes it: of the light, by a gamma of 2.2.
+/// Return the mean of a pixel's samples as VTK averages them: linear light, with a gamma of 2.2.
 template <typename ShownBy>
 double resolve(const std::vector<Sample>& samplesOfPixel, const ShownBy& shownBy)
 {
@@ -248,7 +249,7 @@ double resolve(const std::vector<Sample>& samplesOfPixel, const ShownBy& shownBy
   return std::pow(light / static_cast<double>(samplesOfPixel.size()), 1.0 / 2.2);
 }
 
-/// Draws what is at a place of each pixel.
+/// Draw the picture at an offset from each pixel's centre.
 /// @param place in pixels from its centre
 Sample drawSample(BuiltinPass& scene, const glm::dvec2& place)
 {
@@ -274,7 +275,7 @@ INSTANTIATE_TEST_SUITE_P(Projections, Multisample, testing::Bool(),
   [](const testing::TestParamInfo<bool>& parallel)
   { return parallel.param ? "parallel" : "perspective"; });
 
-/// A sphere with a spike at each of its points. Surfaces run through each other.
+/// Add a sphere with a spike at each of its points; surfaces intersect.
 void addMace(PassScene& scene)
 {
   vtkNew<vtkSphereSource> sphere;
@@ -311,8 +312,8 @@ TEST_P(Multisample, surfacesHaveNoSpecks)
 }
 
 //------------------------------------------------------------------------------
-/// A fine mesh, most of whose pixels have an edge in them, with contacts at which nsm itself is
-/// wrong within a texel.
+/// A fine mesh with an edge in most pixels, and with contacts at which `nsm` itself is wrong within
+/// a texel.
 TEST_F(PassTest, multisamplingGivesTheBunnyNoSpecks)
 {
   constexpr int size = 256;
@@ -350,7 +351,7 @@ TEST_F(PassTest, multisamplingGivesTheBunnyNoSpecks)
 }
 
 //------------------------------------------------------------------------------
-/// Outlines are pixels whose centres show something else, or nothing.
+/// Outlines are pixels whose centres show another surface, or none.
 TEST_F(PassTest, outlinesAreLitAsTheirSurfaces)
 {
   const auto scene = makeSurfaces(true);
@@ -360,7 +361,7 @@ TEST_F(PassTest, outlinesAreLitAsTheirSurfaces)
   }
   const double* const along = scene->renderer->GetActiveCamera()->GetDirectionOfProjection();
   scene->renderer->RemoveAllLights();
-  scene->addSun({ along[0], along[1], along[2] }); // lights all that is seen
+  scene->addSun({ along[0], along[1], along[2] }); // lights all visible surfaces
   scene->pass->SetTechnique("raytraced");
   scene->window->SetMultiSamples(samples);
   const Picture lit = scene->render();
@@ -375,15 +376,15 @@ TEST_F(PassTest, outlinesAreLitAsTheirSurfaces)
 }
 
 //------------------------------------------------------------------------------
-/// Against what the samples show, each by itself, in pixels that show several surfaces; and against
-/// the same with the visibility of the pixel's centre for all of them.
+/// In pixels that show several surfaces, compare with the mean of separately shaded samples. Also
+/// compare with the same mean with the centre's visibility for all samples.
 TEST_F(PassTest, outlinesHaveTheVisibilityOfTheirSurfaces)
 {
   BuiltinPass scene("posts", 256);
   makeMatt(scene.renderer);
   for (vtkActor* actor : vtk::Range(scene.renderer->GetActors()))
   {
-    actor->GetProperty()->SetInterpolationToFlat(); // so that a fragment's samples look alike
+    actor->GetProperty()->SetInterpolationToFlat(); // a fragment's samples then look alike
   }
   scene.pass->SetTechnique("raytraced");
   scene.window->SetMultiSamples(samples);
@@ -426,7 +427,7 @@ TEST_F(PassTest, outlinesHaveTheVisibilityOfTheirSurfaces)
 }
 
 //------------------------------------------------------------------------------
-/// Of two surfaces that run through each other, each covers pixels whose centres the other hides.
+/// Where two surfaces intersect, each covers pixels whose centres the other one hides.
 TEST_F(PassTest, headlightsLeaveLitWhatIsSeenInSeveralSamples)
 {
   PassScene scene(300, 300);

@@ -1,4 +1,4 @@
-// What stands beside shadows in a VTK application must not notice the pass: picking, translucent,
+// Other parts of a VTK application must not be affected by the pass: picking, translucent,
 // volumetric and overlay props, and the renderer's own settings.
 
 #include "PassScene.h"
@@ -57,8 +57,8 @@ protected:
     this->scene.lookFrom({ 0.0, -9.0, 7.0 });
   }
 
-  /// Draws with casting and with idle light. Away from the shadows, which must be there, both must
-  /// be the same picture; inside `kept`, too.
+  /// Draw with casting and with idle light. Outside the shadows, which must exist, and inside
+  /// `kept`, both pictures must be equal.
   template <typename IsKept>
   void expectKept(IsKept kept)
   {
@@ -86,8 +86,8 @@ protected:
     EXPECT_GT(changedOutside, 100u) << "no shadow";
   }
 
-  /// Adds an opaque blue volume in the shadows' way. It must look as without shadows, and
-  /// everything as without the pass when no light casts.
+  /// Add an opaque blue volume in the shadows' way. It must look as it does without shadows. If no
+  /// light casts, the whole picture must look as it does without the pass.
   void expectVolumeKept(vtkVolumeMapper* mapper)
   {
     vtkNew<vtkImageData> image;
@@ -98,7 +98,7 @@ protected:
     auto* values = static_cast<unsigned char*>(image->GetScalarPointer());
     for (int i = 0; i < 16 * 16 * 16; ++i)
     {
-      values[i] = static_cast<unsigned char>(120 + 5 * (i % 16)); // a slope to be shaded
+      values[i] = static_cast<unsigned char>(120 + 5 * (i % 16)); // a gradient, for shading
     }
     mapper->SetInputDataObject(image);
     vtkNew<vtkPiecewiseFunction> opacity;
@@ -139,7 +139,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Ways, Neighbours, allWays, nameOf);
 
-/// Props and ids that a rectangle selects, a line for each prop.
+/// Return the props and ids that a rectangle selects, a line for each prop.
 std::set<std::string> selectedIds(
   vtkRenderer* renderer, int association, const std::array<unsigned, 4>& box)
 {
@@ -215,7 +215,7 @@ TEST_P(Neighbours, worldPointPickerGivesTheSamePoints)
 //------------------------------------------------------------------------------
 TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
 {
-  // A pane in front of shadow, and half in the sphere's shadow itself.
+  // A pane in front of a shadow, and half in the sphere's shadow itself.
   vtkNew<vtkPlaneSource> pane;
   pane->SetOrigin(0.6, -1.0, 0.6);
   pane->SetPoint1(1.6, -1.0, 0.6);
@@ -226,7 +226,7 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
   for (const bool peeling : { false, true })
   {
     this->scene.renderer->SetUseDepthPeeling(peeling);
-    // What is behind the pane, and the two together.
+    // The picture behind the pane, and the picture with it.
     const auto draw = [&](float attenuation)
     {
       this->sun->SetShadowAttenuation(attenuation);
@@ -237,8 +237,8 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
     };
     const auto [behind, both] = draw(1.0f);
     const auto [behindIdle, bothIdle] = draw(0.0f);
-    // What the shader computes where the pane is, of techniques that work on the screen from the
-    // plain map: what every way must show.
+    // The reference is the shader's result at the pane. Techniques that work on the screen use the
+    // plain map there. Every way must show the same.
     const gnomon::TechniqueInfo& info =
       gnomon::findTechnique(GetParam().technique)->estimator->info;
     this->scene.choose(
@@ -253,7 +253,7 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
     {
       for (int x = 0; x < both.width; ++x)
       {
-        // The red pane takes half of the green behind it.
+        // The red pane hides half of the green behind it.
         if (bothIdle.at(x, y).g < 0.6 * behindIdle.at(x, y).g)
         {
           const double own = both.red(x, y) - 0.5 * behind.red(x, y);
@@ -286,8 +286,8 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
 }
 
 //------------------------------------------------------------------------------
-/// VTK shades coarse spheres by the normals of their corners. Facets that are turned away from the
-/// light may then be bright, and nothing hides the light where the sphere casts nothing.
+/// VTK shades coarse spheres by their corners' normals. Facets that are turned away from the light
+/// may then be bright. If the sphere casts nothing, nothing hides the light.
 TEST_P(Neighbours, translucentFacetsAreDarkOnlyWhereTheLightIsHidden)
 {
   this->floor->VisibilityOff();
@@ -353,7 +353,7 @@ TEST_P(Neighbours, overlaysAreDrawnAsVtkDrawsThem)
 TEST_P(Neighbours, volumesAreDrawnAsVtkDrawsThem)
 {
   vtkNew<vtkFixedPointVolumeRayCastMapper> mapper;
-  mapper->AutoAdjustSampleDistancesOff(); // the same picture on a busy machine
+  mapper->AutoAdjustSampleDistancesOff(); // a busy machine then draws the same picture
   this->expectVolumeKept(mapper);
 }
 

@@ -52,7 +52,7 @@ PassScene::PassScene(int width, int height)
   this->window->SetSize(width, height);
   this->window->AddRenderer(this->renderer);
   this->renderer->AutomaticLightCreationOff();
-  this->pass->SetSetting("bake", "always"); // so that what one frame shows is what maps say
+  this->pass->SetSetting("bake", "always"); // a single frame then shows the maps' shadows
   this->pass->SetTechnique("nsm");
   this->pass->SmoothTerminatorsOff(); // techniques are compared on the triangles
   this->useGnomon();

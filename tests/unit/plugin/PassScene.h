@@ -33,7 +33,7 @@
 namespace gnomon::test
 {
 
-/// The techniques and the routes to the shader that they can take.
+/// A technique and a route to the shader that it can take.
 struct Way
 {
   const char* technique;
@@ -45,22 +45,22 @@ inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROU
   Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, Way{ "pcf", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "pcf", vtkGnomonShadowPass::ROUTE_IMAGE },
   Way{ "raytraced", vtkGnomonShadowPass::ROUTE_AUTO });
-/// A map by both routes, and rays: for what does not depend on how a map is read.
+/// A map by both routes, and rays: for tests that do not depend on the estimator.
 inline const auto fewWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },
   Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
-/// Of scenes whose receivers are planes.
+/// For scenes whose receivers are planes.
 inline const Way planarWay{ "planar", vtkGnomonShadowPass::ROUTE_IMAGE };
-/// With a map and on the screen.
+/// A technique with a map that works on the screen.
 inline const Way layersWay{ "montecarlo", vtkGnomonShadowPass::ROUTE_IMAGE };
-/// Which is not what AUTO takes where OpenGL draws by software.
+/// With software OpenGL, AUTO takes another tracer.
 inline const Way gpuTracedWay{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE,
   vtkGnomonShadowPass::TRACER_GPU };
 std::ostream& operator<<(std::ostream& stream, const Way& way);
 void choose(vtkGnomonShadowPass* pass, const Way& way);
 
-/// A renderer in a window of its own, with the pass in place. Surfaces are white and matt, without
-/// ambient light, so that a pixel's value is the light's cosine times its visibility.
+/// A renderer in its own window, under the pass. Surfaces are white and matt, without ambient
+/// light, so a pixel's value is the light's cosine times its visibility.
 class PassScene
 {
 public:
@@ -69,26 +69,26 @@ public:
   vtkActor* add(vtkAlgorithm* source);
   vtkActor* add(vtkPolyData* data);
   vtkActor* addBox(const glm::dvec3& lower, const glm::dvec3& upper);
-  /// The square of half side `extent` around the origin, at height z.
+  /// Add the square of half side `extent` around the origin, at height z.
   vtkActor* addFloor(double extent, double z = 0.0);
   vtkActor* addSphere(const glm::dvec3& centre, double radius);
   vtkLight* addSun(const glm::dvec3& direction);
   vtkLight* addSpot(const glm::dvec3& position, const glm::dvec3& target, double coneAngleDegrees);
 
-  /// A parallel camera that looks straight down with +y up and sees `halfHeight` of the floor above
-  /// and below its middle (x, y).
+  /// Set a parallel camera that looks straight down with +y up and sees `halfHeight` of the floor
+  /// above and below its middle (x, y).
   void lookDown(double halfHeight, double x = 0.0, double y = 0.0);
-  /// The floor point that lookDown shows at the middle of a pixel.
+  /// Return the floor point that lookDown shows at the middle of a pixel.
   glm::dvec2 floorAt(int x, int y) const;
-  /// The red value of the pixel that lookDown shows a floor point at.
+  /// Return the red value of the pixel at which lookDown shows a floor point.
   int redAt(const Picture& picture, double x, double y) const;
   void lookFrom(const glm::dvec3& position, const glm::dvec3& target = glm::dvec3(0.0));
 
-  /// Draws a frame, which must raise no OpenGL error.
+  /// Draw a frame, which must raise no OpenGL error.
   Picture render();
 
   ///@{
-  /// Who draws the scene: Gnomon's pass, VTK's own shadow pass, or no pass at all.
+  /// Draw by Gnomon's pass, by VTK's own shadow pass, or without a pass.
   void useGnomon() { this->renderer->SetPass(this->pass); }
   void useVtkShadows(int mapSize = 1024);
   void usePlain() { this->renderer->SetPass(nullptr); }
@@ -101,14 +101,14 @@ public:
   vtkNew<vtkGnomonEGLRenderWindow> window;
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkGnomonShadowPass> pass;
-  bool numbersAreWrong = false; ///< whether render() expects that (FrameReport::numbersWrong)
+  bool numbersAreWrong = false;          ///< render() expects FrameReport::numbersWrong
   vtkSmartPointer<vtkObject> vtkShadows; ///< the vtkShadowMapPass of useVtkShadows()
 
 private:
   glm::dvec3 down_{ 0.0 }; ///< the middle and the half height of lookDown()
 };
 
-/// What a picture of a floor from straight above shows, against shadows known exactly.
+/// Counts of a floor's pixels seen from straight above, against exactly known shadows.
 struct FloorCheck
 {
   std::size_t counted = 0;     ///< floor pixels away from the shadows' edges
@@ -117,63 +117,63 @@ struct FloorCheck
   std::size_t wrong() const { return this->falseLight + this->falseShadow; }
 };
 
-/// The exact answer at a floor point: the value that the pixel must have (0 to 255), or a negative
-/// one where the floor is not seen.
+/// The exact answer at a floor point: the pixel's value (0 to 255), or a negative one if the floor
+/// is not visible.
 using ExactFloor = std::function<double(const glm::dvec2&)>;
 
-/// The scene that most exact answers are known for: a box over a floor, under one sun at 45
-/// degrees.
+/// The scene of most exact answers: a box over a floor, under one sun at 45 degrees.
 struct Box
 {
   glm::dvec3 lower;
   glm::dvec3 upper;
 };
-/// Hangs over the floor, so that its shadow from the sun is x in [0, 4], of which it hides [0, 1].
+/// Hangs over the floor. Its shadow from the sun is x in [0, 4]; the box hides [0, 1] of it.
 inline const Box hangingBox{ { -1.0, -1.0, 1.0 }, { 1.0, 1.0, 3.0 } };
 inline const glm::dvec3 slantingSun(1.0, 0.0, -1.0);
 extern const double slantingSunValue; ///< a lit floor pixel's
 
-/// Whether a box hides a floor point from straight above.
+/// True if a box hides a floor point from straight above.
 bool isUnder(const glm::dvec2& floor, const Box& box);
 
-/// The floor of half side `extent` under one sun; nothing is asked of the box itself, nor beyond
-/// the floor.
+/// Return the exact answer for the floor of half side `extent` under one sun; negative on the box
+/// itself and beyond the floor.
 ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction = slantingSun,
   double value = slantingSunValue);
 
-/// Compares each pixel with the exact answer, with a tolerance of a quarter of white. Pixels with
+/// Compare each pixel with the exact answer, with a tolerance of a quarter of white. Pixels with
 /// an edge of the exact answer nearer than `band` (floor units) are left out.
 FloorCheck checkFloor(
   const PassScene& scene, const Picture& picture, const ExactFloor& exact, double band);
 
-/// Whether the ray from a floor point towards the light, p + t * toLight for t > 0, meets the box.
+/// True if the ray from a floor point towards the light, p + t * toLight for t > 0, meets the box.
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
   const glm::dvec3& upper);
 
-/// A picture of three channels, by texel.
+/// Make an image of three channels, texel by texel.
 vtkSmartPointer<vtkImageData> makeImage(
   int width, int height, const std::function<glm::dvec3(int, int)>& colourOf);
 
-/// Appends the progress that a pass tells of to `told`, and 2 at its end.
+/// Append the progress that a pass reports to `told`, and 2 at its end.
 void listenToProgress(vtkObject* teller, std::vector<double>& told);
 
-/// The cone angle of a light that shines everywhere.
+/// The cone angle of a light that shines in all directions, in degrees.
 inline constexpr double allDirections = 180.0;
 
-/// Draws a frame, keeps its visibility, and checks that its numbers are visibilities, and finite.
+/// Draw a frame and keep its visibility. Check that its values are finite and in [0, 1].
 const VisibilityImages& drawKept(PassScene& scene);
 
-/// The mean visibility of each column of a picture, of the first light.
+/// Return the first light's mean visibility of each column of a picture.
 std::vector<double> columnMeans(const VisibilityImages& kept);
 
-/// Where a pixel's receiver is in the world; not a number where nothing is seen.
+/// Return the world position of a pixel's receiver; NaN if the pixel shows no surface.
 glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel);
 
-/// The cosine between a pixel's normal and the way from there to a light; 0 where it is in the
-/// light.
+/// Return the cosine between a pixel's normal and the direction to a light; 0 if the pixel is at
+/// the light.
 double cosineTowards(const VisibilityImages& kept, std::size_t pixel, vtkLight* light);
 
-/// Of the pixels that face the first light by more than a cosine, those that are not fully lit.
+/// The pixels that face the first light by more than a cosine, and those of them that are not fully
+/// lit.
 struct Acne
 {
   std::size_t facing = 0;
@@ -181,7 +181,7 @@ struct Acne
   double mean = 0.0; ///< visibility
   float least = 1.0f;
 };
-/// @param toLight from a receiver's position towards the light, of any length
+/// @param toLight maps a receiver's position to a vector towards the light, of any length
 Acne countAcne(const VisibilityImages& kept,
   const std::function<glm::dvec3(const glm::dvec3&)>& toLight, double leastCosine = 0.0);
 Acne countAcneOfSun(
@@ -189,7 +189,7 @@ Acne countAcneOfSun(
 Acne countAcneOfLamp(
   const VisibilityImages& kept, const glm::dvec3& lightWorld, double leastCosine = 0.0);
 
-/// How two frames' visibility of one light compare.
+/// Comparison of two frames' visibility of one light.
 struct Agreement
 {
   std::size_t covered = 0;  ///< pixels that both frames cover
@@ -204,15 +204,15 @@ struct Agreement
 Agreement compareVisibility(
   const VisibilityImages& a, const VisibilityImages& b, std::size_t light = 0);
 
-/// How far apart the visibilities of pixels are on average.
+/// Return the mean absolute difference of the pixels' visibilities.
 double meanVisibilityDifference(const std::vector<float>& a, const std::vector<float>& b);
 
-/// Every test must leave VTK with nothing to complain about, but for the errors that it takes.
+/// After each test, VTK must have reported no error except those that the test takes.
 class PassTest : public testing::Test
 {
 protected:
   void TearDown() override;
-  /// The errors since the last call, as one text; they no longer count.
+  /// Return the errors since the last call as one text; the test then ignores them.
   std::string takeErrors();
 
   tool::VtkMessages messages_;

@@ -1,5 +1,5 @@
-// Percentage closer filtering with every kernel: shadows as far from contacts as the kernel
-// reaches and no farther, and no setting that breaks it.
+// Percentage closer filtering with every kernel: shadows reach as far from contacts as the kernel
+// and no farther, and no setting breaks it.
 
 #include "PassScene.h"
 
@@ -44,7 +44,7 @@ class Pcf
   , public testing::WithParamInterface<Kernel>
 {
 protected:
-  /// Gives a light the test's kernel, and the pass the technique.
+  /// Give a light the test's kernel, and the pass the technique.
   static void choose(PassScene& scene, vtkLight* light)
   {
     scene.pass->SetTechnique("pcf");
@@ -89,8 +89,8 @@ protected:
 //------------------------------------------------------------------------------
 TEST_P(Pcf, shadowsBeginWithinTheKernelsReachOfTheirCasters)
 {
-  // A wall on a floor, thinner than a texel, so that it casts with the face that is pushed back;
-  // its shadow begins at x = 0.1.
+  // A wall on a floor, thinner than a texel, so it casts with the face that is pushed back. Its
+  // shadow begins at x = 0.1.
   constexpr int mapSize = 512;
   const glm::dvec3 lower(0.099, -3.0, 0.0);
   const glm::dvec3 upper(0.1, 3.0, 2.0);
@@ -139,7 +139,7 @@ TEST_P(Pcf, shadowsBeginWithinTheKernelsReachOfTheirCasters)
 //------------------------------------------------------------------------------
 TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
 {
-  // The box alone casts, so that the map ends where the shadow does, but for the border.
+  // The box alone casts, so the map ends at the shadow's end, except for the border.
   constexpr int mapSize = 256;
   PassScene scene(400, 400);
   vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), false);
@@ -161,8 +161,8 @@ TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
   }
   EXPECT_LT(pixelTexels, 1.0);
   EXPECT_EQ(lit(399), 1.0);
-  // A texel's column at a time, of Castano's kernel the middle one at most; of a disc, the points
-  // in it, which differ from place to place.
+  // Visibility changes by a texel's column at a time: for Castano's kernel at most the middle one;
+  // for a disc the points in it, which differ from place to place.
   const std::string name = GetParam().name;
   const double castano = GetParam().texels == 3 ? 2.0 / 4.0 : 16.0 / 52.0; // of 3 and of 7
   const double column = name == "poisson" ? 0.35
@@ -174,8 +174,8 @@ TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
 //------------------------------------------------------------------------------
 TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
 {
-  // A plate whose shadow on the floor ends at x = 3.98, and an edge between faces of the lamp's
-  // cube at x = 4. Nothing else casts, so that the plate is on one face only.
+  // A plate's shadow on the floor ends at x = 3.98, and two faces of the lamp's cube meet at x = 4.
+  // Only the plate casts, so it is on one face only.
   PassScene scene(400, 40);
   vtkGnomonPropKeys::SetCasts(scene.addFloor(10.0), false);
   scene.addBox({ 1.0, -1.0, 2.0 }, { 1.99, 1.0, 2.001 });
@@ -190,7 +190,7 @@ TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
     const VisibilityImages& kept = drawKept(scene);
     const auto lit = [&](int x)
     { return static_cast<double>(kept.visibility[0][20 * 400 + static_cast<std::size_t>(x)]); };
-    // Seen from x = 3 to 5, with the edge in the middle.
+    // Visible from x = 3 to 5, with the edge in the middle.
     double largestStep = 0.0;
     for (int x = 1; x < 400; ++x)
     {
@@ -206,8 +206,8 @@ TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
 //------------------------------------------------------------------------------
 TEST_P(Pcf, steepCastersStayCastersForWhatLiesBehindAllOfThem)
 {
-  // A sheet that stands steeply in the light, and nothing else that casts: pushed back far beyond
-  // the end of the map's depths, it still hides the floor.
+  // A sheet that stands steeply in the light is the only caster. Pushed back far beyond the end of
+  // the map's depths, it still hides the floor.
   for (const bool lamp : { false, true })
   {
     PassScene scene(300, 300);
@@ -220,7 +220,7 @@ TEST_P(Pcf, steepCastersStayCastersForWhatLiesBehindAllOfThem)
       lamp ? scene.addSpot({ 0.0, 0.0, 12.0 }, glm::dvec3(0.0), 30.0)
            : scene.addSun({ 0.0, 0.0, -1.0 }));
     scene.pass->SetMapSize(64);
-    // Below the middle of its lower half.
+    // A point below the middle of its lower half.
     const double x = 0.5 * std::cos(glm::radians(85.0)) * (lamp ? 12.0 / 9.5 : 1.0);
     scene.lookFrom({ 4.0, -6.0, 5.0 }, { x, 0.0, 0.0 });
     scene.renderer->GetActiveCamera()->SetViewAngle(1.0);
@@ -248,7 +248,7 @@ TEST_F(KernelSettings, anotherKernelIsBakedOnceAndReported)
   this->scene.render();
   EXPECT_EQ(this->scene.report().lights[0].kernel, "bilinear");
   EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 3);
-  // The same border, but not the same reach.
+  // The border is the same, but the reach differs.
   vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "poisson");
   this->scene.render();
   EXPECT_EQ(this->scene.report().mapBakes, 1);
@@ -275,7 +275,7 @@ TEST_F(KernelSettings, anotherKernelIsBakedOnceAndReported)
 TEST_F(KernelSettings, kernelsOfTechniquesThatHaveTheirOwnAreReported)
 {
   this->scene.pass->SetSetting(
-    "kernel", "castano"); // of no meaning to them, nor that it has no size 6
+    "kernel", "castano"); // these techniques ignore it, also that it has no size 6
   this->scene.pass->SetSetting("kernel_size", "6");
   for (const auto& [technique, kernel] : std::map<std::string, std::string>{
          { "adaptive", "disc" }, { "vsm", "square" }, { "evsm", "square" }, { "msm", "square" } })
@@ -318,7 +318,7 @@ TEST_F(KernelSettings, unknownKernelIsAnErrorThatNamesTheOthers)
     this->takeErrors(), HasSubstr("'magic', expected one of: bilinear, box, poisson, castano"));
   this->scene.render();
   EXPECT_EQ(this->takeErrors(), "");
-  // Past the function that refuses it.
+  // Bypass the function that refuses it.
   for (const char* part : { "kernel", "magic" })
   {
     this->sun->GetInformation()->Append(vtkGnomonLightKeys::SETTINGS(), part);

@@ -1,4 +1,4 @@
-// Percentage closer soft shadows in frames: widths that are known.
+// Percentage closer soft shadows in frames, compared with known widths.
 
 #include "HalfPlane.h"
 #include "PassScene.h"
@@ -23,7 +23,7 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-/// Gives a scene the technique, and its light an area.
+/// Give a scene the technique, and its light an area.
 std::function<void(PassScene&, vtkLight*)> soft(const char* radius)
 {
   return [radius](PassScene& scene, vtkLight* light)
@@ -49,7 +49,7 @@ double meanDifference(const std::vector<float>& a, const std::vector<float>& b)
   return sum / static_cast<double>(a.size());
 }
 
-/// The way between where a profile, which rises, passes 0.1 and 0.9, in its steps.
+/// Return the distance over which a rising profile goes from 0.1 to 0.9, in its steps.
 double widthOf(const std::vector<double>& profile)
 {
   const auto passes = [&](double level)
@@ -63,7 +63,7 @@ double widthOf(const std::vector<double>& profile)
   return passes(0.9) - passes(0.1);
 }
 
-/// A disk's share is 0.1 where a chord cuts it at this part of its radius.
+/// A disk's share is 0.1 if a chord cuts it at this part of its radius.
 constexpr double chordOfTenth = 0.687;
 
 /// A floor with the shadow of a half plane at height 2 that ends at x = 0, seen from above.
@@ -80,13 +80,12 @@ protected:
     this->scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
   }
 
-  /// A pixel's side, in world units.
+  /// The side of a pixel, in world units.
   double pixel() const { return this->scene.floorAt(1, 0).x - this->scene.floorAt(0, 0).x; }
 
-  /// Expects the penumbra to be as wide as geometry has it, and its profile to be that of geometry,
-  /// at all sizes of the map.
-  /// @param exact what is seen of the light from (x, 0, 0)
-  /// @param tolerance of the width from 0.1 to 0.9, a share
+  /// Expect the penumbra's width and profile to be those of geometry, at all sizes of the map.
+  /// @param exact the visible share of the light from (x, 0, 0)
+  /// @param tolerance of the width from 0.1 to 0.9, as a share
   void expectPenumbra(const std::vector<int>& mapSizes,
     const std::function<double(double x)>& exact, double tolerance)
   {
@@ -101,13 +100,13 @@ protected:
       {
         const double expected = exact(this->scene.floorAt(static_cast<int>(column), 0).x);
         exactProfile.push_back(expected);
-        EXPECT_NEAR(profile[column], expected, 0.012) << column; // 0.15 is asked
+        EXPECT_NEAR(profile[column], expected, 0.012) << column; // 0.15 is required
         between += expected > 0.0 && expected < 1.0 ? 1 : 0;
       }
       const double width = widthOf(profile) / widthOf(exactProfile);
       EXPECT_GT(between, 60);
-      EXPECT_NEAR(width, 1.0, tolerance);                               // 15 % are asked
-      EXPECT_NEAR(width, before == 0.0 ? width : before, 0.02 * width); // 5 % are asked
+      EXPECT_NEAR(width, 1.0, tolerance);                               // 15 % are required
+      EXPECT_NEAR(width, before == 0.0 ? width : before, 0.02 * width); // 5 % are required
       before = width;
     }
   }
@@ -156,8 +155,8 @@ TEST_F(Penumbra, ofAPointLightIsThatOfItsBall)
 //------------------------------------------------------------------------------
 TEST_F(Penumbra, asPublishedIsAShareOfTheConesMap)
 {
-  // Receivers at 10, blockers at 8: the filter's disk is a quarter of the light's width wide and a
-  // 16th more, in shares of a map of the whole cone, which is 2 tan(cone) wide at distance 1. The
+  // Receivers at 10, blockers at 8. The filter's disk is a quarter of the light's width, and a 16th
+  // more, as a share of a map of the whole cone. The cone is 2 tan(cone) wide at distance 1. The
   // floor would darken itself.
   vtkGnomonPropKeys::SetCasts(this->floor, false);
   this->scene.pass->SetTechnique("pcss");
@@ -188,9 +187,9 @@ TEST_F(Penumbra, isSmootherFromPresetToPreset)
   for (const char* preset : { "low", "medium", "high" })
   {
     this->scene.pass->SetSetting("pcss_samples", preset);
-    // A column's pixels have one answer in truth. With one pattern for all of them they would have
-    // it here, too, in steps; with patterns that turn, steps become noise of less than a level in
-    // 30 (medium).
+    // All pixels of a column have one true value. With the same pattern in each pixel, they have
+    // one value, in steps. Turned patterns make the steps noise of less than a level in 30
+    // (medium).
     const VisibilityImages& kept = drawKept(this->scene);
     const std::vector<double> means = columnMeans(kept);
     double noise = 0.0;
@@ -240,21 +239,21 @@ protected:
   {
     return scene.addSpot({ -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 50.0);
   }
-  /// Looks down at the floor from below what hangs over it.
+  /// Look down at the floor from below the hanging casters.
   static void lookFromBelow(PassScene& scene, double halfHeight, double x, double height)
   {
     scene.lookDown(halfHeight, x);
     scene.renderer->GetActiveCamera()->SetPosition(x, 0.0, height);
     scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 3.0);
   }
-  /// Of rays to 256 points.
+  /// The truth by rays to 256 points.
   static std::vector<float> truthOf(PassScene& scene)
   {
     scene.pass->SetTechnique("raytraced");
     scene.pass->SetSetting("light_samples", "256");
     return visibilityOf(scene, "raytraced");
   }
-  /// Pixels for which something holds of two images.
+  /// Count the pixels for which a predicate of two images holds.
   template <typename Predicate>
   static int countBoth(const std::vector<float>& a, const std::vector<float>& b, Predicate holds)
   {
@@ -265,8 +264,8 @@ protected:
     }
     return count;
   }
-  /// Expects that the early out changes nothing, and that nearly all is darkened that is hidden in
-  /// part.
+  /// Expect that the early out changes nothing, and that nearly all partly hidden pixels are
+  /// darkened.
   static void expectCastersFound(
     PassScene& scene, const std::vector<float>& truth, const char* what)
   {
@@ -300,7 +299,7 @@ TEST_F(Pcss, aLightWithoutSizeIsThePlainShadowMap)
     for (std::size_t i = 0; i < hard.size(); ++i)
     {
       const int different = countBoth(hard[i], seen[i], std::not_equal_to<>());
-      // The border takes a texel more, which may move every other one.
+      // The border takes a texel more, which may move every other texel.
       EXPECT_LE(different, point ? 0 : 200 * 150 / 200) << i;
     }
   }
@@ -319,7 +318,7 @@ TEST_F(Pcss, isNearTheTruthUnderEveryLightAndProjection)
   addThings(scene);
   vtkLight* const sun = scene.addSun({ 0.4, 0.5, -1.0 });
   vtkLight* const lamp = addLamp(scene);
-  double lit = -1.0; // the light that the truth is of
+  double lit = -1.0; // the light for which the truth was computed
   std::vector<float> truth;
   for (const auto& [projection, fit, cone] : { Case{ "uniform", "off", 0.0 },
          { "lispsm", "frame", 0.0 }, { "tsm", "frame", 0.0 }, { "pssm", "frame", 0.0 },
@@ -347,8 +346,8 @@ TEST_F(Pcss, isNearTheTruthUnderEveryLightAndProjection)
 }
 
 //------------------------------------------------------------------------------
-/// A large lamp above a floor, and a caster so high that the faces of the lamp's cube that see the
-/// floor below do not see it: what it hides of the lamp is found on other faces.
+/// A large lamp above a floor, and a high caster. Faces of the lamp's cube that see the floor below
+/// do not see the caster: its share of the lamp is found on other faces.
 TEST_F(Pcss, castersOnOtherFacesOfTheCubeAreFound)
 {
   PassScene scene(100, 100);
@@ -362,9 +361,9 @@ TEST_F(Pcss, castersOnOtherFacesOfTheCubeAreFound)
 }
 
 //------------------------------------------------------------------------------
-/// A floor that casts nothing under a large lamp, and a screen that stands close beside the lamp:
-/// the face of the lamp's cube that sees most of the floor holds no casters, others are cut to the
-/// screen, which lies elsewhere on them.
+/// A floor that casts nothing under a large lamp, and a screen close beside the lamp. The cube's
+/// face that sees most of the floor holds no casters. Other faces are cut to the screen, which lies
+/// elsewhere on them.
 TEST_F(Pcss, castersAreFoundFromFacesWithout)
 {
   for (const char* shape : { "ball", "disk", "rectangle" })
@@ -400,13 +399,13 @@ TEST_F(Pcss, castersAreFoundFromFacesWithout)
 }
 
 //------------------------------------------------------------------------------
-/// A lamp amid casters on all sides, over a floor that five faces of its cube see: rays come by
-/// faces that no receiver is on.
+/// A lamp amid casters on all sides, over a floor that five faces of its cube see. Rays pass
+/// through faces without receivers.
 TEST_F(Pcss, isNotFittedToTheCameraUnderALampThatSeesAllAround)
 {
   PassScene scene(200, 150);
   scene.addFloor(4.0);
-  // Just beside the face below, and over receivers on that face.
+  // Just beside the face below, above receivers on that face.
   scene.addBox({ 0.5, -1.0, 0.52 }, { 0.55, 1.0, 1.4 });
   scene.addBox({ -1.4, 0.6, 0.0 }, { -0.4, 0.9, 0.7 });
   scene.addSphere({ -0.8, -0.7, 1.0 }, 0.4);
@@ -422,15 +421,15 @@ TEST_F(Pcss, isNotFittedToTheCameraUnderALampThatSeesAllAround)
     EXPECT_EQ(visibilityOf(scene, "pcss"), whole) << fit;
     EXPECT_EQ(scene.report().lights.at(0).fit, "off") << fit;
   }
-  // A light without an area is.
+  // A light without an area is fitted.
   soft("0")(scene, lamp);
   drawKept(scene);
   EXPECT_EQ(scene.report().lights.at(0).fit, "frustum");
 }
 
 //------------------------------------------------------------------------------
-/// Salt and pepper of searches: one that takes a large area, because of a caster near the lamp, has
-/// few points where the edge of a low caster is found.
+/// A caster near the lamp makes a search's area large. Few of its points then find the edge of a
+/// low caster, which causes salt-and-pepper noise.
 TEST_F(Pcss, searchesLeaveNoSpecks)
 {
   PassScene scene(120, 120);
@@ -455,8 +454,8 @@ TEST_F(Pcss, searchesLeaveNoSpecks)
 }
 
 //------------------------------------------------------------------------------
-/// A ball of light beside a screen, whose shadow goes over from one face of the lamp's cube to the
-/// next at x = 1: what visibility is off by is the same on both sides.
+/// A ball light beside a screen, whose shadow crosses from one face of the lamp's cube to the next
+/// at x = 1. Visibility has the same error on both sides.
 TEST_F(Pcss, hasNoSeamsWhereFacesOfTheCubeMeet)
 {
   PassScene scene(100, 100);
@@ -469,7 +468,7 @@ TEST_F(Pcss, hasNoSeamsWhereFacesOfTheCubeMeet)
   const std::vector<double> truth = columnMeans(drawKept(scene));
   scene.pass->SetTechnique("pcss");
   const std::vector<double> softly = columnMeans(drawKept(scene));
-  constexpr std::size_t strip = 5; // columns, of 0.008
+  constexpr std::size_t strip = 5; // columns, 0.008 wide each
   double off[2] = {};
   double seen = 0.0;
   for (std::size_t column = 50 - strip; column < 50 + strip; ++column)
@@ -483,8 +482,7 @@ TEST_F(Pcss, hasNoSeamsWhereFacesOfTheCubeMeet)
 }
 
 //------------------------------------------------------------------------------
-/// The shadow of a box that stands on the floor, where a ball close to the lamp hides a part of it,
-/// too.
+/// The shadow of a box on the floor, where a ball close to the lamp hides a part of the lamp, too.
 TEST_F(Pcss, contactsAreSeenInWidePenumbrae)
 {
   PassScene scene(200, 150);
@@ -503,7 +501,7 @@ TEST_F(Pcss, contactsAreSeenInWidePenumbrae)
 }
 
 //------------------------------------------------------------------------------
-/// A ball's penumbra is that of its rim, which lies behind its middle as the lamp sees it.
+/// A ball's penumbra is that of its rim, which lies behind its middle as seen from the lamp.
 TEST_F(Pcss, roundCastersHaveThePenumbraOfTheirRims)
 {
   PassScene scene(150, 150);
@@ -517,8 +515,8 @@ TEST_F(Pcss, roundCastersHaveThePenumbraOfTheirRims)
 }
 
 //------------------------------------------------------------------------------
-/// How pixels come to their visibility: every one of a class, what bounds decide neither searched
-/// nor filtered, and the more filtered the larger the light.
+/// Each pixel has one class. Pixels decided by bounds are neither searched nor filtered, and a
+/// larger light has more filtered pixels.
 TEST_F(Pcss, tellsWhatTheEarlyOutDecides)
 {
   PassScene scene(200, 150);
@@ -564,7 +562,7 @@ TEST_F(Pcss, tellsWhatTheEarlyOutDecides)
 }
 
 //------------------------------------------------------------------------------
-/// Where nothing of the light is seen, `pcss` shows a little of it in some pixels.
+/// Where the light is fully hidden, `pcss` shows a little of it in some pixels.
 TEST_F(Pcss, fewLightLeaksGrowWithTheLight)
 {
   PassScene scene(200, 150);
@@ -588,12 +586,12 @@ TEST_F(Pcss, fewLightLeaksGrowWithTheLight)
     EXPECT_LE(lit, mostLit) << radius;
     (mostLit > 3 ? litOfLarge : litOfSmall) += lit;
   }
-  EXPECT_GT(litOfLarge, litOfSmall); // of fewer pixels that are dark
+  EXPECT_GT(litOfLarge, litOfSmall); // although fewer pixels are dark
 }
 
 //------------------------------------------------------------------------------
-/// The shadow of a post that stands on the floor, under a sun at 45 degrees: its penumbrae are as
-/// wide as the way to the post makes them.
+/// The shadow of a post on the floor, under a sun at 45 degrees. Its penumbrae are as wide as the
+/// distance to the post makes them.
 TEST_F(Pcss, shadowsHardenTowardsTheirContact)
 {
   PassScene scene(320, 320);
@@ -608,7 +606,7 @@ TEST_F(Pcss, shadowsHardenTowardsTheirContact)
   double previous = 0.0;
   for (const double along : { 0.2, 0.5, 0.8, 1.1, 1.4, 1.7, 2.0, 2.3, 2.6 })
   {
-    // The shares of a row of columns, from the shadow's middle to its side, on both sides.
+    // Return the shares of a row of columns, from the shadow's middle to its side, on both sides.
     const auto column = static_cast<int>(along / pixel);
     std::vector<double> shares(static_cast<std::size_t>(kept.height / 2), 0.0);
     for (std::size_t i = 0; i < shares.size(); ++i)
@@ -623,11 +621,11 @@ TEST_F(Pcss, shadowsHardenTowardsTheirContact)
       }
     }
     const double width = widthOf(shares) * pixel;
-    // Half the sun's angle, over the slant way to the post.
+    // Half the sun's angle, over the slant distance to the post.
     const double exact = 2.0 * chordOfTenth * std::tan(glm::radians(3.0)) * std::sqrt(2.0) *
       scene.floorAt(column, 0).x;
     EXPECT_GT(width, previous) << along;
-    EXPECT_NEAR(width, exact, 0.08 * exact) << along; // 15 % are asked of widths
+    EXPECT_NEAR(width, exact, 0.08 * exact) << along; // 15 % are required of widths
     previous = width;
   }
 }
@@ -664,7 +662,7 @@ TEST_F(Pcss, asPublishedIsForSpotLightsAlone)
   soft("0")(scene, lamp);
   const std::vector<float> hard = visibilityOf(scene, "nsm");
   scene.pass->SetSetting("as_published", "on");
-  EXPECT_EQ(visibilityOf(scene, "pcss"), hard); // of a light without area
+  EXPECT_EQ(visibilityOf(scene, "pcss"), hard); // a light without area
   soft("0.1")(scene, lamp);
   scene.render();
   EXPECT_EQ(scene.report().lights.at(0).estimator, "pcss_as_published");

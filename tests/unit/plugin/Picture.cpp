@@ -22,7 +22,7 @@ glm::ivec3 Picture::at(int x, int y) const
 Picture readPicture(vtkRenderWindow* window)
 {
   vtkNew<vtkUnsignedCharArray> values;
-  const int* size = window->GetActualSize(); // of a tiled window the tile's
+  const int* size = window->GetActualSize(); // the tile's size for a tiled window
   window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 1, values);
   const unsigned char* first = values->GetPointer(0);
   return { size[0], size[1], { first, first + values->GetNumberOfValues() } };

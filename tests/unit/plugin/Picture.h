@@ -26,10 +26,10 @@ struct Picture
   }
 };
 
-/// Reads the whole window.
+/// Read the whole window.
 Picture readPicture(vtkRenderWindow* window);
 
-/// Pixels in which some channel differs by more than `tolerance` of 255.
+/// Count the pixels in which some channel differs by more than `tolerance` of 255.
 std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance = 0);
 
 } // namespace gnomon::test

@@ -1,4 +1,4 @@
-// Planar shadows: on flat receivers they are what rays say, and they are nowhere else.
+// Planar shadows equal rays on flat receivers, and do not occur elsewhere.
 
 #include "PassScene.h"
 
@@ -28,13 +28,13 @@ using testing::HasSubstr;
 namespace
 {
 
-/// Planar shadows against the ray-traced ones of the same scene.
+/// Comparison of planar shadows with the ray-traced ones of the same scene.
 struct Against
 {
   std::size_t covered = 0;
-  std::size_t shadowed = 0; ///< by the rays, where the surface faces the light
+  std::size_t shadowed = 0; ///< in shadow by the rays, on surfaces that face the light
   std::size_t wrong = 0;
-  /// Wrong pixels all of whose neighbours within two pixels agree with them in the truth.
+  /// Wrong pixels whose neighbours within two pixels all have the pixel's true value.
   std::size_t speckles = 0;
 };
 
@@ -95,7 +95,7 @@ protected:
     return compare(drawKept(scene), truth);
   }
 
-  /// What rasterisers and rays disagree about at edges: they move corners by up to 1/256 pixel.
+  /// Expect agreement with rays, except at edges: rasterisers move corners by up to 1/256 pixel.
   static void expectLikeRays(PassScene& scene, std::size_t leastShadowed = 1000)
   {
     const Against against = againstRays(scene);
@@ -104,7 +104,7 @@ protected:
     EXPECT_LE(against.wrong, against.covered / 5000);
   }
 
-  /// A sun, a spot light or a lamp.
+  /// Add a sun, a spot light or a lamp.
   static void addLight(PassScene& scene, int kind)
   {
     kind == 0     ? scene.addSun({ 1.0, 0.4, -1.0 })
@@ -113,8 +113,8 @@ protected:
   }
 };
 
-/// A floor with a box that hangs over it, and one that lies on it and is as high: all planes show
-/// shadows.
+/// A floor with a box that hangs over it and one of the same height that lies on it: all planes
+/// show shadows.
 constexpr int boxesPlanes = 11;
 void addBoxes(PassScene& scene)
 {
@@ -137,7 +137,7 @@ std::size_t visible(const VisibilityImages& kept, float visibility, float normal
   return count;
 }
 
-/// The mean difference of two images where something is covered, which must have a penumbra.
+/// Return the mean difference of two images over covered pixels; there must be a penumbra.
 double meanOff(const VisibilityImages& kept, const std::vector<float>& truth)
 {
   double error = 0.0;
@@ -156,7 +156,7 @@ double meanOff(const VisibilityImages& kept, const std::vector<float>& truth)
   return error / covered;
 }
 
-/// A scene whose planar shadows are those of rays.
+/// A scene whose planar shadows equal those of rays.
 struct PlanarScene
 {
   const char* name;
@@ -203,7 +203,7 @@ const PlanarScene planarScenes[] = {
       scene.addSun({ 1.0, 0.4, -1.0 });
       scene.lookDown(4.5);
     } },
-  // The light stands at half the height of one.
+  // The light stands at half the height of one caster.
   { "castersOnBothSidesOfTheLight", 1000,
     [](PassScene& scene)
     {
@@ -293,7 +293,8 @@ TEST_F(Planar, sunsAlongAxesAreWhatRaysSay)
 //------------------------------------------------------------------------------
 TEST_F(Planar, lightsBelowCastersMakeNoShadowOfThem)
 {
-  // The light is between the box and the floor: projected through it the box would be an
+  // The light is between the box and the floor. Projected through the light, the box would be an
+  // anti-shadow.
   // anti-shadow.
   for (const double cone : { allDirections, 80.0 })
   {
@@ -328,15 +329,14 @@ TEST_F(Planar, castersThatStraddleTheFloorCastFromItUp)
   scene.pass->SetSetting("planes", "64");
   const Against against = againstRays(scene);
   EXPECT_GT(against.shadowed, 3000u);
-  // What the sphere does not show on itself: it is convex, so nothing but its terminator.
+  // Self-shadows of the sphere are missing; it is convex, so only its terminator differs.
   EXPECT_LE(against.wrong, against.covered / 2000);
 }
 
 //------------------------------------------------------------------------------
 TEST_F(Planar, shadowsEndWhereTheirReceiverEnds)
 {
-  // Two floors, one above the other, and a round one: the upper one's shadow must not be seen on
-  // them.
+  // Two floors, one above the other, and a sphere. The upper floor's shadow must not show on them.
   PassScene scene(400, 400);
   scene.addFloor(1.0, 0.0);
   scene.addFloor(4.0, -2.0);
@@ -378,7 +378,7 @@ TEST_F(Planar, allSixWallsOfARoomShowShadows)
   scene.pass->SetSetting("planes", "64");
   vtkCamera* camera = scene.renderer->GetActiveCamera();
   camera->SetViewAngle(90.0);
-  // The boxes' own sides take shadows, too; what the sphere casts on itself is N.L < 0.
+  // The boxes' own sides receive shadows, too; self-shadows of the sphere are N.L < 0.
   for (const glm::dvec3& target :
     { glm::dvec3(3.0, 3.0, 1.0), { -3.0, 3.0, -1.0 }, { 0.5, 0.4, 3.0 }, { 0.5, 0.4, -3.0 } })
   {
@@ -570,8 +570,8 @@ TEST_F(Planar, softShadowsAreTheMeanOfTracedSamples)
 }
 
 //------------------------------------------------------------------------------
-/// Of a lamp or a sun that a receiver's plane runs through, what is behind it gives way to what is
-/// opposite, as for rays.
+/// If a receiver's plane cuts a lamp or sun, opposite points replace the points behind the plane,
+/// as for rays.
 TEST_F(Planar, lightsThatTheirReceiversPlaneCutsAreWhatRaysSay)
 {
   for (const int kind : { 0, 1, 2 })

@@ -1,5 +1,5 @@
-// The planes that `planar` finds in the built-in scenes: what lies on them is theirs, and no other
-// is as large.
+// The planes that `planar` finds in the built-in scenes. Triangles on a plane belong to it, and no
+// other plane is as large.
 
 #include "BuiltinScenes.h"
 #include "Scene.h"
@@ -25,8 +25,8 @@ namespace gnomon::test
 namespace
 {
 
-/// How far off their plane corners may lie, as a share of sum |n_i| |p_i|: rounding moves them, and
-/// the plane that is found from them, by up to 2^-24 each, and the search allows for as much again.
+/// The distance of corners from their plane, as a share of sum |n_i| |p_i|. Rounding moves corners,
+/// and the plane found from them, by up to 2^-24 each. The search allows for as much again.
 constexpr double surelyOn = 2.0 / (1 << 24);
 constexpr double mayBeOn = 4.0 / (1 << 24);
 
@@ -49,8 +49,8 @@ struct Receiver
         glm::distance(this->corners[1], this->corners[2]),
         glm::distance(this->corners[2], this->corners[0]) });
   }
-  /// Whether all corners lie on a plane, as a share of the magnitudes that are added up.
-  /// @param growth how much that share grows with the distance from `middle`
+  /// True if all corners lie on a plane, within a share of the summed magnitudes.
+  /// @param growth growth of that share with the distance from `middle`
   bool liesOn(const glm::dvec4& plane, double share, const glm::dvec3& middle = glm::dvec3(0.0),
     double growth = 0.0) const
   {
@@ -66,7 +66,7 @@ struct Receiver
   }
 };
 
-/// The plane of triangles' common outline.
+/// The plane of the common outline of triangles.
 class PlaneOfAll
 {
 public:
@@ -103,7 +103,7 @@ public:
   const Occluders& occluders() const { return this->collector_.occluders(); }
   double leastArea() const { return ReceiverPlanes::smallestShare * this->planes.area(); }
 
-  /// Calls visit(receiver) for each.
+  /// Call visit(receiver) for each.
   template <typename Visit>
   void forEach(const Visit& visit) const
   {
@@ -148,7 +148,8 @@ private:
   OccluderCollector collector_;
 };
 
-/// Receivers on no plane that is served, drawn with a probability in proportion to their area.
+/// Return receivers on no plane of the technique, drawn with a probability in proportion to their
+/// area.
 std::vector<Receiver> drawSeeds(const SceneWithPlanes& scene, std::size_t count)
 {
   std::mt19937 random(1);
@@ -172,7 +173,7 @@ std::vector<Receiver> drawSeeds(const SceneWithPlanes& scene, std::size_t count)
   return before > 0.0 ? seeds : std::vector<Receiver>();
 }
 
-/// For each seed, the area of what lies on its plane and on none that is served.
+/// Return, for each seed, the area of its plane's triangles that are on no plane of the technique.
 std::vector<double> areasLeftOn(const SceneWithPlanes& scene, const std::vector<Receiver>& seeds)
 {
   std::vector<glm::dvec4> ofSeeds;
@@ -189,7 +190,7 @@ std::vector<double> areasLeftOn(const SceneWithPlanes& scene, const std::vector<
       for (std::size_t i = 0; receiver.ofPlane == 0 && receiver.area() > 0.0 && i < seeds.size();
            ++i)
       {
-        // The smaller the seed, the more its corners' rounding turns its plane.
+        // A smaller seed's plane turns more by the rounding of its corners.
         if (receiver.liesOn(ofSeeds[i], mayBeOn, seeds[i].centroid(), 1.0 / seeds[i].height()))
         {
           found[i].add(receiver);
@@ -230,7 +231,8 @@ INSTANTIATE_TEST_SUITE_P(Builtin, PlanesOfScenes,
     return name;
   });
 
-/// The planes' triangles lie on them, no others do, and what is said of them is true.
+/// Expect the planes' triangles to lie on them, no others to do so, and the planes' data to be
+/// true.
 void expectWhole(const SceneWithPlanes& scene)
 {
   const std::vector<ReceiverPlane>& planes = scene.planes.planes();
@@ -276,12 +278,12 @@ void expectWhole(const SceneWithPlanes& scene)
     EXPECT_GE(planes[i == 0 ? 0 : i - 1].area, planes[i].area);
     EXPECT_EQ(planes[i].boundsCentred.lower, bounds[i].lower);
     EXPECT_EQ(planes[i].boundsCentred.upper, bounds[i].upper);
-    // Slivers on a plane may look elsewhere.
+    // Slivers on a plane may have another normal.
     EXPECT_LT(missed[i], 0.5 * scene.leastArea()) << i;
   }
 }
 
-/// No triangle that is on none of the planes lies on one that is as large.
+/// Expect no triangle off the planes to lie on a plane that is as large.
 void expectLargest(const SceneWithPlanes& scene, std::size_t wanted)
 {
   const std::vector<ReceiverPlane>& planes = scene.planes.planes();
@@ -301,7 +303,7 @@ TEST_P(PlanesOfScenes, areWholeAndTheLargest)
   {
     if (GetParam() == "city" && wanted > 8)
     {
-      continue; // of ten million triangles
+      continue; // it has ten million triangles
     }
     const SceneWithPlanes scene(GetParam(), wanted);
     ASSERT_LE(scene.planes.planes().size(), wanted);

@@ -39,9 +39,9 @@ protected:
   }
 };
 
-/// Whether an edge of a shadow is near a point, by rays of its own: in what the light sees within
-/// so many texels of the point, on the point's plane, not all is lit or dark. (The edge need not be
-/// in the picture: it may lie behind something, or be thinner than a pixel.)
+/// Finds by its own rays whether a shadow's edge is near a point. It is if the light's view of the
+/// point's plane, within so many texels, is neither all lit nor all dark. The edge may be
+/// invisible: behind a surface, or thinner than a pixel.
 class EdgeFinder
 {
 public:
@@ -176,9 +176,9 @@ TEST_F(PositionalLights, filtersHaveNoSeams)
     std::size_t smoothed = 0;
     for (std::size_t i = 0; i < traced.coverage.size(); ++i)
     {
-      // Far from edges the whole kernel is lit or dark (but for a texel of a face that the light
-      // only grazes, which is pushed far back). The bilinear one reaches 4 texels along the axes,
-      // and the edge may itself be a texel away from where the map has it.
+      // Far from edges the whole kernel is lit or dark, except for a texel of a face that the light
+      // only grazes, which is pushed far back. The bilinear kernel reaches 4 texels along the axes.
+      // The edge may be a texel away from its place in the map.
       if (std::abs(filtered.visibility[0][i] - traced.visibility[0][i]) > 0.05f)
       {
         ++smoothed;
@@ -220,7 +220,7 @@ TEST_F(PositionalLights, wideConesAgreeWithTheTruth)
 //------------------------------------------------------------------------------
 TEST_F(PositionalLights, aPointLightIsAConeThatIsNotThere)
 {
-  // VTK takes cones of 90 degrees and more for none.
+  // VTK applies no cone from 90 degrees on.
   PassScene scene(200, 200);
   scene.addFloor(4.0);
   scene.addSphere({ 1.5, 0.5, 0.9 }, 0.6);
@@ -308,7 +308,7 @@ TEST_F(PositionalLights, atTheCameraNoShadowIsSeen)
   {
     const Acne acne = countAcneOfLamp(draw(scene, technique), eye, 0.2);
     EXPECT_GT(acne.facing, 8000u);
-    // Behind the sphere's outline, where a texel holds both.
+    // Exception: behind the sphere's outline, where a texel holds both surfaces.
     EXPECT_LE(acne.dark, 30u) << technique;
   }
 }

@@ -39,7 +39,7 @@ using namespace gnomon::test;
 namespace
 {
 
-/// A floor from straight above, under a sun at 45 degrees that travels along +x: what is at height
+/// A floor from straight above, under a sun at 45 degrees that travels along +x. A caster at height
 /// z shades the floor z further along x.
 class Props
   : public PassTest
@@ -54,7 +54,7 @@ protected:
     this->scene.lookDown(6.0);
   }
 
-  /// A square of side 2 at height 2 over (x, y), its front up or down; shades (x + 2, y).
+  /// A square of side 2 at height 2 over (x, y), its front up or down; it shades (x + 2, y).
   vtkActor* addSquare(bool frontUp, double x = 0.0, double y = 0.0)
   {
     vtkNew<vtkPlaneSource> square;
@@ -66,7 +66,7 @@ protected:
     actor->SetPosition(x, y, 0.0);
     return actor;
   }
-  /// Draws the scene, and tells whether a floor point is dark; it must be dark or lit.
+  /// Draw the scene. Return true if a floor point is dark; it must be dark or lit.
   bool dark(double x, double y)
   {
     const int value = this->scene.redAt(this->scene.render(), x, y);
@@ -81,7 +81,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Ways, Props, allWays, nameOf);
 
-/// A mapper that always takes the same time.
+/// A mapper that always reports the same time.
 class TimedMapper : public vtkOpenGLPolyDataMapper
 {
 public:
@@ -92,7 +92,7 @@ public:
 };
 vtkStandardNewMacro(TimedMapper);
 
-/// An interactor that asks no window system for anything.
+/// An interactor that never calls a window system.
 class QuietInteractor : public vtkRenderWindowInteractor
 {
 public:
@@ -159,7 +159,7 @@ TEST_P(Props, mirroredSolidsCastAndReceiveAsOthersDo)
 TEST_P(Props, partsOfAssembliesCastWhereTheyStandAndAsTheAssemblySays)
 {
   vtkActor* part = this->addSquare(true);
-  this->scene.renderer->RemoveActor(part); // the window keeps it no longer; the assembly does
+  this->scene.renderer->RemoveActor(part); // the window drops it; the assembly refers to it
   vtkNew<vtkPlaneSource> source;
   source->SetOrigin(-0.5, -0.5, 0.0);
   source->SetPoint1(0.5, -0.5, 0.0);
@@ -187,7 +187,7 @@ TEST_P(Props, partsOfAssembliesCastWhereTheyStandAndAsTheAssemblySays)
 }
 
 //------------------------------------------------------------------------------
-/// An assembly hands its property keys to its parts, so that two props of the renderer share them.
+/// An assembly copies its property keys to its parts, so two props of the renderer share them.
 TEST_P(Props, partsOfAssembliesMayBeInTheRendererToo)
 {
   vtkActor* square = this->addSquare(true);
@@ -228,13 +228,13 @@ TEST_P(Props, blocksOfACompositeCastAndReceiveUnlessHidden)
   {
     EXPECT_TRUE(this->dark(2.0, y)) << y;
   }
-  EXPECT_EQ(this->scene.report().surfacesExtracted, 0); // in the last of the three frames
+  EXPECT_EQ(this->scene.report().surfacesExtracted, 0); // counts the last of the three frames
   mapper->SetBlockVisibility(2, false); // by flat index: the tree is 0, its children 1, 2, 3
   EXPECT_TRUE(this->dark(2.0, -3.0));
   EXPECT_FALSE(this->dark(2.0, 0.0));
   EXPECT_TRUE(this->dark(2.0, 3.0));
 
-  // A block that is shaded by something else.
+  // A block that another caster shades.
   this->scene.addBox(
     { -1.8, -3.3, 3.4 }, { -1.2, -2.7, 3.6 }); // shades z = 2.5 at x = -0.9 .. -0.1
   const Picture picture = this->scene.render();
@@ -261,7 +261,7 @@ TEST_P(Props, dataSetsAndPartsCastAndReceive)
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
     this->scene.renderer->AddActor(actor);
-    for (int frame = 0; frame < 2; ++frame) // VTK makes the mappers inside in the first
+    for (int frame = 0; frame < 2; ++frame) // VTK makes the inner mappers in the first
     {
       const Picture picture = this->scene.render();
       EXPECT_EQ(this->scene.redAt(picture, 3.0, 0.0), 0) << "shaded floor";
@@ -347,7 +347,7 @@ TEST_P(Props, glyphsCastAndReceive)
   {
     EXPECT_FALSE(this->dark(-0.8, y)) << "the glyph's own top, at " << y;
   }
-  EXPECT_EQ(this->scene.report().surfacesExtracted, 0); // in the last of the frames
+  EXPECT_EQ(this->scene.report().surfacesExtracted, 0); // counts the last of the frames
   EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
 
   this->scene.addBox({ -1.8, 2.7, 3.0 }, { -1.5, 3.3, 3.3 }); // shades z = 2.5 at x = -1.3 .. -0.7
@@ -362,7 +362,7 @@ TEST_P(Props, glyphsCastAndReceive)
 //------------------------------------------------------------------------------
 TEST_P(Props, followersCastAsTheyFaceTheCamera)
 {
-  // A sign that faces the camera, and so lies flat under one that looks straight down.
+  // A sign that faces the camera, and so lies flat under a camera that looks straight down.
   const auto sign = vtkSmartPointer<vtkPlaneSource>::New();
   sign->SetOrigin(-0.5, -0.5, 0.0);
   sign->SetPoint1(0.5, -0.5, 0.0);
@@ -399,7 +399,7 @@ TEST_P(Props, followersCastAsTheyFaceTheCamera)
   }
   EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
 
-  camera->Roll(45.0); // and with it the signs, whose corners now lie on the axes
+  camera->Roll(45.0); // turns the signs, too: their corners lie on the axes
   const Picture rolled = this->scene.render();
   camera->Roll(-45.0);
   const Picture straight = this->scene.render();
@@ -433,7 +433,7 @@ TEST_P(Props, levelsOfDetailCastAsDrawn)
   this->scene.renderer->AddActor(actor);
 
   prop->SetSelectedLODID(fine);
-  this->scene.window->SetDesiredUpdateRate(1e-6); // all the time there is
+  this->scene.window->SetDesiredUpdateRate(1e-6); // unlimited time
   EXPECT_TRUE(this->dark(0.0, 3.0));
   EXPECT_TRUE(this->dark(0.0, -3.0));
   EXPECT_FALSE(this->dark(2.0, 3.0));
@@ -441,7 +441,7 @@ TEST_P(Props, levelsOfDetailCastAsDrawn)
   EXPECT_FALSE(this->dark(-2.0, 3.0)) << "its top is lit";
 
   prop->SetSelectedLODID(coarse);
-  this->scene.window->SetDesiredUpdateRate(1e9); // none
+  this->scene.window->SetDesiredUpdateRate(1e9); // no time
   EXPECT_FALSE(this->dark(-0.8, 3.0));
   EXPECT_FALSE(this->dark(-0.8, -3.0));
   EXPECT_TRUE(this->dark(2.0, 3.0));
@@ -451,7 +451,7 @@ TEST_P(Props, levelsOfDetailCastAsDrawn)
 }
 
 //------------------------------------------------------------------------------
-/// VTK culls the prop, and leaves it to itself which level it is to draw.
+/// VTK culls the prop, so the selected level was never chosen by drawing.
 TEST_P(Props, selectedLevelsOfDetailCastThoughTheyWereNeverInView)
 {
   vtkNew<vtkLODProp3D> prop;
@@ -491,7 +491,7 @@ TEST_P(Props, quadricLevelsOfDetailCastAsDrawn)
   EXPECT_TRUE(this->dark(2.0, 0.0));
   const std::size_t full = this->scene.report().triangles;
   this->scene.window->SetDesiredUpdateRate(1e9);
-  this->scene.render(); // VTK makes the coarse level
+  this->scene.render(); // VTK makes the coarse level here
   EXPECT_TRUE(this->dark(2.0, 0.0));
   EXPECT_LT(this->scene.report().triangles, full - 1000u);
   EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
@@ -509,7 +509,7 @@ TEST_P(Props, translucentOnesCastIfAsked)
   vtkGnomonPropKeys::SetCasts(square, false);
   EXPECT_FALSE(this->dark(2.5, 0.0));
 
-  // Once opaque, it receives as all opaque ones do.
+  // Once opaque, it receives like all opaque surfaces.
   vtkGnomonPropKeys::SetCasts(square, true);
   this->scene.addBox({ -1.5, -0.2, 3.0 }, { -0.5, 0.2, 3.2 }); // shades the square at x = 0
   EXPECT_TRUE(this->dark(2.5, 0.5));

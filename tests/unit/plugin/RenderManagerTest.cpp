@@ -1,4 +1,4 @@
-// What a frame makes again: nothing of what its values were made from the same.
+// A frame computes nothing again from unchanged inputs.
 
 #include "PassScene.h"
 
@@ -16,7 +16,7 @@ using namespace gnomon::test;
 namespace
 {
 
-/// A report's counters of what a frame made.
+/// A report's counters of computed values.
 struct Made
 {
   int receivers = 0;
@@ -78,7 +78,7 @@ protected:
     this->picture = this->scene.render();
     return this->made();
   }
-  /// The frames after which all is there.
+  /// Draw frames until all values are cached.
   void settle()
   {
     this->render();
@@ -93,7 +93,7 @@ protected:
   PassScene scene{ 96, 72 };
   vtkActor* sphere;
   vtkLight* sun;
-  Picture picture; ///< of the last frame
+  Picture picture; ///< the last frame's picture
 };
 
 class RenderManagerByTechnique
@@ -132,7 +132,7 @@ TEST_P(RenderManagerByTechnique, visibilityThatIsKeptIsNotComputedAgain)
   ASSERT_FALSE(after.visibility.empty());
   EXPECT_EQ(after.visibility, before.visibility);
   EXPECT_EQ(after.positionX, before.positionX);
-  // What was said of it stays true.
+  // The report's data of the light stay true.
   EXPECT_EQ(this->scene.report().lights.at(0).technique, GetParam());
 }
 
@@ -162,7 +162,7 @@ TEST_P(RenderManagerByTechnique, twoRenderersOfOnePassKeepTheirOwn)
   this->scene.window->AddRenderer(other);
   this->settle();
   const Picture before = this->picture;
-  EXPECT_EQ(this->render(), Made{}); // the second one's
+  EXPECT_EQ(this->render(), Made{}); // the second renderer's
   EXPECT_EQ(differingPixels(before, this->picture), 0u);
   other->SetPass(nullptr);
 }

@@ -1,4 +1,4 @@
-// Both routes, on the built-in scenes and of all techniques, and scenes far away and of other
+// Both routes, on the built-in scenes and with all techniques, and scenes far away and of other
 // sizes.
 
 #include "PassScene.h"
@@ -49,7 +49,7 @@ struct ToolScene
     this->window->SetSize(size, size);
     this->window->AddRenderer(this->renderer);
     this->renderer->SetPass(this->pass);
-    this->pass->SmoothTerminatorsOff(); // shaders ask above facets, and the image route does not
+    this->pass->SmoothTerminatorsOff(); // shaders look up above facets; the image route does not
   }
   Picture render()
   {
@@ -70,7 +70,7 @@ struct Placing
   double scale;
 };
 
-/// The pixels that differ by more than `tolerance` of 255 between the two routes.
+/// Return the number of pixels that differ by more than `tolerance` of 255 between the two routes.
 std::size_t differenceOfRoutes(
   vtkGnomonShadowPass* pass, const std::function<Picture()>& render, int tolerance)
 {
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Placings, PlacedScenes,
   [](const testing::TestParamInfo<Placing>& placing)
   { return std::string(placing.param.name) + "_" + placing.param.technique; });
 
-/// Moves a whole scene, camera and lights with it: props by matrices.
+/// Move a whole scene with its camera and lights; props move by their matrices.
 void place(vtkRenderer* renderer, const Placing& placing)
 {
   vtkNew<vtkTransform> transform;
@@ -170,7 +170,7 @@ TEST_BY_VARIANTS(PointwiseScenes, BothRoutes, &Variant::isPointwise)
       scene.pass, [&] { return scene.render(); }, 1);
     EXPECT_LE(different, 3u);
   };
-  // Of views that are fitted in every frame, the image route has other texels.
+  // Views fitted in every frame give the image route other texels.
   scene.pass->SetSetting("fit", "once");
   expectTheSame();
   scene.pass->SetSetting("fit", "off");
@@ -235,7 +235,7 @@ TEST_P(PlacedScenes, haveTheSameVisibility)
 }
 
 //------------------------------------------------------------------------------
-/// More than there are texture units for, as forty lights have it.
+/// More lights than texture units: forty.
 TEST_F(PassTest, lightsByTheDozenShowAllTheirShadows)
 {
   PassScene scene(80, 60);
@@ -278,7 +278,7 @@ TEST_F(PassTest, lightsByTheDozenShowAllTheirShadows)
 }
 
 //------------------------------------------------------------------------------
-/// More than there are bits for. Each light's hard shadow shows with that light's brightness.
+/// More lights than an image has bits. Each light's hard shadow shows with that light's brightness.
 TEST_F(PassTest, hardShadowsOfManyLightsAreThoseOfEach)
 {
   PassScene scene(80, 60);
@@ -324,7 +324,7 @@ TEST_F(PassTest, hardShadowsOfManyLightsAreThoseOfEach)
       }
     }
     EXPECT_GT(dark, 100);
-    lights[0]->SwitchOff(); // so that the others have other bits
+    lights[0]->SwitchOff(); // the others then have other bits
   }
 }
 

@@ -1,4 +1,4 @@
-// `sampled`: soft shadows by a map from each of many points of the light.
+// `sampled`: soft shadows by one map for each of many points of the light.
 
 #include "HalfPlane.h"
 #include "PassScene.h"
@@ -106,12 +106,12 @@ struct SampledLight
 {
   const char* name;
   AddSampledLight add;
-  /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x <
-  /// 0.
+  /// The visible share of the light from (x, 0, 0), past the edge x = 0, z = 2 of a half plane at x
+  /// < 0.
   std::function<double(double x)> exact = {};
 };
 
-/// For the tests' names.
+/// Prints the name for the tests' names.
 std::ostream& operator<<(std::ostream& stream, const SampledLight& named)
 {
   return stream << named.name;
@@ -148,12 +148,12 @@ class SampledPenumbras : public testing::TestWithParam<SampledLight>
 INSTANTIATE_TEST_SUITE_P(
   OfHalfPlane, SampledPenumbras, testing::ValuesIn(penumbras()), nameOfSampledLight);
 
-/// A penumbra against geometry's.
+/// The error of a penumbra against geometry.
 struct PenumbraError
 {
-  std::size_t pixels = 0;    ///< that see part of the light
+  std::size_t pixels = 0;    ///< pixels that see a part of the light
   double width = 0.0;        ///< the sum of v (1 - v)
-  double exactWidth = 0.0;   ///< the same of geometry
+  double exactWidth = 0.0;   ///< the same sum for geometry
   double offBy = 0.0;        ///< sum over all pixels, those beside the penumbra, too
   double offBySquared = 0.0; ///< sum of squares over those that see part of the light
   double mostOff = 0.0;
@@ -212,11 +212,11 @@ TEST_P(SampledPenumbras, areThoseOfGeometry)
   struct Case
   {
     int mapSize;
-    double width; ///< what it may be off by, as a share
+    double width; ///< the largest error, as a share
     double mostOff;
   };
-  // Though the texels of all small maps would lie alike before the edge, were they not moved. The
-  // edge is no axis of the light's samples.
+  // Unless moved, the texels of all small maps would lie alike before the edge. The edge is no axis
+  // of the light's samples.
   for (const auto& [mapSize, width, mostOff] : { Case{ 1024, 0.01, 0.02 }, { 64, 0.03, 0.04 } })
   {
     const PenumbraError error = errorOfHalfPlane(GetParam(), mapSize);
@@ -228,7 +228,7 @@ TEST_P(SampledPenumbras, areThoseOfGeometry)
 }
 
 //------------------------------------------------------------------------------
-/// As random points do at least, while there is more to gain by points than the maps' texels take.
+/// Errors fall at least as those of random points, until the maps' texels limit them.
 TEST_P(SampledPenumbras, errHalfAsMuchByFourTimesThePoints)
 {
   double previous = 1.0;
@@ -266,7 +266,7 @@ std::vector<SampledLight> allSampledLights()
   return {
     { "sun", sun(slantingDown, "6") },
     { "sunInABox", sunInABox(slantingDown, "12", { 4.0, 3.0, 9.0 }) },
-    // Whose near face cuts the sphere and the sheet.
+    // The near face cuts the sphere and the sheet.
     { "sunInALowBox", sunInABox({ 0.1, 0.1, -0.5 }, "20", { 5.0, 5.0, 2.0 }) },
     { "rectangle", rectangle(above, {}, 1.0, 35.0) },
     { "wideRectangle", rectangle(above, {}, 1.5, 75.0) },
@@ -306,7 +306,7 @@ TEST_P(SampledLights, showWhatRaysShow)
   const std::vector<float> seen = visibilityOf(this->scene);
   EXPECT_LT(meanVisibilityDifference(seen, truth), 0.003);
   EXPECT_EQ(this->scene.report().lights[0].lightSamples, 128);
-  // With views that are fitted to the camera, too.
+  // Also with views fitted to the camera.
   this->scene.pass->SetSetting("fit", "frame");
   EXPECT_LT(meanVisibilityDifference(visibilityOf(this->scene), truth), 0.003);
 }
@@ -319,7 +319,7 @@ TEST_P(SampledLights, showTheSameInBatchesOfAnySize)
   for (const int batch : { 1, 3, 5 })
   {
     set(this->scene, "batch", batch);
-    set(this->scene, "light_seed", batch); // so that nothing is kept
+    set(this->scene, "light_seed", batch); // nothing is then reused
     visibilityOf(this->scene);
     set(this->scene, "light_seed", 0);
     EXPECT_EQ(visibilityOf(this->scene), seen) << batch;
@@ -384,12 +384,12 @@ TEST_F(Sampled, takesBoundedMemory)
 }
 
 //------------------------------------------------------------------------------
-/// OpenGL promises 1,024 components, where each element of an array takes a vector of four, as
-/// hardware has it, and 16 textures. Nine lights that see all around have to do with these.
+/// OpenGL guarantees 1,024 uniform components, where hardware stores each array element as a vector
+/// of four, and 16 textures. Nine lights that see all around must fit into these.
 TEST_F(Sampled, batchesFitIntoTheUniformsThatOpenGlPromises)
 {
   this->light->SetConeAngle(allDirections);
-  this->light->SetPosition(0.3, -0.6, 1.5); // among the things, so that all faces see some
+  this->light->SetPosition(0.3, -0.6, 1.5); // among the casters, so all faces see some
   this->light->SetShapeToRectangle();
   const auto image = makeImage(2, 2, [](int, int) { return glm::dvec3(0.8); });
   for (const bool textured : { false, true })
@@ -465,7 +465,7 @@ TEST_F(Sampled, refinesFromTheHardShadowToTheWhole)
 }
 
 //------------------------------------------------------------------------------
-/// Whether a pixel or one of the eight around it is not as the others are.
+/// True if a pixel differs from one of the eight around it.
 bool hasEdgeBeside(const std::vector<float>& image, int width, std::size_t pixel)
 {
   const int height = static_cast<int>(image.size()) / width;
@@ -484,8 +484,8 @@ bool hasEdgeBeside(const std::vector<float>& image, int width, std::size_t pixel
   return false;
 }
 
-/// Of the very same 128 points of a disk, what a frame adds is what rays to its 8 points show, but
-/// where the shadows of these have an edge: a pixel may differ by as many points as have one beside
+/// With the very same 128 points of a disk, a frame adds the result of rays to its 8 points, except
+/// at the edges of their shadows. There a pixel may differ by as many points as have an edge beside
 /// it. Pixels are larger than texels.
 TEST_F(Sampled, showsWhatRaysToItsPointsShowButAtEdges)
 {
@@ -503,7 +503,7 @@ TEST_F(Sampled, showsWhatRaysToItsPointsShowButAtEdges)
   this->scene.pass->SetMapSize(512);
   this->scene.pass->SetSetting("fit", "frame");
 
-  // Of the points of a frame: how many see a pixel, and how many have an edge beside it.
+  // Per frame: the number of its points that see a pixel, and that have an edge beside the pixel.
   const std::size_t pixels = 80 * 60;
   std::vector<std::vector<int>> seeing(frames, std::vector<int>(pixels, 0));
   std::vector<std::vector<int>> edges = seeing;
@@ -540,7 +540,7 @@ TEST_F(Sampled, showsWhatRaysToItsPointsShowButAtEdges)
     ASSERT_EQ(this->report().lightSamples, 8 * (static_cast<int>(frame) + 1));
     for (std::size_t i = 0; i < pixels; ++i)
     {
-      // Where all of the light is in front of the receiver no point gives way to another.
+      // If all of the light is in front of the receiver, no point replaces another.
       const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
       if (kept.coverage[i] == 0.0f || glm::dot(normal, place - positionOf(kept, i)) <= 1.0)
       {
@@ -557,7 +557,7 @@ TEST_F(Sampled, showsWhatRaysToItsPointsShowButAtEdges)
     before = seen;
   }
   EXPECT_GT(compared, 50000);
-  EXPECT_LE(elsewhere, compared / 50000); // edges of what is narrower than a pixel
+  EXPECT_LE(elsewhere, compared / 50000); // edges of shapes narrower than a pixel
   EXPECT_GT(elsewhereOfOthers, 250);
 }
 
@@ -582,7 +582,7 @@ TEST_F(Sampled, staysHardWhileTheCameraMovesAndRefinesWhenItStops)
   for (int i = 0; i < 4; ++i)
   {
     EXPECT_EQ(at(way[i]), hard[static_cast<std::size_t>(i)]) << i;
-    EXPECT_EQ(this->scene.report().mapBakes, 0) << i; // the centre's map serves on
+    EXPECT_EQ(this->scene.report().mapBakes, 0) << i; // the centre's map is reused
   }
   at(way[3]);
   EXPECT_EQ(at(way[3]), whole);
@@ -620,7 +620,7 @@ TEST_F(Sampled, refinesAnewWhenSomethingChanges)
     this->scene.render();
     EXPECT_GT(this->scene.pass->GetProgress(), 0.3) << what;
   }
-  // The centre's map serves all cameras.
+  // The centre's map is reused for all cameras.
   this->scene.lookFrom({ 2.0, -8.0, 7.0 });
   this->scene.render();
   EXPECT_EQ(this->scene.report().mapBakes, 0);
@@ -643,7 +643,7 @@ TEST_F(Sampled, tellsOfProgress)
   told.clear();
   this->light->SetRadius(0.7);
   this->renderFrames(2);
-  this->light->SetRadius(0.8); // before the end
+  this->light->SetRadius(0.8); // before the refinement ends
   this->renderFrames(6);
   EXPECT_EQ(told, (std::vector<double>{ 0.0, 0.5, 0.0, 0.5, 1.0, end }));
 }
@@ -716,7 +716,7 @@ TEST_F(Sampled, refinesEachLight)
     this->scene.render();
     EXPECT_EQ(this->scene.pass->GetProgress(), progress);
   }
-  // Only what has changed begins anew.
+  // Only the changed light starts again.
   other->SetIntensity(0.5);
   this->light->SetRadius(0.4);
   this->scene.render();
@@ -725,8 +725,8 @@ TEST_F(Sampled, refinesEachLight)
 }
 
 //------------------------------------------------------------------------------
-/// What nothing is in the way of is lit in every frame, by lights above the floor, in it and cut by
-/// it, of any size.
+/// Unoccluded receivers are lit in every frame, by lights of any size above the floor, in it and
+/// cut by it.
 TEST(SampledFloor, isNoCasterOnItself)
 {
   PassScene scene(60, 40);
@@ -737,8 +737,7 @@ TEST(SampledFloor, isNoCasterOnItself)
   set(scene, "map_size", 128);
   set(scene, "light_samples", 9);
   set(scene, "progressive", 4);
-  // Of a light that lies flat and is large and near, rounding lets no receiver face any point but
-  // the centre.
+  // If the light is flat, large and near, rounding lets receivers face no point but the centre.
   for (const double height : { 3.0, 0.001, 0.0, -0.1 })
   {
     for (const bool flat : { false, true })

@@ -1,4 +1,4 @@
-// Large scenes: what stays in memory, and that a change costs what changed.
+// Large scenes: memory stays bounded, and a change costs only the changed parts.
 
 #include "PassScene.h"
 
@@ -14,8 +14,8 @@ namespace
 
 constexpr double mostBytesOfTriangle = 120.0;
 
-/// A hilly square of side 1 from (x, y) on, of 2 * cells * cells triangles, which share their
-/// corners or have each their own.
+/// A hilly square of side 1 from (x, y) on, of 2 * cells * cells triangles. Triangles share corners
+/// or each have their own.
 vtkSmartPointer<vtkPolyData> makeTerrain(
   int cells, double x, double y, double side, bool shared = true)
 {
@@ -52,7 +52,7 @@ vtkSmartPointer<vtkPolyData> makeTerrain(
   return data;
 }
 
-/// The camera sees little, so that VTK draws little; but everything casts.
+/// The camera sees little, so VTK draws little; but everything casts.
 void lookAtCorner(PassScene& scene)
 {
   scene.addSun({ 1.0, 0.3, -1.5 });

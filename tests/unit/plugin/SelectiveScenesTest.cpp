@@ -1,5 +1,5 @@
-// selective and coherence through the pass, in built-in scenes: exact where they say so, and every
-// pixel has its class.
+// `selective` and `coherence` through the pass, in built-in scenes: exact where stated, and every
+// pixel has a class.
 
 #include "BuiltinScenes.h"
 #include "Scene.h"
@@ -41,7 +41,7 @@ protected:
     this->renderer_->SetPass(this->pass_);
   }
 
-  /// Draws a frame by a technique.
+  /// Draw a frame by a technique.
   const VisibilityImages& draw(const char* technique)
   {
     this->pass_->SetTechnique(technique);
@@ -103,15 +103,15 @@ TEST_P(SelectiveScenes, haveAClassForEveryPixelAndAreTracedBitForBitWithoutCoher
   }
 }
 
-/// What the contour of a built-in scene has, and what each stage makes of it by itself.
+/// The contour of a built-in scene, and the result of each stage alone.
 struct StageShares
 {
   std::size_t pixels = 0;                      ///< of the contour
-  std::size_t rightShadow = 0;                 ///< whose status is the truth
-  std::size_t falseLight = 0, falseShadow = 0; ///< whose status is not
+  std::size_t rightShadow = 0;                 ///< in shadow, with a right status
+  std::size_t falseLight = 0, falseShadow = 0; ///< with a wrong status
   std::map<std::string, double> confirmed; ///< share of the shadow whose status is right, by stage
   std::map<std::string, double> corrected; ///< share of the false light, by stage
-  /// Of the chain with leftovers lit: its wrong pixels in the contour, over the status'.
+  /// With the chain's leftovers lit: its wrong pixels in the contour, over those of the status.
   double wrongLeftLit = 0.0;
 };
 
@@ -161,7 +161,7 @@ StageShares measureStages(const char* scene, int mapSize)
   std::size_t wrongLeftLit = 0;
   for (std::size_t i = 0; i < statuses.visibility[0].size(); ++i)
   {
-    // Of the contour is what is traced.
+    // Traced pixels are those of the contour.
     const bool inShadow = isOf(statuses, i, "traced, in shadow");
     if (inShadow || isOf(statuses, i, "traced, lit"))
     {
@@ -193,7 +193,7 @@ StageShares measureStages(const char* scene, int mapSize)
   return shares;
 }
 
-/// What a scene's stages have to come to: shares as in Moderno's tables, where they are so here.
+/// Required results of a scene's stages: shares as in Moderno's tables, where they hold here.
 struct StageCase
 {
   const char* scene;
@@ -213,8 +213,8 @@ class SelectiveStages : public testing::TestWithParam<StageCase>
 {
 };
 
-// The first are closed, smooth and finely cut; the last is so finely that its triangles are smaller
-// than texels.
+// The first scenes are closed, smooth and finely cut. The last one is cut so finely that its
+// triangles are smaller than texels.
 INSTANTIATE_TEST_SUITE_P(Builtin, SelectiveStages,
   testing::Values(StageCase{ "primitives", 1024, 0.69, 0.98, 0.985, 0.35, 0.61 },
     StageCase{ "primitives", 2048, 0.69, 0.98, 0.99, 0.35, 0.61 },

@@ -1,4 +1,4 @@
-// The pass's own settings, windows of any shape, and viewports that do not fill them.
+// The pass's own settings, windows of any shape, and viewports that are a part of them.
 
 #include "PassScene.h"
 
@@ -110,7 +110,7 @@ TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
   EXPECT_THAT(errors, HasSubstr("the setting 'map_samples' is for: "));
   EXPECT_THAT(errors,
     HasSubstr("light 0 has the technique 'pcf', and the setting 'contour' is for: selective."));
-  // What was set for another technique is no mistake, and has its effect again there.
+  // A setting for another technique is no error, and takes effect with that technique.
   this->scene.pass->SetTechnique("vsm");
   vtkGnomonLightKeys::SetSetting(this->sun, "contour", "");
   this->scene.render();
@@ -290,7 +290,7 @@ TEST_P(SettingsOfWay, viewportThatDoesNotFillTheWindow)
 }
 
 //------------------------------------------------------------------------------
-/// In the halves of one window, they show what their own windows show.
+/// The halves of one window equal the pictures of separate windows.
 TEST_P(SettingsOfWay, onePassForTwoRenderersSideBySide)
 {
   PassScene& left = this->scene;
@@ -314,8 +314,8 @@ TEST_P(SettingsOfWay, onePassForTwoRenderersSideBySide)
   window->AddRenderer(right.renderer);
   for (int frame = 0; frame < 3; ++frame)
   {
-    // The two renderers share VTK's programs. Without this, VTK 9.1 leaves one renderer's lights in
-    // them for the other, with or without the pass.
+    // The two renderers share VTK's programs. Without this call, VTK 9.1 leaves one renderer's
+    // lights in them for the other, with or without the pass.
     this->sun->Modified();
     rightSun->Modified();
     window->Render();
@@ -362,7 +362,7 @@ protected:
     this->scene.useGnomon();
   }
 
-  /// Draws by both routes, and expects the shadow that is known.
+  /// Draw by both routes, and expect the known shadow.
   void expectShadow(const char* technique, const char* taken)
   {
     SCOPED_TRACE(technique);
@@ -390,8 +390,8 @@ protected:
 } // namespace
 
 //------------------------------------------------------------------------------
-/// Techniques that the CPU traces show the shadow that is known; by the other ones lights have
-/// `raytraced`, which is said once.
+/// Techniques traced on the CPU show the known shadow. Lights with other techniques get
+/// `raytraced`, which is reported once.
 TEST_F(OldOpenGL, showsWhatTheCpuTraces)
 {
   for (const char* technique : { "raytraced", "silhouette", "crsm", "crsma", "penumbra" })
@@ -421,13 +421,13 @@ TEST_F(OldOpenGL, hasRaysInPlaceOfWhatItCannotDraw)
   {
     this->expectShadow(technique, "raytraced");
     const std::string errors = this->takeErrors();
-    EXPECT_THAT(errors, HasSubstr("takes OpenGL 4.3")) << technique;
+    EXPECT_THAT(errors, HasSubstr("needs OpenGL 4.3")) << technique;
     EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << "said once";
   }
   this->scene.pass->SetTechnique("raytraced");
   this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU);
   this->scene.render();
-  EXPECT_THAT(this->takeErrors(), HasSubstr("tracing on the GPU takes OpenGL 4.3"));
+  EXPECT_THAT(this->takeErrors(), HasSubstr("tracing on the GPU needs OpenGL 4.3"));
 }
 
 //------------------------------------------------------------------------------

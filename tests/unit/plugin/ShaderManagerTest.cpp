@@ -1,4 +1,4 @@
-// The hook into VTK's shaders: what it must not ask of OpenGL.
+// The hook into VTK's shaders must not exceed OpenGL's limits.
 
 #include "PassScene.h"
 #include "Variant.h"
@@ -22,7 +22,7 @@ class ShaderManager
 {
 };
 
-/// Each set of samplers once.
+/// One variant for each set of samplers.
 bool hasSamplersOfItsOwn(const Variant& variant)
 {
   return variant.isPointwise() &&
@@ -32,8 +32,7 @@ bool hasSamplersOfItsOwn(const Variant& variant)
 } // namespace
 
 //------------------------------------------------------------------------------
-/// The shaders that draw the receivers of the first frame know samplers of maps that are not there
-/// yet.
+/// The shaders that draw the first frame's receivers have samplers of maps that do not exist yet.
 TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersOfItsOwn)
 {
   PassScene scene(64, 48);
@@ -61,7 +60,7 @@ TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersO
 }
 
 //------------------------------------------------------------------------------
-/// Code of a user's own behind VTK's lighting goes on with what that has computed.
+/// A user's own code after VTK's lighting can use its results.
 TEST(ShaderManagerWithCode, ReadsVtksLightingByBothRoutes)
 {
   PassScene scene(64, 48);

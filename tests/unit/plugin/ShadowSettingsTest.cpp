@@ -1,4 +1,4 @@
-// vtkGnomonShadowSettings: settings with types, of passes and of lights.
+// vtkGnomonShadowSettings: typed settings of passes and lights.
 
 #include "PassScene.h"
 
@@ -125,7 +125,8 @@ TEST_F(ShadowSettingsTest, passesShareThem)
 }
 
 //------------------------------------------------------------------------------
-// By name goes before by object, and that before the pass; what an object leaves unset is the pass's.
+// A setting by name overrides one by object, and that overrides the pass's. Settings that an object
+// leaves unset are the pass's.
 TEST_F(ShadowSettingsTest, lightsHaveTheirOwn)
 {
   vtkLight* const sun = this->addSun(slantingSun);

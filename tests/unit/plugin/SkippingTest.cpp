@@ -1,5 +1,4 @@
-// What takes no rays, as a wall hides it, is shown as if it had been traced, in the picture, its
-// numbers and its report.
+// Tiles that a wall hides take no rays. Picture, numbers and report are the same as with rays.
 
 #include "BuiltinPass.h"
 #include "PassScene.h"
@@ -32,8 +31,8 @@ vtkLight* lightOf(const BuiltinPass& scene, int index)
   return vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(index));
 }
 
-/// A light's visibility where it is the only one, and nothing has been drawn by that camera in the
-/// frame before: all of it is traced.
+/// Return a light's visibility as the only light, with no earlier frame by that camera: all of it
+/// is traced.
 std::vector<float> traceAlone(const BuiltinPass& scene, const glm::dvec3& position, int index)
 {
   for (int i = 0; i < scene.renderer->GetLights()->GetNumberOfItems(); ++i)

@@ -1,5 +1,5 @@
-// Shadow terminators of coarse smooth-shaded meshes: no steps between facets, and no light that
-// another surface blocks.
+// Shadow terminators of coarse smooth-shaded meshes: no steps between facets, and no light where
+// another surface blocks it.
 
 #include "PassScene.h"
 
@@ -53,7 +53,7 @@ public:
     return this->render();
   }
 
-  /// Which pixels show something.
+  /// Return which pixels show the sphere.
   std::vector<bool> covered()
   {
     this->sphere->GetProperty()->SetAmbient(1.0);
@@ -71,8 +71,8 @@ public:
   vtkLight* sun = nullptr;
 };
 
-/// The largest step between neighbours that both show something, of 255, on top of what the picture
-/// without shadows has there.
+/// Return the largest step between covered neighbours, of 255, beyond the step of the picture
+/// without shadows.
 int largestStep(const Picture& picture, const Picture& plain, const std::vector<bool>& covered)
 {
   int largest = 0;
@@ -108,7 +108,7 @@ std::size_t litPixels(const Picture& picture)
   return lit;
 }
 
-/// The mean over directions of the largest step.
+/// Return the mean over directions of the largest step.
 double meanStep(SphereScene& scene, int directions)
 {
   const std::vector<bool> covered = scene.covered();
@@ -125,7 +125,7 @@ double meanStep(SphereScene& scene, int directions)
   return sum / directions;
 }
 
-/// Mean steps without and with smooth terminators.
+/// The mean steps without and with smooth terminators.
 struct Steps
 {
   double flat, smooth;
@@ -138,7 +138,7 @@ Steps meanSteps(SphereScene& scene, int directions)
   return { flat, meanStep(scene, directions) };
 }
 
-/// An open sheet of coarse hills, which has one layer from above.
+/// Add an open sheet of coarse hills, which has one layer from above.
 void addHills(PassScene& scene, double height)
 {
   vtkNew<vtkPlaneSource> plane;
@@ -177,7 +177,7 @@ TEST_F(SmoothTerminatorsTest, stepsOfVtksSphereAreAThird)
   EXPECT_LE(steps.smooth, steps.flat / 3.0) << steps.flat;
 }
 
-// Nothing is in a ball's light, wherever that comes from, and its cone is where VTK has it.
+// Nothing blocks a ball's light, from any direction, and its cone is VTK's.
 TEST_F(SmoothTerminatorsTest, leaveABallAloneAsVtkShadesIt)
 {
   SphereScene scene;
@@ -240,15 +240,15 @@ TEST_F(SmoothTerminatorsTest, followInstances)
   const std::size_t flat = litPixels(scene.underSun(towards));
   scene.pass->SmoothTerminatorsOn();
   const Picture smooth = scene.underSun(towards);
-  // Facets cut off light that the ellipsoids do not.
+  // Facets block light that the ellipsoids do not.
   EXPECT_GT(litPixels(smooth), flat + flat / 20);
   mapper->SetScaleModeToNoDataScaling(); // instances of another size
   mapper->SetScaleFactor(0.05);
   EXPECT_FALSE(scene.underSun(towards) == smooth);
 }
 
-// What is wholly in another prop's shadow stays dark, also where that touches it or nearly does, and
-// where the curved surface reaches through it.
+// Surfaces wholly in another prop's shadow stay dark. That holds where the prop touches or nearly
+// touches them, and where the curved surface reaches through it.
 TEST_F(SmoothTerminatorsTest, addNoLightInShadow)
 {
   std::mt19937 random(3);
@@ -281,7 +281,7 @@ TEST_F(SmoothTerminatorsTest, leaveFlatShadingAsItIs)
   EXPECT_FALSE(scene.underSun(towards) == off);
 }
 
-// A ball whose facets are a pixel large is the same to the last bit.
+// A ball whose facets are a pixel large is the same, bit for bit.
 TEST_F(SmoothTerminatorsTest, leaveFineMeshesAsTheyAre)
 {
   SphereScene scene;
@@ -323,8 +323,8 @@ TEST_F(SmoothTerminatorsTest, followNormalsThatChangeAlone)
   EXPECT_NE(scene.pass->GetVisibility().normalX, before);
 }
 
-// All exact techniques trace from the same points. Visibility is not kept here,
-// as that would make all receivers before maps are asked about their triangles.
+// All exact techniques trace from the same points. Visibility is not kept here: it would compute
+// all receivers before maps are looked up for their triangles.
 TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
 {
   std::mt19937 random(11);
@@ -333,7 +333,7 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
   {
     PassScene scene(200, 160);
     addHills(scene, 0.2 + 0.1 * i);
-    scene.addFloor(0.5, 1.2); // whose shadow has one layer above it
+    scene.addFloor(0.5, 1.2); // only one layer lies above its shadow
     for (int ball = 0; ball < 6; ++ball)
     {
       vtkNew<vtkSphereSource> source;
@@ -365,12 +365,12 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
   }
 }
 
-// A square whose normals lean to one side, lit from below: the one layer that a map has is
-// the receivers' own, and yet in their light.
+// A square whose normals lean to one side, lit from below. The map's only layer is the receivers'
+// own, and still blocks their light.
 TEST_F(SmoothTerminatorsTest, exactTechniquesAgreeOnASheetSeenFromItsBack)
 {
   PassScene scene(400, 400);
-  scene.pass->SetMapSize(16); // so that some receivers are off their triangle by little of a texel
+  scene.pass->SetMapSize(16); // some receivers are then off their triangle by little of a texel
   vtkNew<vtkPlaneSource> plane;
   plane->SetResolution(12, 12);
   plane->Update();
@@ -397,7 +397,7 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgreeOnASheetSeenFromItsBack)
   }
 }
 
-// Maps ask above the facets that are turned away, where VTK's shader does the asking.
+// VTK's shader looks maps up above the facets that are turned away.
 TEST_F(SmoothTerminatorsTest, mapsInShadersCutOffATenthAsMuch)
 {
   for (const char* technique : { "nsm", "pcf", "vsm", "lispsm" })
@@ -428,7 +428,7 @@ TEST_F(SmoothTerminatorsTest, mapsInShadersCutOffATenthAsMuch)
   }
 }
 
-// Another prop's shadow falls on them from as far as the facets are high.
+// Another prop's shadow reaches them from a distance up to the facets' height.
 TEST_F(SmoothTerminatorsTest, mapsInShadersAddNoLightInShadow)
 {
   SphereScene scene;

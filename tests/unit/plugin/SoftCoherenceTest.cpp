@@ -1,4 +1,4 @@
-// coherence under area lights: eight maps decide what they agree on, all samples the rest.
+// `coherence` under area lights: eight maps decide where they agree, all samples decide the rest.
 
 #include "BuiltinPass.h"
 #include "PassScene.h"
@@ -21,16 +21,16 @@ namespace gnomon::test
 namespace
 {
 
-/// What coherence makes of a frame, against all rays.
+/// The result of `coherence` in a frame, against all rays.
 struct Hints
 {
   std::size_t reached = 0; ///< pixels that a ray could decide
   std::size_t traced = 0;
-  std::size_t wrong = 0; ///< hinted ones that are not what all rays say
-  double worst = 0.0;    ///< the most that they are off
+  std::size_t wrong = 0; ///< pixels decided by maps that differ from all rays
+  double worst = 0.0;    ///< their largest error
 };
 
-/// Compares the first light's images. Pixels that are traced have to be the truth, to the last bit.
+/// Compare the first light's images. Pixels that are traced have to be the truth, to the last bit.
 Hints countHints(const VisibilityImages& kept, const std::vector<float>& truth)
 {
   Hints hints;
@@ -67,8 +67,8 @@ double share(std::size_t pixels, const Hints& hints)
 struct SceneCase
 {
   const char* name;
-  double traced; ///< the most of the pixels that a ray could decide
-  double wrong;  ///< likewise
+  double traced; ///< the largest share of `reached`
+  double wrong;  ///< the largest share of `reached`
 };
 
 void PrintTo(const SceneCase& scene, std::ostream* stream)
@@ -232,7 +232,7 @@ TEST_P(SoftCoherenceLights, followWhatMoves)
   const auto expectFresh = [&](const char* what)
   {
     const std::vector<float> followed = drawKept(scene).visibility.at(0);
-    vtkNew<vtkGnomonShadowPass> fresh; // which has drawn nothing before
+    vtkNew<vtkGnomonShadowPass> fresh; // a pass without earlier frames
     fresh->SmoothTerminatorsOff();
     fresh->SetMapSize(128);
     fresh->SetSetting("light_samples", "16");
@@ -259,7 +259,7 @@ TEST_P(SoftCoherenceLights, followWhatMoves)
   expectFresh("the technique");
 }
 
-/// A light of no size is its centre, and takes one map.
+/// A light of size 0 is its centre, and takes one map.
 TEST_F(SoftCoherence, ofNoSizeIsHard)
 {
   PassScene scene(100, 80);
@@ -277,8 +277,7 @@ TEST_F(SoftCoherence, ofNoSizeIsHard)
     std::count_if(hard.begin(), hard.end(), [](float v) { return v != 0.0f && v != 1.0f; }), 0);
 }
 
-/// Points of the light below a floor say nothing of it: where the others are hidden, all of the
-/// light is.
+/// Points of the light below a floor do not count: if the others are hidden, all of the light is.
 TEST_F(SoftCoherence, asksPointsThatTheReceiverFaces)
 {
   PassScene scene(100, 80);

@@ -1,4 +1,4 @@
-// Soft shadows where casters stand on their receiver: of techniques with maps, they begin at the
+// Soft shadows where casters stand on their receiver: with techniques of maps, they begin at the
 // contact.
 
 #include "PassScene.h"
@@ -18,7 +18,7 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-/// By technique: the default settings, montecarlo's filter among them.
+/// By technique, with default settings, including montecarlo's filter.
 class SoftContacts
   : public PassTest
   , public testing::WithParamInterface<const char*>
@@ -29,8 +29,8 @@ INSTANTIATE_TEST_SUITE_P(Techniques, SoftContacts, testing::Values("pcss", "samp
   [](const testing::TestParamInfo<const char*>& technique)
   { return std::string(technique.param); });
 
-/// A box and a wall that is thinner than a texel, aslant to the map's rows. Behind them the floor
-/// sees nothing of the light, which is large, as far as 0.22.
+/// A box and a wall thinner than a texel, oblique to the map's rows. The light is large. Behind
+/// them the floor sees nothing of it, as far as 0.22.
 TEST_P(SoftContacts, areDarkBeyondTwoTexels)
 {
   const double turnDegrees = 20.0;
@@ -52,7 +52,7 @@ TEST_P(SoftContacts, areDarkBeyondTwoTexels)
       {
         scene.pass->SetMapSize(mapSize);
         const VisibilityImages& kept = drawKept(scene);
-        // Across the light; on the floor, which it meets aslant, a texel is longer.
+        // Texels across the light; on the oblique floor a texel is longer.
         const double side = sun ? 8.0 * std::sqrt(2.0) : 2.0 * 12.0 * std::tan(glm::radians(30.0));
         const double texel = side / mapSize;
         std::size_t looked = 0;
@@ -64,7 +64,7 @@ TEST_P(SoftContacts, areDarkBeyondTwoTexels)
           if (std::abs(at.z) < 1e-3 && distance > 0.0 && distance < 0.2)
           {
             ++looked;
-            const bool lit = kept.visibility[0][i] > 0.5f / 255.0f; // which shows
+            const bool lit = kept.visibility[0][i] > 0.5f / 255.0f; // visible in the picture
             farthest = std::max(farthest, lit ? distance : 0.0);
           }
         }

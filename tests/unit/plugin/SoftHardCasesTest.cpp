@@ -1,6 +1,5 @@
-// Techniques with soft shadows under area lights and on scenes that break such: the numbers stay
-// finite, OpenGL has nothing to complain about, and the visibility differs from the ray-traced one
-// by no more than is stated here.
+// Techniques with soft shadows under area lights, in difficult scenes. Values stay finite, OpenGL
+// reports no error, and visibility differs from the ray-traced one by no more than is stated here.
 
 #include "PassScene.h"
 
@@ -40,8 +39,8 @@ void addSheet(PassScene& scene, const glm::dvec2& lower, const glm::dvec2& upper
   scene.add(sheet);
 }
 
-/// A box that stands on a slab and a sphere that hangs over it, `unit` times as large as elsewhere
-/// and moved by `offset`.
+/// A box that stands on a slab and a sphere that hangs over it, scaled by `unit` and moved by
+/// `offset`.
 void addThings(PassScene& scene, double unit = 1.0, const glm::dvec3& offset = glm::dvec3(0.0))
 {
   const auto place = [&](double x, double y, double z)
@@ -52,7 +51,7 @@ void addThings(PassScene& scene, double unit = 1.0, const glm::dvec3& offset = g
   scene.lookFrom(place(0.0, -9.0, 7.0), place(0.0, 0.0, 0.0));
 }
 
-/// Adds a light.
+/// Add a light.
 Build softSun(const glm::dvec3& direction, const char* degrees)
 {
   return [=](PassScene& scene)
@@ -102,7 +101,7 @@ Build overThings(const Build& addLight)
   };
 }
 
-/// Other things on a floor that casts or not.
+/// Other casters, on a floor that casts or not.
 Build overFloor(
   const Build& addLight, const std::function<void(PassScene&)>& addOthers, bool casts = true)
 {
@@ -134,18 +133,17 @@ vtkActor* addBowl(PassScene& scene, double radius, double endDegrees)
   return scene.add(bowl);
 }
 
-/// By how much a technique may differ from the truth.
+/// The largest difference of a technique from the truth.
 struct Bound
 {
   double meanAbsolute;
   std::size_t spots; ///< pixels; see SoftError
 };
 
-/// The techniques with a map whose shadows are soft.
+/// The soft techniques with a map.
 constexpr const char* mapTechniques[] = { "pcss", "montecarlo", "sampled", "coherence" };
 
-/// Of lamps that lie in a caster: what such are on one side of, rounding says. Visibility is to be
-/// finite, no more.
+/// For lamps inside a caster, where rounding decides the side: visibility only has to be finite.
 constexpr Bound anything{ 1.0, 120 * 90 };
 
 struct SoftCase
@@ -163,8 +161,8 @@ const std::vector<SoftCase>& softCases()
       overThings(softDisk(over, 0.5)) },
     { "zeroSize", 0.0002, { { 0.0005, 0 }, { 0.0005, 0 }, { 0.0005, 0 }, { 0.0002, 0 } },
       overThings(softDisk(over, 0.0)) },
-    // The hard shadow's edges are off by texels' shares: by 0.0002 to 0.0019 as the map lies, and
-    // by the mean of that where, of "sampled", it lies in many ways.
+    // The hard shadow's edges have an error of a part of a texel: 0.0002 to 0.0019 by the map's
+    // position. Maps of `sampled` have many positions, so their error is the mean of that.
     { "tinySun", 0.0002, { { 0.0009, 0 }, { 0.0009, 0 }, { 0.0013, 0 }, { 0.0002, 0 } },
       overThings(softSun(slantingSoftly, "1e-6")) },
     // On the box's top, in it and close to it; around, in and at casters.
@@ -287,18 +285,18 @@ const std::vector<SoftCase>& softCases()
   return cases;
 }
 
-/// What is seen along itself has no shade. The normals of the image route are known to this.
+/// Surfaces seen edge-on are not shaded. The image route knows its normals to this precision.
 constexpr double leastCosine = 1e-5;
 
-/// How a technique differs from the truth.
+/// The difference of a technique from the truth.
 struct SoftError
 {
   double meanAbsolute = 0.0;
-  /// Pixels that are not fully lit, or not dark, as are all around them in truth: acne and leaks.
+  /// Pixels that are not fully lit or dark though all around them are, in truth: acne and leaks.
   std::size_t spots = 0;
 };
 
-/// Whether all pixels around one have this visibility, as far as montecarlo's filter takes.
+/// True if all pixels around one have this visibility, over the width of montecarlo's filter.
 bool isAmong(const VisibilityImages& truth, int x, int y, float visibility)
 {
   for (int dy = -6; dy <= 6; ++dy)
@@ -366,7 +364,7 @@ TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
   const auto draw = [&](const char* technique)
   {
     scene.pass->SetTechnique(technique);
-    return drawKept(scene); // which holds that numbers are finite and in [0, 1]
+    return drawKept(scene); // checks that numbers are finite and in [0, 1]
   };
   scene.pass->SetSetting("light_samples", "1024");
   scene.pass->SetSetting("light_seed", "1");
@@ -391,7 +389,7 @@ TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
 }
 
 //------------------------------------------------------------------------------
-/// What bounds decide without a search is what the search would say.
+/// Bounds that replace a search give the same result as the search.
 TEST_P(SoftHardCases, showTheSameByBounds)
 {
   PassScene scene(120, 90);
@@ -420,7 +418,7 @@ TEST_P(SoftHardCases, showTheSameByBounds)
 }
 
 //------------------------------------------------------------------------------
-/// What nothing is in the way of is fully lit, whatever the light's size and place.
+/// Unoccluded receivers are fully lit, for lights of any size and place.
 TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
 {
   PassScene scene(72, 48);
@@ -447,7 +445,7 @@ TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
         const std::vector<float> plain = kept.visibility[0];
         if (place.travel == down && cone == 90.0)
         {
-          // The top, which is nearly all that is seen.
+          // The top, which fills nearly all of the picture.
           const auto covered =
             static_cast<double>(std::count(kept.coverage.begin(), kept.coverage.end(), 1));
           EXPECT_GT(
@@ -469,8 +467,8 @@ TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
 }
 
 //------------------------------------------------------------------------------
-/// Across the penumbra of a half plane: along lines on which the truth is the same, the mean
-/// visibility falls from column to column without steps, which would show as bands.
+/// Across the penumbra of a half plane, mean visibility falls from column to column without steps,
+/// which would show as bands. The truth is constant along a column.
 TEST(SoftPenumbras, haveNoBandsByDefault)
 {
   PassScene scene(200, 100);
@@ -480,7 +478,8 @@ TEST(SoftPenumbras, haveNoBandsByDefault)
   scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 1.5); // below the half plane
   scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
   softDisk({ 0.0, 0.0, 10.0 }, 1.2, down, 50.0)(scene);
-  // The penumbra is 60 columns wide, and steepest in its middle, where the light's diameter is cut.
+  // The penumbra is 60 columns wide, and steepest in its middle, where the edge cuts the light's
+  // diameter.
   const double steepest = 4.0 / std::acos(-1.0) / 60.0;
   for (const char* technique :
     { "raytraced", "penumbra", "pcss", "montecarlo", "coherence", "sampled" })

@@ -1,4 +1,4 @@
-// Techniques with soft shadows in built-in scenes: how far they may be from rays on the mean.
+// Techniques with soft shadows in built-in scenes: bounds of their mean error against rays.
 
 #include "BuiltinScenes.h"
 #include "Comparison.h"
@@ -36,7 +36,7 @@ struct SoftScene
 {
   const char* name;
   const char* sunDegrees = nullptr; ///< null: the scene has a lamp
-  double sampledRms = 0.0;          ///< the most of `sampled` with 256 points
+  double sampledRms = 0.0;          ///< the largest of `sampled` with 256 points
   const char* ground = "plane";     ///< a model
 };
 
@@ -77,8 +77,9 @@ protected:
     this->pass_->SetSetting("light_seed", "0");
   }
 
-  /// Holds the mean absolute error to a bound, against rays to 1,024 other points of the light,
-  /// over the pixels that face it; and to a share of the hard shadow's, which may be small, too.
+  /// Compare with rays to 1,024 other points of the light, over the pixels that face it. Expect the
+  /// mean absolute error to be within a bound, and within a share of the hard shadow's, which may
+  /// be small, too.
   tool::VisibilityError expectNearTheTruth(
     const char* technique, const SceneSettings& settings, double bound)
   {
@@ -93,7 +94,7 @@ protected:
     return error;
   }
 
-  /// Leaves all but some receivers out of what counts.
+  /// Count only some receivers.
   void countOnly(const std::function<bool(const glm::dvec3& positionWorld)>& counts)
   {
     for (std::size_t i = 0; i < this->truth_.coverage.size(); ++i)
@@ -108,7 +109,7 @@ protected:
     return tool::measureError(images, this->truth_, this->lights_);
   }
 
-  /// What visibility is on the mean where, in truth, a part of the light is seen.
+  /// The mean visibility of pixels that, in truth, see a part of the light.
   struct Dimmed
   {
     int pixels = 0;
@@ -176,14 +177,13 @@ TEST_P(SoftScenes, sampledAndFilteredRaysThroughPeeledLayersAreNearTheTruth)
 }
 
 //------------------------------------------------------------------------------
-/// A cube over a sphere: what both hide of the lamp.
+/// A cube over a sphere: the part of the lamp that both hide.
 using SoftStack = SoftSceneTest;
 
 INSTANTIATE_TEST_SUITE_P(
   Builtin, SoftStack, testing::Values(SoftScene{ "soft-stack" }), nameOfScene);
 
-/// The sphere from near by; its left half is dimmed by a part of the cube's penumbra (Apelles,
-/// figure 5.6).
+/// The sphere from near by. A part of the cube's penumbra dims its left half (Apelles, figure 5.6).
 TEST_P(SoftStack, dimsTheSphereAsRaysDoAndPcssLessWell)
 {
   tool::Scene scene = tool::loadScene(GetParam().name);
@@ -216,7 +216,7 @@ TEST_P(SoftStack, dimsTheSphereAsRaysDoAndPcssLessWell)
 }
 
 //------------------------------------------------------------------------------
-/// Those whose ground is one model.
+/// Scenes whose ground is one model.
 using SoftScenesOnGrounds = SoftSceneTest;
 
 INSTANTIATE_TEST_SUITE_P(Builtin, SoftScenesOnGrounds,
@@ -239,15 +239,15 @@ TEST_P(SoftScenesOnGrounds, filteredRaysThroughTwoLayersAreNearTheTruthWhereThey
 // Half a plane over a plane
 //------------------------------------------------------------------------------
 
-/// What is seen from (x, 0, z) of a sun of this angle past the edge of the scene `half-plane`,
-/// which is at x = 0, y = 2.5.
+/// Return the visible share of a sun of this angle from (x, 0, z), past the edge of the scene
+/// `half-plane` at x = 0, y = 2.5.
 double halfPlaneAt(double x, double degrees)
 {
   const double height = 2.5;
   const glm::dvec3 toSun =
     glm::normalize(glm::dvec3(-tool::halfPlaneShadowEdge / height, 1.0, 0.3));
-  // A ray along r is at x + height r.x / r.y where it is as high as the edge. So those to the
-  // points of the sun, one unit away, pass it on one side of a line.
+  // A ray along r is at x + height r.x / r.y when it is as high as the edge. Rays to the points of
+  // the sun, one unit away, that pass the edge lie on one side of a line.
   const glm::dvec3 across(height, x, 0.0);
   const double along = glm::dot(across, toSun);
   const double radii =
@@ -255,7 +255,7 @@ double halfPlaneAt(double x, double degrees)
   return diskShare(radii);
 }
 
-/// Though the filter's radius is in pixels, and the penumbra a few pixels wide.
+/// The width holds although the filter's radius is in pixels, and the penumbra a few pixels wide.
 TEST(SoftHalfPlane, montecarloLeavesThePenumbraAsWideAsItIs)
 {
   const vtkSmartPointer<vtkRenderer> renderer =
@@ -274,11 +274,11 @@ TEST(SoftHalfPlane, montecarloLeavesThePenumbraAsWideAsItIs)
     window->SetSize(side, side);
     window->Render();
     const VisibilityImages& kept = pass->GetVisibility();
-    // Sums of what comes of the edge beyond the hard shadow's, by how far: as the square of the
-    // penumbra's width.
+    // Sums of the light beyond the hard shadow's edge, weighted by distance: they grow as the
+    // square of the penumbra's width.
     double spread = 0.0;
     double exactSpread = 0.0;
-    std::array<double, 10> offBy{}; // sums, by what is to be seen
+    std::array<double, 10> offBy{}; // sums, by the visible share
     std::array<double, 10> pixels{};
     for (std::size_t i = 0; i < kept.coverage.size(); ++i)
     {
@@ -300,7 +300,7 @@ TEST(SoftHalfPlane, montecarloLeavesThePenumbraAsWideAsItIs)
         pixels[tenth] += 1.0;
       }
     }
-    const double width = std::sqrt(spread / exactSpread); // of the exact one
+    const double width = std::sqrt(spread / exactSpread); // relative to the exact one
     RecordProperty("width_" + std::to_string(side), std::to_string(width));
     EXPECT_NEAR(width, 1.0, 0.05) << side;
     for (std::size_t tenth = 0; tenth < offBy.size(); ++tenth)

@@ -1,4 +1,4 @@
-// Mappers of impostors: their spheres and sticks cast and receive as what they look like.
+// Impostor mappers: their spheres and sticks cast and receive with their visible shape.
 
 #include "PassScene.h"
 #include "RandomScenes.h"
@@ -42,12 +42,12 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-/// Where a line meets something first, from its origin on.
+/// The first hit of a ray, from its origin on.
 struct Hit
 {
   double t;
   glm::dvec3 normal;  ///< outwards
-  bool isEnd = false; ///< of a stick
+  bool isEnd = false; ///< the hit is on a stick's end
 };
 using MaybeHit = std::optional<Hit>;
 
@@ -117,7 +117,7 @@ vtkFloatArray* addArray(vtkPolyData* data, const char* name, int components)
   return array;
 }
 
-/// With a vertex: VTK takes a mapper's bounds from cells, and draws nothing without.
+/// Add a point with a vertex: VTK takes a mapper's bounds from cells, and draws nothing without.
 void addPoint(vtkPolyData* data, const glm::dvec3& position)
 {
   const vtkIdType point = data->GetPoints()->InsertNextPoint(&position.x);
@@ -220,10 +220,10 @@ public:
   vtkNew<vtkActor> ballActor, stickActor;
 };
 
-/// What rays of the test's own say of a pixel.
+/// The result of the test's own rays for a pixel.
 struct PixelTruth
 {
-  bool certain = false; ///< it is the same a little to all sides
+  bool certain = false; ///< nearby rays agree
   float visibility = 1.0f;
   glm::dvec3 position{ 0.0 }, normal{ 0.0 };
 };
@@ -288,7 +288,7 @@ private:
     const glm::dvec3 direction = unproject(1.0) - origin;
     const MaybeHit hit = this->scene_.meet(origin, direction);
     PixelTruth truth;
-    // VTK's shader draws the end of a stick that faces the picture's plane, and no other.
+    // Of sticks' ends, VTK's shader draws only those that face the picture's plane.
     const glm::dvec3 normalView =
       glm::dmat3(this->viewFromWorld_) * (hit ? hit->normal : glm::dvec3(0.0));
     truth.certain = hit && (!hit->isEnd || normalView.z > 0.0);
@@ -331,7 +331,7 @@ void setTechnique(SolidsScene& scene, const char* technique)
   scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
 }
 
-/// What a pass that has seen no earlier frame traces.
+/// Return the visibility of a pass without earlier frames.
 std::vector<float> visibilityByFreshPass(PassScene& scene)
 {
   vtkNew<vtkGnomonShadowPass> fresh;
@@ -408,7 +408,7 @@ TEST_F(SolidsTest, agreeWithClosedForms)
 }
 
 //------------------------------------------------------------------------------
-/// With an image among them, which casts and receives as its rectangle.
+/// Include an image, which casts and receives as its rectangle.
 TEST_F(SolidsTest, exactTechniquesAgree)
 {
   const auto runs = static_cast<int>(exactRuns(3));
@@ -442,7 +442,7 @@ TEST_F(SolidsTest, exactTechniquesAgree)
 }
 
 //------------------------------------------------------------------------------
-/// A map of triangles alone would say that solids are not there.
+/// A map of triangles alone would miss the solids.
 TEST_F(SolidsTest, conservativeMapsAreNotAsked)
 {
   SolidsScene scene(3);
@@ -462,7 +462,7 @@ TEST_F(SolidsTest, conservativeMapsAreNotAsked)
 }
 
 //------------------------------------------------------------------------------
-/// What a map holds are meshes inside of the solids: no solid is dark by its own.
+/// A map holds meshes inside the solids, so no solid shadows itself.
 TEST_F(SolidsTest, mapsShowThemWithoutAcne)
 {
   SolidsScene scene(6, 1);
@@ -515,7 +515,7 @@ TEST_F(SolidsTest, bothRoutesAgree)
 }
 
 //------------------------------------------------------------------------------
-/// A pass that has seen what was there before shows the same as a new one.
+/// A pass with earlier frames shows the same as a new one.
 TEST_F(SolidsTest, changesAreSeen)
 {
   SolidsScene scene(8);
@@ -541,7 +541,7 @@ TEST_F(SolidsTest, changesAreSeen)
   EXPECT_EQ(scene.report().bvhRefits, 1);
   scene.stickActor->RotateZ(40.0);
   expectChange("a prop's turn");
-  scene.ballActor->SetScale(1.2); // moves balls apart, as VTK does, and leaves their size
+  scene.ballActor->SetScale(1.2); // moves balls apart without resizing them, as VTK does
   expectChange("a scale");
   scene.ballMapper->SetScaleArray(nullptr);
   scene.ballMapper->SetRadius(0.4f);
@@ -603,7 +603,7 @@ TEST_F(SolidsTest, atomsAndBondsCast)
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   scene.renderer->AddActor(actor);
-  // From the side, so that the molecule hides none of its shadow.
+  // From the side, so the molecule hides none of its shadow.
   scene.lookFrom({ 0.0, -9.0, 2.0 }, { 0.0, 0.0, -2.0 });
   scene.pass->SetTechnique("raytraced");
   const auto inShadow = [&]
@@ -629,7 +629,7 @@ TEST_F(SolidsTest, atomsAndBondsCast)
 }
 
 //------------------------------------------------------------------------------
-/// In a window with several samples a pixel: all of them in another prop's shadow.
+/// In a window with several samples per pixel: all samples are in another prop's shadow.
 TEST_F(SolidsTest, outlinesAreAsDarkAsWhatTheyAreOf)
 {
   SolidsScene scene(11);
@@ -648,8 +648,7 @@ TEST_F(SolidsTest, outlinesAreAsDarkAsWhatTheyAreOf)
 namespace
 {
 
-/// A ring of points, and of a line through them, over a floor, with spheres and tubes sized in
-/// pixels.
+/// Points on a ring and a line through them, over a floor, as spheres and tubes sized in pixels.
 class PixelSizedScene : public PassScene
 {
 public:
@@ -683,7 +682,7 @@ public:
   void showPoints() { this->actor->GetProperty()->RenderPointsAsSpheresOn(); }
   void showTubes() { this->actor->GetProperty()->RenderLinesAsTubesOn(); }
 
-  /// How large half a number of pixels is where a point is.
+  /// Return the world size of half of `pixels` at a point.
   double radiusAt(const glm::dvec3& point, double pixels)
   {
     vtkCamera* camera = this->renderer->GetActiveCamera();
@@ -701,7 +700,7 @@ public:
   vtkActor* actor;
 };
 
-/// Of the pixels of what is above the floor: how many face the light, and which of these are dark.
+/// Pixels of surfaces above the floor: the number that face the light, and of these the dark ones.
 struct Darkness
 {
   std::size_t facing = 0;
@@ -724,7 +723,7 @@ Darkness darknessAbove(const VisibilityImages& kept, double height, vtkLight* li
 } // namespace
 
 //------------------------------------------------------------------------------
-/// They cast what spheres of that size cast.
+/// They cast like spheres of that size.
 TEST_F(SolidsTest, pointsAsSpheresCastAsSpheres)
 {
   for (const bool parallel : { false, true })
@@ -769,7 +768,7 @@ TEST_F(SolidsTest, pointsAsSpheresCastAsSpheres)
 }
 
 //------------------------------------------------------------------------------
-/// As wide as they look, on the floor and of it, and all along.
+/// Their shadows on the floor are as wide as the tubes look, all along.
 TEST_F(SolidsTest, linesAsTubesCastAsTubes)
 {
   PixelSizedScene scene;
@@ -790,7 +789,7 @@ TEST_F(SolidsTest, linesAsTubesCastAsTubes)
   for (std::size_t i = 0; i < kept.coverage.size(); ++i)
   {
     const glm::dvec3 at = positionOf(kept, i);
-    // Along the light, which is nearly upright, a tube is about as wide as across.
+    // A tube is about as wide along the light, which is nearly upright, as across.
     const glm::dvec2 lifted = glm::dvec2(at) - glm::dvec2(0.4, 0.2) * PixelSizedScene::height;
     const double off = std::abs(glm::length(lifted) - 3.0);
     if (at.z < 0.1)
@@ -807,7 +806,7 @@ TEST_F(SolidsTest, linesAsTubesCastAsTubes)
 }
 
 //------------------------------------------------------------------------------
-/// Neither by themselves nor by the next part of a bent line.
+/// Tubes and points are darkened neither by themselves nor by the next part of a bent line.
 TEST_F(SolidsTest, pixelSizedSolidsHaveNoSpecks)
 {
   for (const bool tubes : { false, true })
@@ -821,7 +820,7 @@ TEST_F(SolidsTest, pixelSizedSolidsHaveNoSpecks)
       scene.pass->SetTechnique(technique);
       const Darkness shown = darknessAbove(drawKept(scene), 0.5, light);
       EXPECT_GT(shown.facing, 1000u);
-      // Spheres beside each other shadow each other; a map knows no tube from the next, at bends.
+      // Neighbouring spheres shadow each other. At bends, a map cannot tell a tube from the next.
       const bool none = tubes && technique != std::string("nsm");
       EXPECT_LE(shown.dark, none ? 0u : shown.facing / 10);
     }
@@ -844,7 +843,7 @@ TEST_F(SolidsTest, pixelSizedSolidsFollowTheCamera)
   scene.lookFrom({ 4.0, -3.0, 3.0 });
   expectFresh();
   EXPECT_EQ(scene.report().surfacesExtracted, 0);
-  scene.lookFrom({ 0.5, 0.0, 1.6 }, { 3.0, 0.5, 1.5 }); // some of them are behind it
+  scene.lookFrom({ 0.5, 0.0, 1.6 }, { 3.0, 0.5, 1.5 }); // some of them are behind the camera
   expectFresh();
   scene.actor->GetProperty()->SetPointSize(30.0f);
   expectFresh();
@@ -855,7 +854,7 @@ TEST_F(SolidsTest, pixelSizedSolidsFollowTheCamera)
 }
 
 //------------------------------------------------------------------------------
-/// Both routes, with one sample a pixel and several, and what is in another prop's shadow.
+/// Both routes, with one sample per pixel and several; also surfaces in another prop's shadow.
 TEST_F(SolidsTest, pixelSizedSolidsReceiveByBothRoutes)
 {
   for (const int samples : { 0, 4 })
@@ -888,7 +887,7 @@ TEST_F(SolidsTest, pixelSizedSolidsReceiveByBothRoutes)
 namespace
 {
 
-/// Points over a floor, drawn by a mapper.
+/// Points over a floor, with a mapper.
 class PointsScene : public PassScene
 {
 public:
@@ -910,7 +909,7 @@ public:
     this->pass->SetTechnique("raytraced");
   }
 
-  /// The mapper of splats that looks like spheres.
+  /// Return the mapper of splats that looks like spheres.
   void showSplats(vtkDataObject* input)
   {
     vtkNew<vtkPointGaussianMapper> mapper;
@@ -930,7 +929,7 @@ public:
   vtkActor* actor;
 };
 
-/// What the floor shows where two pictures show it.
+/// The difference of two pictures where both show the floor.
 struct FloorDifference
 {
   std::size_t dark = 0;
@@ -1006,7 +1005,7 @@ TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
   expectSpheres(byFunction(0.5));
   drawKept(scene);
   function->RemovePoint(0.6);
-  function->AddPoint(0.6, 0.2); // of which the mapper is not told
+  function->AddPoint(0.6, 0.2); // without notice to the mapper
   const std::vector<float> after = drawKept(scene).visibility[0];
   EXPECT_EQ(visibilityByFreshPass(scene), after);
   expectSpheres(byFunction(0.2));
@@ -1014,8 +1013,8 @@ TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (const int first : { 0, 1 })
   {
-    // Vertex cells choose points, each one three times: from 9.4 VTK writes a size for each point
-    // into an array that has room for one per vertex.
+    // Vertex cells choose points, each point three times. From VTK 9.4 on, VTK writes a size for
+    // each point into an array with room for one per vertex.
     vtkNew<vtkPolyData> half;
     half->ShallowCopy(scene.data);
     half->SetVerts(vtkNew<vtkCellArray>());
@@ -1061,7 +1060,7 @@ TEST_F(SolidsTest, splatsWithoutDiscsAreListed)
 //------------------------------------------------------------------------------
 TEST_F(SolidsTest, withoutCellsCastNothing)
 {
-  // VTK takes bounds from cells and draws nothing without.
+  // VTK takes bounds from cells, and draws nothing without.
   SolidsScene scene;
   scene.addSun({ 0.3, 0.2, -1.0 });
   const std::vector<float> shown = drawKept(scene).visibility[0];
@@ -1080,7 +1079,7 @@ TEST_F(SolidsTest, withoutCellsCastNothing)
   EXPECT_EQ(drawKept(scene).visibility[0], withoutCells);
   EXPECT_NE(shown, withoutCells);
 
-  // An assembly of parts whose bounds do not count has none at all, and is drawn.
+  // An assembly whose parts' bounds do not count has no bounds, and is drawn.
   vtkNew<vtkPropAssembly> assembly;
   scene.ballActor->VisibilityOn();
   scene.ballActor->UseBoundsOff();

@@ -1,4 +1,4 @@
-// What a frame does again: only what has changed since the last one.
+// A frame computes only values whose inputs changed since the last one.
 
 #include "PassScene.h"
 
@@ -85,7 +85,7 @@ protected:
     this->scene.render();
     return this->work();
   }
-  /// The first frames, after which all is there.
+  /// Draw the first frames, after which all values are cached.
   void settle()
   {
     this->scene.render();
@@ -152,7 +152,7 @@ TEST_P(Staleness, movedPropIsRetransformedAndNothingElse)
   EXPECT_EQ(moved.builds, 0);
   EXPECT_EQ(moved.extracted, 0);
   EXPECT_EQ(moved.retransformed, 1);
-  // The floor's structure stays; those that refit are the sphere's own and the one above all.
+  // The floor's structure is reused; the sphere's own and the top-level one are refit.
   EXPECT_GE(moved.refits, expected.refits);
   EXPECT_LE(moved.refits, 2 * expected.refits);
   EXPECT_EQ(this->render(), Work{});
@@ -230,7 +230,7 @@ TEST_P(Staleness, anotherColourOfAPropIsNoWorkForShadows)
   this->settle();
   this->sphere->GetProperty()->SetColor(1.0, 0.0, 0.0);
   Work expected;
-  expected.compiles = 1; // VTK puts that prop's shader together anew
+  expected.compiles = 1; // VTK builds that prop's shader again
   EXPECT_EQ(this->render(), expected);
   EXPECT_EQ(this->render(), Work{});
 }
@@ -254,7 +254,8 @@ TEST_P(Staleness, anotherTechniqueAndBackKeepsTheSnapshot)
 }
 
 //------------------------------------------------------------------------------
-/// The very bytes of plain VTK, and nothing done for shadows, also after frames with them.
+/// The picture equals plain VTK's to the byte, and no shadow work is done, also after frames with
+/// shadows.
 TEST_P(Staleness, withoutACastingLightNothingIsDone)
 {
   this->render();
@@ -284,7 +285,7 @@ TEST_P(Staleness, withoutACastingLightNothingIsDone)
 }
 
 //------------------------------------------------------------------------------
-/// A light whose settings make no sense gets the plain technique, and the others keep their maps.
+/// A light with contradictory settings gets the plain technique, and the others reuse their maps.
 TEST_F(PassTest, aLightThatCannotBeServedLeavesTheOthersMapsAsTheyAre)
 {
   PassScene scene(200, 150);
@@ -318,7 +319,7 @@ TEST_F(PassTest, aLightThatCannotBeServedLeavesTheOthersMapsAsTheyAre)
 }
 
 //------------------------------------------------------------------------------
-/// An optional map is baked after frames in which nothing changed; till then all is traced, with
+/// An optional map is baked after frames without a change. Until then all pixels are traced, with
 /// the same picture.
 TEST(OptionalMaps, areBakedOnceNothingMoves)
 {
@@ -329,7 +330,7 @@ TEST(OptionalMaps, areBakedOnceNothingMoves)
   scene.lookFrom({ 0.0, -9.0, 7.0 });
   scene.pass->SetTechnique("silhouette");
   scene.pass->SetSetting("bake", "settled");
-  // Two cameras take turns: a frame like the last one computes no visibility.
+  // Two cameras take turns: from a camera at rest, no visibility would be computed.
   int frames = 0;
   const auto render = [&]
   {
@@ -341,7 +342,7 @@ TEST(OptionalMaps, areBakedOnceNothingMoves)
   {
     Picture picture = render();
     EXPECT_EQ(scene.report().mapBakes, 0);
-    // What is known of the casters' edges stays.
+    // Data of the casters' edges are reused.
     EXPECT_LT(scene.report().bytesMaps, std::size_t(1) << 20);
     EXPECT_NE(scene.report().lights[0].mapReason.find("all is traced"), std::string::npos);
     all = scene.report().lights[0].tracedPixels;
@@ -352,7 +353,7 @@ TEST(OptionalMaps, areBakedOnceNothingMoves)
   {
     Picture picture = render();
     EXPECT_EQ(scene.report().mapBakes, bakes);
-    // A map has a million texels of several numbers.
+    // A map has a million texels of several numbers each.
     EXPECT_GT(scene.report().bytesMaps, std::size_t(1) << 24);
     EXPECT_EQ(scene.report().lights[0].mapReason, "");
     EXPECT_LT(scene.report().lights[0].tracedPixels, all / 2);
@@ -362,7 +363,7 @@ TEST(OptionalMaps, areBakedOnceNothingMoves)
   const auto expectMappedAfter = [&](int restingFrames)
   {
     Picture traced = expectTraced();
-    Picture other = traced; // by the other camera
+    Picture other = traced; // the other camera's
     for (int frame = 0; frame < restingFrames; ++frame)
     {
       other = std::exchange(traced, expectTraced());
@@ -381,13 +382,13 @@ TEST(OptionalMaps, areBakedOnceNothingMoves)
   scene.pass->SetSetting("bake", "always");
   sun->SetPosition(3.0, 3.0, 5.0);
   expectMapped(1);
-  // What is there is used, and what went stale before was not the backoff's.
+  // The existing map is used, and earlier stale maps do not count for the backoff.
   scene.pass->SetSetting("bake", "settled");
   expectMapped(0);
 }
 
 //------------------------------------------------------------------------------
-/// Views that are fitted once stay where the camera was, also while no map was baked yet.
+/// Views fitted once stay at their first camera, also before a map is baked.
 TEST(OptionalMaps, thatAreFittedOnceNeedNoCameraThatRests)
 {
   PassScene scene(200, 150);
@@ -414,11 +415,11 @@ TEST(OptionalMaps, thatAreFittedOnceNeedNoCameraThatRests)
 }
 
 //------------------------------------------------------------------------------
-/// Translucent surfaces show a plain map, to which it is nothing what the exact one beside it
-/// awaits: it is drawn at once, and goes on with the view that it was fitted to first.
+/// Translucent surfaces show a plain map, which does not depend on the exact map's backoff. It is
+/// baked at once, with the view of its first fit.
 TEST(OptionalMaps, leaveThePlainMapBesideThemAsItIs)
 {
-  constexpr int mapSize = 64; // so coarse that pictures show where a view is
+  constexpr int mapSize = 64; // so coarse that pictures depend on the view's place
   struct Shown : PassScene
   {
     explicit Shown(const char* technique)
@@ -444,7 +445,7 @@ TEST(OptionalMaps, leaveThePlainMapBesideThemAsItIs)
   {
     SCOPED_TRACE(technique);
     Shown scene(technique);
-    Shown rays("raytraced"); // without a map beside the plain one
+    Shown rays("raytraced"); // has only the plain map
     const auto expectBakes = [&](double x, int bakes, int bakesOfRays)
     {
       const Picture shown = scene.renderFrom(x);
@@ -478,12 +479,12 @@ TEST(OptionalMaps, leaveThePlainMapBesideThemAsItIs)
     EXPECT_EQ(scene.report().lights[0].mapReason, "");
     const Picture settled = expectBakes(1.5, 0, 0);
 
-    // Seen from elsewhere at first, it has another view.
+    // With another first camera, it has another view.
     Shown fromThere(technique);
     fromThere.sphere->AddPosition(0.2, 0.1, 0.0);
     fromThere.renderFrom(1.5);
     EXPECT_GT(differingPixels(fromThere.renderFrom(1.5), settled), 100u);
-    // And from there again, the same.
+    // With that first camera again, it has the same view.
     Shown fromHere(technique);
     fromHere.sphere->AddPosition(0.2, 0.1, 0.0);
     fromHere.renderFrom(0.0);

@@ -118,7 +118,8 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-/// An error in every frame, no shadows, and all as it was before once the maps have room again.
+/// An error in the first frame, no shadows in any, and all as it was before once the maps have room
+/// again.
 TEST_P(MapsWithoutRoom, areAnErrorThatOffersSmallerOnesAndLeaveNothingBehind)
 {
   PassScene scene(100, 80);
@@ -140,10 +141,18 @@ TEST_P(MapsWithoutRoom, areAnErrorThatOffersSmallerOnesAndLeaveNothingBehind)
   for (int frame = 0; frame < 2; ++frame)
   {
     EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-    EXPECT_THAT(this->takeErrors(),
-      AllOf(HasSubstr(std::string("drawn without shadows: light 0: a map of 16384 x 16384") +
-              GetParam().asks),
-        HasSubstr("is not available; "), HasSubstr(" fits")));
+    const std::string error = this->takeErrors();
+    if (frame > 0)
+    {
+      EXPECT_EQ(error, "") << "said once";
+    }
+    else
+    {
+      EXPECT_THAT(error,
+        AllOf(HasSubstr(std::string("drawn without shadows: light 0: a map of 16384 x 16384") +
+                GetParam().asks),
+          HasSubstr("is not available; "), HasSubstr(" fits")));
+    }
     EXPECT_TRUE(scene.report().outOfTextureMemory);
     EXPECT_EQ(scene.report().route, "none");
   }

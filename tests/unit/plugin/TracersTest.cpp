@@ -1,4 +1,4 @@
-// The tracer on the GPU shows what Embree shows, for all techniques that trace.
+// The GPU's tracer gives the same result as Embree, for all techniques that trace.
 
 #include "BuiltinScenes.h"
 #include "LiveObjects.h"
@@ -38,7 +38,7 @@ namespace
 constexpr int embree = vtkGnomonShadowPass::TRACER_EMBREE;
 constexpr int gpu = vtkGnomonShadowPass::TRACER_GPU;
 
-/// What a frame shows and says of itself.
+/// A frame's images and report.
 struct Traced
 {
   VisibilityImages images;
@@ -57,7 +57,7 @@ Traced drawBy(
   return { pass->GetVisibility(), pass->GetReport() };
 }
 
-/// Pixels, of all lights, that two frames show differently.
+/// Count the pixels, of all lights, that differ between two frames.
 std::size_t differing(const Traced& a, const Traced& b)
 {
   EXPECT_EQ(a.images.visibility.size(), b.images.visibility.size());
@@ -73,7 +73,7 @@ std::size_t differing(const Traced& a, const Traced& b)
   return count;
 }
 
-/// Pixels, of all lights, that a ray has decided.
+/// Count the pixels, of all lights, that a ray decided.
 std::int64_t rays(const Traced& frame)
 {
   std::int64_t count = 0;
@@ -84,9 +84,8 @@ std::int64_t rays(const Traced& frame)
   return count;
 }
 
-/// Expects each light to have taken as many rays on the GPU as by Embree, and its pixels to be of
-/// the same classes. Embree alone leaves out tiles of which all is known without rays: there, it may
-/// have taken fewer.
+/// Expect each light to take as many rays on the GPU as by Embree, and its pixels to have the same
+/// classes. Only Embree skips tiles that are known without rays, so it may take fewer there.
 void expectTheSameWork(const Traced& byGpu, const Traced& byEmbree, const std::string& what)
 {
   for (std::size_t i = 0; i < byEmbree.report.lights.size(); ++i)
@@ -104,7 +103,7 @@ void expectTheSameWork(const Traced& byGpu, const Traced& byEmbree, const std::s
   }
 }
 
-/// Whether a pixel's visibility changes as all lights move by a millionth of the scene: its ray
+/// True if a pixel's visibility changes when all lights move by a millionth of the scene: its ray
 /// passes an edge to within rounding.
 bool isUndecided(vtkGnomonShadowPass* pass, vtkRenderWindow* window, std::size_t light,
   std::size_t pixel, float visibility)
@@ -141,8 +140,8 @@ bool isUndecided(vtkGnomonShadowPass* pass, vtkRenderWindow* window, std::size_t
   return changes;
 }
 
-/// Expects the GPU to say what Embree says, but for a ray in a million, and one, that pass an edge
-/// to within rounding.
+/// Expect the GPU to agree with Embree, except for one ray plus one in a million that pass
+/// an edge to within rounding.
 void expectToAgree(
   vtkGnomonShadowPass* pass, vtkRenderWindow* window, const Traced& byGpu, const Traced& byEmbree)
 {
@@ -162,8 +161,8 @@ void expectToAgree(
   }
 }
 
-/// Expects all exact techniques to show on the GPU what is traced there, to the last bit, and that
-/// to be what Embree says.
+/// Expect all exact techniques on the GPU to equal ray tracing there, bit for bit, and that to
+/// agree with Embree.
 void expectTheSame(vtkGnomonShadowPass* pass, vtkRenderWindow* window)
 {
   pass->SetSetting("bake", "always");
@@ -252,7 +251,7 @@ TEST_F(Tracers, showTheSameOfAreaLights)
 {
   this->scene.pass->SetSetting("light_radius", "0.8");
   for (const char* samples :
-    { "1", "16", "49", "300" }) // the GPU takes the last ones in several goes
+    { "1", "16", "49", "300" }) // the GPU takes the last ones in several batches
   {
     this->scene.pass->SetSetting("light_samples", samples);
     const Traced byEmbree = drawBy(this->scene.pass, this->scene.window, "raytraced", embree);
@@ -328,13 +327,13 @@ TEST_F(Tracers, changeBackAndForthAndLeaveNothingBehind)
     EXPECT_EQ(this->report().tracer, "embree");
     EXPECT_EQ(this->report().bvhBuilds, 3);
     EXPECT_EQ(this->report().bytesBvh, bytesOfEmbree);
-    // Receivers are stored from the first image on, as there are several lights.
+    // With several lights, receivers are stored from the first image on.
     EXPECT_EQ(this->report().bytesImages, bytesOfImages);
     this->render(embree);
     EXPECT_EQ(this->report().bvhBuilds, 0);
   }
-  // What the snapshot's vertices take on the GPU stays, as it does after a map: two buffers and
-  // what draws them.
+  // The snapshot's vertices stay on the GPU, as they do after a map: two buffers and the objects
+  // that draw them.
   EXPECT_GT(liveOnGpu.buffers, countLiveObjects(this->scene.window).buffers + 6);
   EXPECT_LE(countLiveObjects(this->scene.window).buffers, live.buffers + 3);
 }

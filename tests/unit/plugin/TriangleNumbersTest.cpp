@@ -1,4 +1,5 @@
-// Drivers number triangles for fragment shaders. Numbers are checked, and wrong ones replaced.
+// Drivers number triangles for fragment shaders. The pass checks the numbers and replaces wrong
+// ones.
 
 #include "MatrixScene.h"
 #include "PassScene.h"
@@ -24,13 +25,13 @@ namespace
 {
 
 /// VTK's mapper on a driver that gives fragment shaders other numbers. It has the class name of
-/// VTK's own, so that Gnomon takes it for that.
+/// VTK's own mapper, so Gnomon treats it as that.
 class GarblingMapper : public vtkOpenGLPolyDataMapper
 {
 public:
   static GarblingMapper* New() { VTK_STANDARD_NEW_BODY(GarblingMapper); }
 
-  std::string number = "gl_PrimitiveID"; ///< what the driver gives
+  std::string number = "gl_PrimitiveID"; ///< the driver's number
 
 protected:
   void ReplaceShaderValues(
@@ -115,7 +116,7 @@ protected:
     EXPECT_GT(this->garbled.report().numbersWrong, 0);
     EXPECT_FALSE(this->right.report().numbersByGeometryShaders);
     EXPECT_GT(this->right.report().numbersChecked, 0);
-    // The second frame knows.
+    // The second frame knows that the numbers are wrong.
     this->garbled.numbersAreWrong = false;
     EXPECT_TRUE(this->garbled.render() == picture);
     EXPECT_EQ(this->garbled.report().programCompiles, 0);
@@ -141,7 +142,7 @@ TEST_P(TriangleNumbers, areReplacedWhereReceiversAreDrawnWithThePicture)
   this->expectSamePictures(vtkGnomonShadowPass::ROUTE_DEFERRED);
 }
 
-/// All ways to draw receivers, in turn with all looks, where one mapper's numbers are wrong.
+/// All ways to draw receivers, in turn with all looks, with wrong numbers from one mapper.
 class NumberedKinds
   : public PassTest
   , public testing::WithParamInterface<std::size_t>

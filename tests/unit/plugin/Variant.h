@@ -12,29 +12,29 @@
 namespace gnomon::test
 {
 
-/// A technique and settings, as "vsm blur=sat kernel_size=16".
+/// A technique and settings, like "vsm blur=sat kernel_size=16".
 struct Variant
 {
   std::string text;
 
   std::string technique() const;
-  /// As the settings choose it.
+  /// Return the info of the estimator that the settings choose.
   const TechniqueInfo& info() const;
   ///@{
-  /// Give them to the pass.
+  /// Set the technique and settings on the pass.
   void choose(vtkGnomonShadowPass* pass) const;
   void choose(PassScene& scene) const { this->choose(scene.pass); }
   ///@}
-  /// Give the pass one more setting, if the technique has it.
+  /// Set one more setting on the pass, if the technique has it.
   void set(vtkGnomonShadowPass* pass, const char* name, const std::string& value) const;
-  /// Without a map one size is as good as several.
+  /// Return the sizes of a map to test; only one without a map.
   std::vector<int> mapSizes(std::vector<int> sizes) const;
-  /// Whether lights that see all around have it: warps and splits are for a single view.
+  /// True if lights that see all around can have it; warps and splits need a single view.
   bool takesCubes() const;
   bool isPointwise() const { return this->info().isPointwise(); }
   bool isMoments() const { return has(this->info(), "bleeding"); }
   bool hasSetting(const std::string& nameAndValue) const;
-  /// For the tests' names: "vsm_blur_sat_kernel_size_16".
+  /// Return the name for tests: "vsm_blur_sat_kernel_size_16".
   std::string name() const;
 };
 
@@ -43,14 +43,14 @@ inline std::ostream& operator<<(std::ostream& stream, const Variant& variant)
   return stream << variant.name();
 }
 
-/// All techniques of the registry, and those with other maps, kernels and areas of light.
+/// Return all techniques of the registry, and variants with other maps, kernels and light areas.
 const std::vector<Variant>& variants();
 
-/// Those of them that a predicate holds for.
+/// Return the variants for which a predicate holds.
 std::vector<Variant> variantsThat(const std::function<bool(const Variant&)>& isSuch);
 
-/// What a test draws: half of the techniques by their defaults, and an eighth of the other
-/// variants. Another test has others.
+/// Return the variants of a test: half of the techniques with their defaults, and an eighth of the
+/// other variants. They differ from test to test.
 std::vector<Variant> someVariants(
   const std::string& test, const std::function<bool(const Variant&)>& isFor);
 

@@ -1,5 +1,5 @@
-// Where VTK's own vtkShadowMapPass is wrong and `nsm` is right, beside what users ask for
-// (WishesTest.cpp). Each test draws both and holds them against the exact shadow: a box over a
+// Cases where VTK's own vtkShadowMapPass is wrong and `nsm` is right, besides users' wishes
+// (WishesTest.cpp). Each test draws both and compares them with the exact shadow: a box over a
 // floor, seen from straight above.
 
 #include "PassScene.h"
@@ -49,7 +49,7 @@ TEST_F(VtkShadowsDefects, mapSizeChangedAlone)
   PassScene scene(300, 300);
   scene.addFloor(10.0);
   scene.addBox(hangingBox.lower, hangingBox.upper);
-  scene.addSun({ 1.0, 0.3, -1.0 }); // oblique to the texels, so that edges show them
+  scene.addSun({ 1.0, 0.3, -1.0 }); // oblique to the texels, so edges show them
   scene.lookDown(10.0);
 
   const Picture fine = scene.render();
@@ -61,7 +61,7 @@ TEST_F(VtkShadowsDefects, mapSizeChangedAlone)
   scene.useVtkShadows(1024);
   const Picture fineVtk = scene.render();
   vtkShadowMapPass::SafeDownCast(scene.vtkShadows)->GetShadowMapBakerPass()->SetResolution(32);
-  EXPECT_EQ(differingPixels(fineVtk, scene.render()), 0u); // as if nothing had been asked for
+  EXPECT_EQ(differingPixels(fineVtk, scene.render()), 0u); // VTK's pass ignores the resolution
 }
 
 //------------------------------------------------------------------------------

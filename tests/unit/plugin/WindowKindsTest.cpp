@@ -1,5 +1,5 @@
-// Windows of all kinds: the shadow is where the sun and the box put it, whatever the window's
-// shape, however it is cut up, and whoever owns it.
+// Windows of all kinds: the shadow is at its exact place, for every shape, tiling and owner of the
+// window.
 
 #include "PassScene.h"
 
@@ -48,7 +48,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Ways, WindowKinds, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, WindowKinds, testing::Values(planarWay), nameOf);
 
-/// x of the shadow's far end, which is at 4, on the row through the middle of a picture, in pixels.
+/// Return x of the shadow's far end, which is at 4, on the middle row of a picture, in pixels.
 int shadowEnd(const Picture& picture)
 {
   int x = picture.width - 1;
@@ -88,7 +88,7 @@ TEST_P(WindowKinds, TheShadowsEdgeIsAtTheSamePlaceInSmallAndWideWindows)
 //------------------------------------------------------------------------------
 TEST_P(WindowKinds, Tiles)
 {
-  // Nine renderings of a third of the picture each way.
+  // Nine renderings, each a third of the picture wide and high.
   vtkNew<vtkWindowToImageFilter> filter;
   filter->SetInput(this->scene.window);
   filter->SetScale(3);
@@ -112,7 +112,8 @@ TEST_P(WindowKinds, Tiles)
 }
 
 //------------------------------------------------------------------------------
-/// In each eye's picture the shadow ends where a thin red line is drawn at its end on the floor.
+/// In each eye's picture the shadow ends at the thin red line that is drawn at its end on the
+/// floor.
 TEST_P(WindowKinds, Stereo)
 {
   this->scene.lookFrom({ 3.0, -12.0, 12.0 }, { 1.5, 0.0, 0.0 });
@@ -160,7 +161,7 @@ TEST_P(WindowKinds, Stereo)
   expectShadowBesideTheLine(drawAs(VTK_STEREO_SPLITVIEWPORT_HORIZONTAL));
   for (const int kind : { VTK_STEREO_INTERLACED, VTK_STEREO_CHECKERBOARD, VTK_STEREO_DRESDEN })
   {
-    // Every pixel is one of the two eyes'.
+    // Every pixel belongs to one of the two eyes' pictures.
     const Picture mixed = drawAs(kind);
     int strange = 0;
     for (int y = 0; y < mixed.height; ++y)
@@ -178,7 +179,7 @@ TEST_P(WindowKinds, Stereo)
 TEST_P(WindowKinds, LayersOfRenderers)
 {
   const Picture alone = this->scene.render();
-  // Another renderer on top, with shadows of its own, over a part of the window.
+  // Another renderer on top, with its own shadows, over a part of the window.
   vtkNew<vtkRenderer> above;
   vtkNew<vtkGnomonShadowPass> shadows;
   shadows->SmoothTerminatorsOff();
@@ -188,7 +189,7 @@ TEST_P(WindowKinds, LayersOfRenderers)
   above->SetLayer(1);
   this->scene.window->SetNumberOfLayers(2);
   this->scene.window->AddRenderer(above);
-  EXPECT_EQ(differingPixels(alone, this->scene.render()), 0u); // it is empty
+  EXPECT_EQ(differingPixels(alone, this->scene.render()), 0u); // the other renderer is empty
 
   PassScene other(300, 300);
   vtkActor* ball = other.addSphere({ -3.0, 3.0, 4.0 }, 1.0);

@@ -1,7 +1,6 @@
-// What users ask of shadows (docs/guide/wishes.md). Each wish is judged twice, by the same
-// criterion: with Gnomon nothing is wrong, and with VTK 9.1's own vtkShadowMapPass much is. Later
-// releases of VTK mend some of it: there Gnomon alone is judged. What VTK has no API for is judged
-// with Gnomon alone, too.
+// Users' wishes for shadows (docs/guide/wishes.md). Each wish is judged twice by the same
+// criterion: Gnomon has no wrong pixel, and VTK 9.1's own vtkShadowMapPass has many. Later releases
+// of VTK fix some of it: there Gnomon alone is judged. So are wishes for which VTK has no API.
 
 #include "LiveObjects.h"
 #include "PassScene.h"
@@ -40,10 +39,9 @@ bool isVtk91()
 class Wishes : public PassTest
 {
 protected:
-  /// Judges a wish by a map and by the default technique, and then with VTK's own pass.
-  ///
-  /// @param wrong draws the scene, and counts what is not as wished
-  /// @param leastOfVtk of that count with VTK's pass
+  /// Judge a wish with a map and with the default technique, and then with VTK's own pass.
+  /// @param wrong draws the scene and counts violations of the wish
+  /// @param leastOfVtk the least count with VTK's pass
   void judge(PassScene& scene, const std::function<std::size_t()>& wrong, std::size_t leastOfVtk)
   {
     scene.pass->SetMapSize(this->mapSize);
@@ -70,7 +68,7 @@ protected:
 /// Stands on the floor; its shadow from the slanting sun is x in [1, 3].
 const Box standing{ { -1.0, -1.0, 0.0 }, { 1.0, 1.0, 2.0 } };
 
-/// The picture with white where its red is not dark: for lamps, whose light falls off.
+/// Return the picture with pixels white unless their red is dark: for lamps, whose light falls off.
 Picture litOrDark(Picture picture)
 {
   for (unsigned char& value : picture.rgb)
@@ -80,8 +78,8 @@ Picture litOrDark(Picture picture)
   return picture;
 }
 
-/// What litOrDark() must show of the floor around a box under one lamp; nothing is asked where a
-/// slightly larger or smaller box changes the answer.
+/// Return the exact result of litOrDark() for the floor around a box under one lamp; negative where
+/// a slightly larger or smaller box changes the answer.
 ExactFloor floorUnderLamp(const Box& box, const glm::dvec3& lamp)
 {
   return [=](const glm::dvec2& floor)
@@ -105,7 +103,7 @@ void fillWithHangingBox(PassScene& scene, double halfHeight = 10.0)
   scene.lookDown(halfHeight);
 }
 
-/// Floor pixels that are not as the slanting sun and a box say.
+/// Count floor pixels that differ from the box's shadow under the slanting sun.
 std::size_t wrongPixels(PassScene& scene, const Box& box, double extent, double band)
 {
   return checkFloor(scene, scene.render(), floorUnderSun(box, extent), band).wrong();
@@ -117,7 +115,7 @@ int numberOf(const LiveObjects& live)
     live.programs + live.shaders;
 }
 
-constexpr double band = 0.14; ///< beside edges: three texels and a pixel
+constexpr double band = 0.14; ///< skipped beside edges: three texels and a pixel
 
 } // namespace
 
@@ -144,7 +142,7 @@ TEST_F(Wishes, darkAtContact)
 }
 
 //------------------------------------------------------------------------------
-/// A strip across the sun's direction: the longer it is, the coarser is a map of all of it, while
+/// A strip across the sun's direction: a longer strip makes a map of all of it coarser, while
 /// depths stay the same. VTK's pass shows the shadow of a short one.
 TEST_F(Wishes, resolutionWhereTheCameraLooks)
 {
@@ -290,7 +288,8 @@ TEST_F(Wishes, invisiblePropsChangeNothing)
 }
 
 //------------------------------------------------------------------------------
-/// A point of the umbra is as dark with its caster in the picture as after panning away from it.
+/// A point of the umbra is as dark with its caster in the picture as after panning away from the
+/// caster.
 TEST_F(Wishes, castersOutsideTheViewCastTheSame)
 {
   PassScene scene(200, 200);
@@ -303,7 +302,7 @@ TEST_F(Wishes, castersOutsideTheViewCastTheSame)
     scene.lookDown(1.0, 1.5);
     const int before = scene.redAt(scene.render(), 2.2, 0.0);
     scene.lookDown(0.5, 2.4); // the box's bounding sphere ends at 1.73
-    // VTK's pass draws its map again only when a prop changes.
+    // VTK's pass bakes its map again only when a prop changes.
     scene.renderer->GetActors()->GetLastActor()->Modified();
     return static_cast<std::size_t>(std::abs(before - scene.redAt(scene.render(), 2.2, 0.0)));
   };
@@ -311,8 +310,8 @@ TEST_F(Wishes, castersOutsideTheViewCastTheSame)
 }
 
 //------------------------------------------------------------------------------
-/// Counts pixels that are not what they were, and OpenGL objects that stay. Each time has a pass of
-/// its own, which nobody releases by hand.
+/// Count changed pixels and OpenGL objects left over. Each time has its own pass, which is not
+/// released by hand.
 TEST_F(Wishes, togglingLeavesNothingBehind)
 {
   PassScene scene(100, 100);
@@ -331,7 +330,7 @@ TEST_F(Wishes, togglingLeavesNothingBehind)
       scene.usePlain();
       wrong += differingPixels(scene.render(), plain);
       const int objectsNow = numberOf(countLiveObjects(scene.window));
-      if (time <= 1) // some objects are made once
+      if (time <= 1) // some objects are created once
       {
         first = shown;
         objects = objectsNow;
@@ -357,7 +356,7 @@ TEST_F(Wishes, togglingLeavesNothingBehind)
     EXPECT_GT(leftByVtk, 0u);
     RecordProperty("leftByVtk", static_cast<int>(leftByVtk));
     scene.vtkShadows = nullptr;
-    EXPECT_NE(this->takeErrors(), ""); // of what should have been released
+    EXPECT_NE(this->takeErrors(), ""); // of objects that should have been released
   }
 }
 
@@ -396,7 +395,7 @@ TEST_F(Wishes, severalShadowsOfChosenDirections)
 }
 
 //------------------------------------------------------------------------------
-/// Two renderers beside each other with a pass each: the same props under suns from two sides.
+/// Two renderers side by side, each with a pass: the same props under suns from two sides.
 TEST_F(Wishes, subplotsHaveShadows)
 {
   constexpr int side = 200;
@@ -422,7 +421,7 @@ TEST_F(Wishes, subplotsHaveShadows)
   second->AddLight(light);
   scene.window->AddRenderer(second);
 
-  PassScene view(side / 2, side); // tells where a subplot's pixels are
+  PassScene view(side / 2, side); // gives the places of a subplot's pixels
   view.lookDown(10.0);
   const auto wrong = [&]
   {
@@ -462,8 +461,8 @@ TEST_F(Wishes, subplotsHaveShadows)
 }
 
 //------------------------------------------------------------------------------
-/// Two panes, the lower one added last, which only depth peeling draws in order; beside the shadow
-/// they must be what the renderer shows by itself.
+/// Two panes, the lower one added last, so only depth peeling draws them in order. Beside the
+/// shadow they must equal the renderer's own picture.
 TEST_F(Wishes, depthPeelingStaysOn)
 {
   PassScene scene(200, 200);
@@ -507,7 +506,7 @@ TEST_F(Wishes, depthPeelingStaysOn)
 }
 
 //------------------------------------------------------------------------------
-/// On the side of the sun the floor darkens towards the box, by occlusion alone.
+/// On the sun's side, the floor darkens towards the box by occlusion alone.
 TEST_F(Wishes, ambientOcclusionStaysOn)
 {
   PassScene scene(200, 200);
@@ -574,7 +573,7 @@ TEST_F(Wishes, gridReceives)
   {
     const Picture picture = scene.render();
     std::size_t count = checkFloor(scene, picture, exact, 0.3).wrong();
-    for (int y = 0; y < picture.height; ++y) // lines and all, on the side of the sun
+    for (int y = 0; y < picture.height; ++y) // including the lines, on the sun's side
     {
       for (int x = 0; x < 60; ++x)
       {
@@ -602,7 +601,7 @@ TEST_F(Wishes, translucentPropsCastIfAsked)
 }
 
 //------------------------------------------------------------------------------
-/// Of two lights one casts. VTK's pass, too, can say so, by ShadowAttenuation.
+/// Of two lights one casts. VTK's pass supports that, too, by ShadowAttenuation.
 TEST_F(Wishes, lightsThatDoNotCast)
 {
   PassScene scene(200, 200);
@@ -627,8 +626,8 @@ TEST_F(Wishes, lightsThatDoNotCast)
 }
 
 //------------------------------------------------------------------------------
-/// The floor gets light through a box that does not cast, and a box that does not receive is lit
-/// below another one. VTK's pass has no switch for either.
+/// The floor is lit through a box that does not cast, and a box that does not receive is lit below
+/// another one. VTK's pass has no switch for either.
 TEST_F(Wishes, propsThatDoNotCastOrReceive)
 {
   PassScene scene(200, 200);
@@ -651,7 +650,7 @@ TEST_F(Wishes, propsThatDoNotCastOrReceive)
 }
 
 //------------------------------------------------------------------------------
-/// Which points of the world are in shadow: those under the box's shadow, and their area.
+/// World points in shadow: they lie in the box's shadow, and cover its area.
 TEST_F(Wishes, coordinatesOfTheShadow)
 {
   PassScene scene(200, 200);
@@ -704,8 +703,8 @@ TEST_F(Wishes, verticesInShadow)
 }
 
 //------------------------------------------------------------------------------
-/// A row of panels that face south, 2 m north of another of the same height, which hides the suns
-/// whose rays come in lower than from its upper edge.
+/// A row of panels that face south, 2 m north of another row of the same height. That row hides the
+/// suns whose rays come in lower than from its upper edge.
 TEST_F(Wishes, yearlyShadePerPanel)
 {
   constexpr int panels = 8;
@@ -748,7 +747,7 @@ TEST_F(Wishes, yearlyShadePerPanel)
 }
 
 //------------------------------------------------------------------------------
-/// Without a display Debian's VTK 9.1 ends the program.
+/// Debian's VTK 9.1 ends the program if there is no display.
 TEST_F(Wishes, headLess)
 {
   unsetenv("DISPLAY");

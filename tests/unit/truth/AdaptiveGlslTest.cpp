@@ -1,4 +1,4 @@
-// adaptive_estimator.glsl on maps that are given, its discs, and what they cost in texels read.
+// adaptive_estimator.glsl on given maps: its discs, and the texels that it reads.
 
 #include "EstimatorGlsl.h"
 #include "HalfPlane.h"
@@ -27,7 +27,7 @@ ShadowLight adaptiveSun(int texels, int grid, EarlyOut earlyOut)
   return light;
 }
 
-/// The textures that the technique would bake, from the twins.
+/// The textures that the technique would bake, computed by the twins.
 struct BakedDiscs
 {
   BakedDiscs(const ShadowLight& light, const Map& map)
@@ -107,7 +107,7 @@ bool patches(const glm::ivec2& texel)
   return patch != (texel.x % 13 == 5 && texel.y % 11 == 7);
 }
 
-/// The hidden share of the disc that Adaptive.h states for a place.
+/// Return the hidden share of the disc as Adaptive.h states it for a place.
 double hiddenShareOfDisc(const ShadowLight& light, const Map& map, const glm::dvec2& place)
 {
   const auto& settings = light.of<AdaptiveSettings>();
@@ -235,7 +235,7 @@ TEST_F(AdaptiveGlsl, theRingIsBlindToAHoleThatTheExactEarlyOutSees)
   EXPECT_NEAR(runAdaptive(adaptiveSun(32, 8, EarlyOut::Exact), hole, places)[0], 0.81, 0.1);
 }
 
-/// Answers with how many texels of the map and of its bounds it has read.
+/// Returns the number of texels of the map and of its bounds that the shader reads.
 class CountingAdaptive : public Adaptive
 {
 public:
@@ -273,7 +273,7 @@ TEST_F(AdaptiveGlsl, readsFewerTexelsThanABox)
   EXPECT_LT(readsOf(EarlyOut::Exact), 121.0 / 2.0);
 }
 
-/// Along an edge, cell by cell, with the same place in each: what differs is the disc.
+/// Along an edge, cell by cell, with the same place in each cell: only the disc differs.
 TEST_F(AdaptiveGlsl, theNoiseRepeatsAfterAsManyCellsAsThereAreDiscs)
 {
   ShadowLight light = adaptiveSun(10, 8, EarlyOut::None);

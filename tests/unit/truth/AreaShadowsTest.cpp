@@ -1,4 +1,4 @@
-// Ray-traced shadows of area lights against what is known of them.
+// Ray-traced shadows of area lights, compared with known values.
 
 #include "HalfPlane.h"
 #include "SyntheticScene.h"
@@ -59,7 +59,7 @@ std::vector<ShadowLight> areaLights(int samples = 64)
     withArea(pointLight(place), ballArea(0.5), samples) };
 }
 
-/// Level receivers in the plane z = 0, at these x of the world, in a picture of 64 columns.
+/// Return level receivers in the plane z = 0, at these world x, in a picture of 64 columns.
 ReceiverPixels levelReceivers(const Occluders& occluders, const std::vector<double>& x)
 {
   ReceiverPixels receivers;
@@ -82,12 +82,12 @@ struct Penumbra
 {
   std::string name;
   ShadowLight light;
-  /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x <
-  /// 0.
+  /// The visible share of the light from (x, 0, 0), past the edge x = 0, z = 2 of a half plane at x
+  /// < 0.
   std::function<double(double x)> exact;
 };
 
-/// For the tests' names.
+/// Prints the name for the tests' names.
 std::ostream& operator<<(std::ostream& stream, const Penumbra& penumbra)
 {
   return stream << penumbra.name;
@@ -122,7 +122,7 @@ std::vector<Penumbra> penumbras()
 INSTANTIATE_TEST_SUITE_P(OfHalfPlane, Penumbras, testing::ValuesIn(penumbras()),
   [](const testing::TestParamInfo<Penumbra>& penumbra) { return penumbra.param.name; });
 
-/// Leaves every other column to rays, and counts how often it is asked about each pixel.
+/// Decides every second column, leaves the others to rays, and counts its calls for each pixel.
 class CountingDecider : public ReceiverDecider
 {
 public:
@@ -142,14 +142,14 @@ public:
     }
   }
 
-  mutable std::vector<std::atomic<int>> asked; ///< of each pixel
+  mutable std::vector<std::atomic<int>> asked; ///< calls for each pixel
 
 private:
   std::size_t width_;
 };
 
-/// Traces an area light's samples in parts, as a tracer does that has room for no more, by rays
-/// that nothing stops.
+/// Traces an area light's samples in parts, like a tracer with little memory. Nothing blocks its
+/// rays.
 class TracerInParts : public ShadowTracer
 {
 public:
@@ -171,7 +171,7 @@ private:
   }
 };
 
-/// However often a tile is visited.
+/// A pixel is decided once, however often its tile is visited.
 TEST(TracedPictures, askAboutEachPixelOnce)
 {
   const Occluders occluders = makeOccluders({ { makePlane(20.0) } });
@@ -213,7 +213,7 @@ TEST_P(Penumbras, areThoseOfGeometry)
     const double exact = penumbra.exact(x[i]);
     mostOff = std::max(mostOff, std::abs(seen[i] - exact));
     offset += step * (seen[i] - exact);
-    // From an eighth to seven eighths, wherever that is.
+    // The width from an eighth to seven eighths, at any place.
     width += seen[i] > 0.125f && seen[i] < 0.875f ? step : 0.0;
     exactWidth += exact > 0.125 && exact < 0.875 ? step : 0.0;
     if (exact == 0.0 || exact == 1.0)
@@ -240,7 +240,7 @@ Camera cameraOfThings()
   Camera camera;
   camera.position = { 2.0, -6.0, 5.0 };
   camera.width = 150;
-  camera.height = 110; // tiles are cut at both borders
+  camera.height = 110; // cuts tiles at both borders
   return camera;
 }
 
@@ -297,7 +297,7 @@ TEST(AreaShadows, areWholeWhereNothingOrEverythingIsInTheWay)
   }
 }
 
-/// Lights that the floor cuts through, or that lie in it: their lower half is behind its plane.
+/// If the floor cuts a light, or a light lies in it, the lower half is behind the floor's plane.
 TEST(AreaShadows, ofALightInTheFloorsPlaneAreCleanOnTheFloor)
 {
   const Occluders occluders = makeOccluders({ { makePlane(20.0, 5) } });
@@ -314,7 +314,7 @@ TEST(AreaShadows, ofALightInTheFloorsPlaneAreCleanOnTheFloor)
       {
         const ShadowLight light = withArea(pointLight(place), area, 16);
         const std::vector<float> soft = traceArea(light, occluders, receivers);
-        // The floor is no caster of shadows on itself, whatever part of the light it sees.
+        // The floor does not shadow itself, whatever part of the light it sees.
         EXPECT_EQ(countDifferent(soft, trace(light, occluders, receivers)), 0u)
           << height << " " << size;
       }
@@ -340,8 +340,7 @@ TEST(AreaShadows, ofALightInGeometryAndOfThinSheetsAreFinite)
   }
 }
 
-/// A convex body shows no shadow on itself that its plain shading does not: no acne at any of its
-/// facets.
+/// A convex body shows no shadow on itself beyond its plain shading: no acne at any of its facets.
 TEST(AreaShadows, ofABodyOnItselfAreOnlyWhereTheCentreIsHidden)
 {
   const Occluders occluders =
@@ -357,7 +356,7 @@ TEST(AreaShadows, ofABodyOnItselfAreOnlyWhereTheCentreIsHidden)
 
 TEST(AreaShadows, touchWhatCastsThem)
 {
-  // A wall that stands on the floor: the penumbra is as narrow as the receiver is near.
+  // A wall stands on the floor, so a nearer receiver has a narrower penumbra.
   const Occluders occluders = makeOccluders({ { makePlane(200.0) },
     { makePlane(80.0),
       glm::rotate(at({ 0.0, 0.0, 0.0 }), glm::half_pi<double>(), { 0.0, 1.0, 0.0 }) } });
@@ -398,7 +397,7 @@ TEST(AreaShadows, comeNearerTheTruthWithMoreSamples)
         squares += std::pow(seen[i] - truth[i], 2);
       }
       const double error = std::sqrt(squares / static_cast<double>(seen.size()));
-      EXPECT_LT(error, 0.6 * last) << samples; // half of it would be random points' rate
+      EXPECT_LT(error, 0.6 * last) << samples; // random points would halve it
       last = error;
     }
     EXPECT_LT(last, 0.004);

@@ -1,5 +1,5 @@
-// The tree that the GPU walks: that everything is in it once, in boxes that hold it, and what
-// updates do.
+// The tree that the GPU traverses: it holds every triangle once, in boxes that enclose it, and
+// updates keep that true.
 
 #include "shadowtech/tracing/CasterBvh.h"
 
@@ -17,7 +17,7 @@ namespace gnomon::test
 namespace
 {
 
-/// Looks through a tree and counts what it finds.
+/// Traverses a tree and counts its records.
 class Inspection
 {
 public:
@@ -31,7 +31,7 @@ public:
     }
   }
 
-  /// How often each record is found, of triangles and of instances.
+  /// The number of times that each record is found, of triangles and of instances.
   std::map<std::array<std::uint32_t, 4>, int> found;
 
 private:
@@ -123,7 +123,8 @@ TEST(CasterBvh, HoldsEveryCastingTriangleOnce)
   EXPECT_LT(bvh.bytes(), 200 * count);
 }
 
-/// Nothing to cut, or hardly anything left after every cut: trees of which nobody may go too deep.
+/// Cases with nothing to split, or with nearly all triangles on one side of every split: the tree
+/// must not become too deep.
 TEST(CasterBvh, TakesTrianglesThatCannotBeSortedApart)
 {
   Mesh same;
@@ -195,7 +196,7 @@ TEST(CasterBvh, IsRefittedWhileItIsGoodAndBuiltAnewWhenItIsNot)
   }
   for (std::uint32_t i = 0; i < occluders.positionsCentred.size(); ++i)
   {
-    // As if all props had been shuffled.
+    // Positions as after a shuffle of all props.
     occluders.positionsCentred[i] =
       glm::vec3(static_cast<float>(i * 7919 % 61), static_cast<float>(i * 104729 % 59), 0.0f);
   }

@@ -24,7 +24,7 @@ CasterEdges casterEdgesOf(const Occluders& occluders)
   return edges;
 }
 
-/// A sphere whose seam and poles close, which else they do but for rounding.
+/// A sphere whose seam and poles close exactly, not only to within rounding.
 Mesh makeClosedSphere(int rings, int segments)
 {
   Mesh sphere = makeSphere(rings, segments);
@@ -56,7 +56,7 @@ TEST(CasterEdges, areAsManyAndEndAndAreSharpAsTheMeshSays)
   const Case cases[] = { { "closed", sphere, ofSphere, 0, 0, 0 },
     { "closed, without common vertices", apart(sphere), ofSphere, 0, 0, 0 },
     { "sheet", makePlane(2.0, 3), 12 + 12 + 9, 12, 12, 0 }, // border, between cells, across cells
-    // Every edge leads to a corner, whose sides are too far apart.
+    // Every edge leads to a corner, where the angle between the sides is too large.
     { "box", makeBox(glm::dvec3(-1.0), glm::dvec3(1.0)), 18, 0, 18, 0 },
     { "three triangles share an edge", threeAtAnEdge, 9, 9, 9, 0 },
     { "wound differently", wound, 5, 4, 4, 1 }, { "needle", needle, 5, 4, 5, 0 } };
@@ -81,7 +81,7 @@ TEST(CasterEdges, leadFromEachSideToTheTriangleAcrossIt)
     const Occluders occluders = makeOccluders({ { mesh } });
     const CasterEdges found = casterEdgesOf(occluders);
     const SurfaceEdges& edges = found.of(0);
-    // By place, as corners of a seam are there twice.
+    // Find corners by place, because a seam's corners exist twice.
     const auto hasBoth = [&](std::uint32_t triangle, const glm::vec3& from, const glm::vec3& to)
     {
       int common = 0;
@@ -110,7 +110,7 @@ TEST(CasterEdges, leadFromEachSideToTheTriangleAcrossIt)
   }
 }
 
-/// Moves the vertices of a surface, and marks what changed.
+/// Move the vertices of a surface, and mark the changes.
 template <typename Move>
 void deformSurface(Occluders& occluders, std::size_t index, const Move& move)
 {
@@ -123,7 +123,7 @@ void deformSurface(Occluders& occluders, std::size_t index, const Move& move)
   moveSurface(occluders, index, glm::dvec3(0.0));
 }
 
-/// Turns a surface, and puts it somewhere else.
+/// Turn a surface, and move it.
 void turnSurface(Occluders& occluders, std::size_t index, Random& random)
 {
   const glm::dmat4 turned =
@@ -132,7 +132,7 @@ void turnSurface(Occluders& occluders, std::size_t index, Random& random)
     [&](const glm::dvec3& point) { return glm::dvec3(turned * glm::dvec4(point, 1.0)); });
 }
 
-/// The edges, rims, seams and parts of a snapshot as numbers.
+/// Return the edges, rims, seams and parts of a snapshot as numbers.
 std::vector<double> numbersOf(const CasterEdges& edges, const Occluders& occluders)
 {
   std::vector<double> numbers;
@@ -174,7 +174,7 @@ std::vector<double> numbersOf(const CasterEdges& edges, const Occluders& occlude
   return numbers;
 }
 
-/// Expect kept edges to be those of a new CasterEdges.
+/// Expect cached edges to equal those of a new CasterEdges.
 void expectAsFoundAnew(
   const CasterEdges& kept, const Occluders& occluders, const std::string& after)
 {
@@ -200,7 +200,7 @@ TEST(CasterEdges, areThoseFoundAnewHoweverCastersAreDeformed)
       edges.update(occluders);
       const auto expectRight = [&](const std::string& what)
       {
-        // Rebuilt edges have another address: the old ones are freed after that.
+        // Rebuilt edges have another address, since the old ones are freed after that.
         std::vector<std::vector<std::uint32_t>> welded;
         std::vector<const CasterEdge*> before;
         for (std::size_t i = 0; i < props.size(); ++i)
@@ -251,7 +251,7 @@ TEST(CasterEdges, areKeptWhereOtherSurfacesComeAndGo)
   const std::vector<Prop> props = { { makePlane(1.0, 2) }, { makeSphere(8, 16) },
     { makePlane(2.0, 3), at({ 0.0, 0.0, 2.0 }) } };
   const Occluders all = makeOccluders(props);
-  // The same without the first one: numbers are smaller, positions stay.
+  // The same surfaces without the first one: numbers are smaller, positions stay.
   Occluders fewer = makeOccluders({ props[1], props[2] });
   for (std::size_t i = 0; i < fewer.surfaces.size(); ++i)
   {
@@ -279,7 +279,7 @@ TEST(CasterEdges, areFoundAgainWhereTrianglesAreOthers)
   edges.update(before);
   mesh.triangles.pop_back();
   std::swap(mesh.triangles[3].x, mesh.triangles[3].y);
-  const Occluders after = makeOccluders({ { mesh } }); // a surface with a version of its own
+  const Occluders after = makeOccluders({ { mesh } }); // a surface with its own version
   edges.update(after);
   expectAsFoundAnew(edges, after, "cells changed");
 }
@@ -292,7 +292,7 @@ TEST(WeldedVertices, areTheFirstOnesAtTheirPlace)
     Mesh mesh;
     for (int i = 0; i < 3000; ++i)
     {
-      // Either zero is the same place.
+      // Both zeros are the same place.
       const double x = static_cast<int>(random() % static_cast<unsigned int>(places)) - places / 2;
       mesh.points.emplace_back(x, random() % 2 == 0 ? 0.0 : -0.0, 1e-3 * x * x);
     }
@@ -367,7 +367,7 @@ TEST(CasterSeams, areSharpWhereShadowRaysMayStartBehindTheOtherSide)
 
 TEST(CasterSeams, areSharpAtCornersWithOtherTrianglesTooFarApart)
 {
-  // A third surface goes on from the second one around the corner, steeply.
+  // A third surface continues the second one steeply around the corner.
   std::vector<Mesh> squares = squaresAtAngle(30.0);
   Mesh wing;
   wing.points = { { 0.0, 0.0, 0.0 }, squares[1].points[1], { 0.5, -0.2, -1.0 } };
@@ -381,7 +381,7 @@ TEST(CasterSeams, areSharpAtCornersWithOtherTrianglesTooFarApart)
   }
 }
 
-/// Triangles around the origin, each a surface of its own.
+/// Return triangles around the origin, each a separate surface.
 std::vector<Prop> makeUmbrella(const std::vector<glm::dvec3>& corners)
 {
   std::vector<Prop> props;
@@ -393,14 +393,14 @@ std::vector<Prop> makeUmbrella(const std::vector<glm::dvec3>& corners)
   return props;
 }
 
-/// An outer corner of an umbrella.
+/// Return an outer corner of an umbrella.
 glm::dvec3 outerCorner(double aroundDegrees, double downDegrees)
 {
   const double around = glm::radians(aroundDegrees);
   return { std::cos(around), std::sin(around), -std::tan(glm::radians(downDegrees)) };
 }
 
-/// The same with as many outer corners as there are angles by which they go down.
+/// Return an umbrella with an outer corner for each downward angle.
 std::vector<Prop> makeUmbrella(const std::vector<double>& slopesDegrees)
 {
   std::vector<glm::dvec3> corners;
@@ -412,7 +412,7 @@ std::vector<Prop> makeUmbrella(const std::vector<double>& slopesDegrees)
   return makeUmbrella(corners);
 }
 
-/// The most that normals of single triangles are apart, in degrees.
+/// Return the largest angle between normals of single triangles, in degrees.
 double widestAngle(const std::vector<Prop>& triangles)
 {
   double least = 1.0;
@@ -453,7 +453,7 @@ TEST(CasterSeams, areSharpAtCornersWhereManySurfacesDoNotFitIntoTheAngle)
     EXPECT_EQ(countSharpSeams(makeUmbrella(std::vector<double>(count, 16.0))), 0u) << count;
     EXPECT_EQ(countSharpSeams(makeUmbrella(std::vector<double>(count, 23.5))), 2 * count) << count;
   }
-  // Many that are alike do not outvote a few: a sheet that is bent by less than the angle.
+  // Many equal normals do not outvote a few: the sheet is bent by less than the angle.
   std::vector<glm::dvec3> corners;
   for (int i = 0; i < 20; ++i)
   {
@@ -484,8 +484,8 @@ TEST(CasterSeams, areSharpAtCornersWhereAnyTwoOfTheSurfacesAreTooFarApart)
       EXPECT_EQ(count, 2 * slopes.size()) << widest;
       ++sharp;
     }
-    // A circle around points that are so far apart need not be larger (Jung's theorem), nor one
-    // that is not the least.
+    // A circle around points at this distance need not be larger (Jung's theorem); nor need one
+    // that is not the smallest.
     else if (widest < 30.0)
     {
       EXPECT_EQ(count, 0u) << widest;

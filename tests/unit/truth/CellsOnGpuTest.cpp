@@ -1,5 +1,5 @@
-// Conservative maps drawn on the GPU: their cells are those of the CPU, to the last bit, whatever
-// is drawn, and hold what separating axes say of each texel.
+// Conservative maps baked on the GPU. Their cells equal the CPU's, bit for bit, for all shapes, and
+// agree with separating axes at each texel.
 
 #include "shadowtech/exact/CellsOnGpu.h"
 
@@ -29,7 +29,8 @@ namespace gnomon::test
 namespace
 {
 
-/// Of what is drawn, beside that of a texel whose depths a triangle spoils: there nothing is asked.
+/// True if all used values are equal. The values of a texel whose depths a triangle spoils are not
+/// used.
 bool areSame(const Cell& a, const Cell& b)
 {
   const bool spoilt = a.sharpEnd == -infinity && b.sharpEnd == -infinity;
@@ -47,7 +48,7 @@ std::string textOf(const Cell& cell)
   return text.str();
 }
 
-/// @return how many texels have something
+/// @return the number of filled texels
 std::size_t expectSame(
   const std::vector<Cell>& gpu, const std::vector<Cell>& cpu, int width, const std::string& what)
 {
@@ -82,7 +83,7 @@ protected:
   ShaderLibrary shaders_;
 };
 
-/// Shapes at random, drawn by the CPU and the GPU.
+/// Random shapes, drawn by the CPU and the GPU.
 struct Shapes
 {
   std::vector<MapSegment> segments;
@@ -168,7 +169,7 @@ Shapes randomShapes(Random& random, int width)
   const auto anyPolygon = [&]
   {
     MapPolygon polygon = polygonWith(randomTriangle(random, width));
-    if (random() % 4 == 0) // its corner is cut off
+    if (random() % 4 == 0) // cuts its corner off
     {
       const auto [a, b, c] = std::tie(polygon.corners[0], polygon.corners[1], polygon.corners[2]);
       const double t = uniform(random, 0.1, 0.9);
@@ -257,7 +258,7 @@ TEST_F(CellsDrawnOnGpu, areThoseOfTheCpu)
   EXPECT_GT(filled, 100000u);
 }
 
-/// One map's cells; none where a caster is at the light.
+/// Return one map's cells; none if a caster is at the light.
 template <typename Draw>
 std::vector<Cell> drawnBy(int size, const Draw& draw)
 {
@@ -303,7 +304,7 @@ TEST_P(RandomCellsOnGpu, areThoseOfTheCpu)
 INSTANTIATE_TEST_SUITE_P(Scenes, RandomCellsOnGpu, testing::ValuesIn(randomSceneNames()),
   [](const testing::TestParamInfo<const char*>& scene) { return lettersOf(scene.param); });
 
-/// Makes four triangles of each, in its plane. Those that met still do.
+/// Split each triangle into four in its plane. Triangles that met still do.
 void subdivide(Occluders& occluders)
 {
   const Occluders before = occluders;
@@ -335,7 +336,7 @@ void subdivide(Occluders& occluders)
   }
 }
 
-/// Of a band of rows the CPU keeps so many triangles for their noise, and looks at the others
+/// The CPU stores a limited number of a band's triangles for their noise, and visits the others
 /// again.
 TEST_F(CellsDrawnOnGpu, areThoseOfTheCpuWhereManyTrianglesLieInABand)
 {
@@ -365,7 +366,7 @@ TEST_F(CellsDrawnOnGpu, leaveNothingBehindAndOpenGlAsItWas)
 {
   Random random(43);
   const Shapes shapes = randomShapes(random, 64);
-  shapes.onGpu(this->shaders_, 64, { 0, 63 }); // programs stay
+  shapes.onGpu(this->shaders_, 64, { 0, 63 }); // programs stay compiled
   const LiveObjects before = countLiveObjects(this->window_);
   GlBuffer mine;
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, mine.create());
@@ -403,7 +404,7 @@ TEST_F(CellsDrawnOnGpu, needRoom)
   EXPECT_EQ(CellTarget::mostRows(100, 1), 1);
 }
 
-/// What is thrown where OpenGL fails; empty where nothing is.
+/// Return the error that is thrown if OpenGL fails; empty if none is.
 template <typename Call>
 std::string failureOf(const Call& call)
 {
@@ -427,7 +428,7 @@ TEST_F(CellsDrawnOnGpu, areNotThereWhereOpenGlFails)
   {
     CellTarget target(this->shaders_, 8, { 0, 7 });
     target.draw(batch);
-    // Cells that the CPU looks at cannot be read.
+    // Cells that are mapped for the CPU cannot be read.
     GLint cells = 0;
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 3, &cells);
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(cells));
@@ -459,7 +460,7 @@ TEST(CellBatches, areAsManyAsOneBufferOfEachHolds)
   std::size_t largestRing = 0;
   for (std::size_t i = 0; i < rings; ++i)
   {
-    // A fan, as of a vertex with up to 20 triangles.
+    // A fan, like that of a vertex with up to 20 triangles.
     MapRing ring;
     for (unsigned int k = 0; k <= random() % 20; ++k)
     {

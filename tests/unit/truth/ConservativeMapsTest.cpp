@@ -1,4 +1,4 @@
-// Conservative maps against ray tracing: what they say for certain is never wrong.
+// Conservative maps against ray tracing: their certain answers are never wrong.
 
 #include "shadowtech/exact/ConservativeMaps.h"
 
@@ -28,12 +28,12 @@ namespace gnomon::test
 namespace
 {
 
-/// What runs found.
+/// Sums over runs.
 struct Tally
 {
-  std::size_t receivers = 0; ///< that get a shadow ray
-  std::size_t traced = 0;    ///< of these, those whose ray was traced all the same
-  std::size_t leftOut = 0;   ///< decided before they were made
+  std::size_t receivers = 0; ///< receivers that need a shadow ray
+  std::size_t traced = 0;    ///< of these, those whose ray was traced
+  std::size_t leftOut = 0;   ///< decided before they were computed
 
   void add(const Tally& other)
   {
@@ -46,7 +46,7 @@ struct Tally
 const MapRule bySilhouette = certainRule(Covering::Silhouette);
 
 /// Expect a trace with the map to equal a full trace.
-/// @param what the message of failures
+/// @param what added to failures' messages
 Tally compareWithTruth(const std::string& what, const ShadowLight& light, const LightViews& views,
   const Occluders& occluders, const Receivers& receivers, const MapRule& rule = bySilhouette)
 {
@@ -71,7 +71,7 @@ Tally compareWithTruth(const std::string& what, const ShadowLight& light, const 
   return tally;
 }
 
-/// The same without stored receivers, so that maps are asked about triangles and lines.
+/// Compare without stored receivers, so maps are looked up for triangles and lines.
 Tally compareWithTruth(const std::string& what, const ShadowLight& light, const LightViews& views,
   const Occluders& occluders, const View& view, const MapRule& rule = bySilhouette)
 {
@@ -135,11 +135,10 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
   }
   EXPECT_GT(sum.leftOut, sum.receivers / 20) << "triangles and lines are asked about";
   EXPECT_GT(sum.receivers, exactRuns() * 300u);
-  EXPECT_LT(sum.traced, sum.receivers * 3 / 4); // it does decide something
+  EXPECT_LT(sum.traced, sum.receivers * 3 / 4); // the map decides some
 }
 
-/// The same maps with one of their two answers alone: what they call lit, or what they call in
-/// shadow.
+/// The same maps with one of their two answers alone: lit, or in shadow.
 MapRule onlyOf(Certainty answer, const MapRule& rule)
 {
   return [answer, rule](const LightView& view, bool hasBox, int sizeTexels,
@@ -169,8 +168,8 @@ class ConservativeMapsBy : public testing::TestWithParam<Covering>
 
 INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsBy, allCoverings, nameOfRule);
 
-/// A map that says lit does not ask for shadow. Each answer is right by itself, so no receiver has
-/// both.
+/// A map that answers lit never asks for shadow. Each answer is right by itself, so no receiver may
+/// have both.
 TEST_P(ConservativeMapsBy, neverCallAReceiverBothLitAndInShadow)
 {
   const MapRule rule = certainRule(GetParam());
@@ -186,7 +185,7 @@ TEST_P(ConservativeMapsBy, neverCallAReceiverBothLitAndInShadow)
   EXPECT_GT(shadow, 10000u);
 }
 
-/// Drawn on the GPU, by what covers texels.
+/// Maps baked on the GPU, by the shape that covers texels.
 class ConservativeMapsOnGpu : public testing::TestWithParam<Covering>
 {
 };
@@ -306,8 +305,9 @@ TEST_P(Valley, isNeverWrongInItsBottom)
 
 TEST_P(Valley, isNeverWrongWhereManySidesMeetInACorner)
 {
-  // Two steep sides, and two thin wedges between them that are less steep: each is flat enough
-  // against its neighbours, but the steep sides are not against each other, and meet in the corner.
+  // Two steep sides, and two thin wedges between them that are less steep. Each is flat enough
+  // against its neighbours. The steep sides are not flat enough against each other, and meet in the
+  // corner.
   for (const double halfWedge : { 0.01, 0.03, 0.1 })
   {
     const double steep = std::tan(glm::radians(55.0));
@@ -360,7 +360,7 @@ TEST(ConservativeMaps, knowNothingOfLinesWhoseRaysMayStartAboveASheet)
 TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
 {
   // A row of plates whose edges lie exactly between texels, high above receivers that lie there,
-  // too. The light's direction is rounded for shadow rays, which counts over the distance.
+  // too. The light's direction is rounded for shadow rays, which matters over the distance.
   ShadowLight light = directionalLight({ 0.3, -0.2, -1.0 });
   light.mapSizeTexels = 64;
   const std::vector<Prop> corners{ { makeBox(glm::dvec3(-500.0), glm::dvec3(-499.0)) },
@@ -375,7 +375,7 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
     const glm::dvec2 across = mapped(acrossFromTexel, { texelX, texelY });
     return glm::dvec3(centredFromView * glm::dvec4(across, z, 1.0));
   };
-  // The middle of the box as seen by the light.
+  // The middle of the box, seen from the light.
   const double middle = (view.rays.viewFromCentred * glm::dvec4(0.0, 0.0, 0.0, 1.0)).z;
   Mesh plates;
   for (int x = 24; x < 40; x += 8)
@@ -384,7 +384,7 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
     { return centred(cornerX, cornerY, middle - 300.0) + frame.centreWorld; };
     addQuad(plates, { corner(x, 24), corner(x + 4, 24), corner(x + 4, 40), corner(x, 40) });
   }
-  // What receives is no caster, so that it may be anywhere.
+  // The receiving surface does not cast, so it may be anywhere.
   const Prop receiver{ makePlane(1.0), glm::dmat4(1.0), false };
   const Occluders occluders = makeOccluders({ corners[0], corners[1], { plates }, receiver });
   ASSERT_EQ(occluders.castersCentred.upper, frame.castersCentred.upper);
@@ -403,10 +403,10 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
 
 TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
 {
-  // Depth runs as -1 / z from where the map begins, at the lamp if that is among the casters:
-  // farther off it hardly changes. What is far away moves the origin off, so that what is computed
-  // from places is rounded by more than that. Small plates have their ends all over the floor, so
-  // that little but its own triangle says anything of it.
+  // Depth runs as -1 / z from the map's near end, at the lamp if that is among the casters. Farther
+  // off it hardly changes. Far surfaces move the origin away, so values computed from places are
+  // rounded by more than that. The ends of small plates lie all over the floor, so a receiver is
+  // mostly decided by its own triangle alone.
   const MapRule rule = certainRule(GetParam());
   Random random(4);
   Tally sum, seen;
@@ -436,7 +436,7 @@ TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
     const LightViews views = viewsOf(light, occluders);
     sum.add(compareWithTruth(std::to_string(i), light, views, occluders, rowOf(receivers), rule));
 
-    // And by triangles and lines, as a camera above the floor sees it.
+    // Also by triangles and lines, for a camera above the floor.
     Camera camera;
     camera.width = camera.height = 96;
     camera.position = { uniform(random, -1.0, 1.0), -3.0, 2.0 };
@@ -449,8 +449,8 @@ TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
 
 TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
 {
-  // A lamp that lies in the ceiling, and a box of light that begins in a plate, where rays end to
-  // within rounding.
+  // A lamp in the ceiling, and a box light that begins in a plate: rays end there to within
+  // rounding.
   const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.3, { 1.0, 0.5, 0.2 });
   for (const glm::dmat4& world : { glm::dmat4(1.0), turn })
   {
@@ -468,7 +468,7 @@ TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
       spotLight(lamp, floor, 75.0) };
     for (const double before : { 0.0, 1e-8, 3e-8, 1e-7 })
     {
-      // Along the plate's normal, so that its near face lies in the plate all over.
+      // Along the plate's normal, so all of the box's near face lies in the plate.
       const glm::dvec3 normal(world * glm::dvec4(0.0, 0.0, -1.0, 0.0));
       lights.push_back(boxLight(normal, lamp - before * normal, { 2.0, 2.0, 3.0 }));
       lights.back().box->upWorld = glm::dvec3(world * glm::dvec4(0.0, 1.0, 0.0, 0.0));
@@ -483,8 +483,7 @@ TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
   }
 }
 
-/// All pixels of a picture show the first triangle, as if they were pieces of it, wherever their
-/// rays pass.
+/// Return a view in which all pixels show the first triangle, wherever their rays pass.
 View viewOfFirstTriangle(const Occluders& occluders, const Camera& camera)
 {
   View view = makeView(occluders, camera);
@@ -492,7 +491,7 @@ View viewOfFirstTriangle(const Occluders& occluders, const Camera& camera)
   return view;
 }
 
-/// Triangles in a ring around a place, whose planes nearly pass through it.
+/// Return triangles in a ring around a place, whose planes nearly pass through it.
 Mesh makeRingOfTriangles(const glm::dvec3& place, Random& random)
 {
   Mesh ring;
@@ -516,9 +515,9 @@ Mesh makeRingOfTriangles(const glm::dvec3& place, Random& random)
 
 TEST(ConservativeMaps, areNeverWrongAboutTrianglesThatALampIsBeside)
 {
-  // Far from the origin, so that it is rounding that says on which side of a triangle's plane the
-  // lamp is. Maps say how much that is, where there are any: not without casters, or where none of
-  // them is in the cone.
+  // Far from the origin, rounding decides on which side of a triangle's plane the lamp is. Maps
+  // know the amount of rounding if they exist: not without casters, or if none of them is in the
+  // cone.
   Random random(7);
   Camera camera;
   camera.width = camera.height = 128;
@@ -553,8 +552,8 @@ TEST(ConservativeMaps, areNeverWrongAboutTrianglesThatALampIsBeside)
 
 TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
 {
-  // The larger the pixel, the farther off a triangle's edge does its ray start: above the sheet
-  // over it, at last.
+  // With larger pixels, rays start farther off a triangle's edge, and finally above the sheet over
+  // it.
   const Mesh triangle = oneTriangle({ -0.2, -0.2, 0.0 }, { 2.2, -0.1, 0.0 }, { -0.1, 0.2, 0.0 });
   constexpr int size = 16;
   constexpr double side = 8.0;
@@ -574,8 +573,8 @@ TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
   Tally sum;
   for (const double texels : { 0.3, 0.5, 0.7, 1.1, 1.25, 1.5, 2.0, 4.0 })
   {
-    // No ray may start farther beside its receiver than 1/256 of a texel; seen from above, it
-    // starts so far up.
+    // A ray may start at most 1/256 of a texel beside its receiver. Seen from above, it starts this
+    // far up.
     const Occluders occluders = makeOccluders(
       { { triangle }, { makePlane(side, 4), at({ 0.0, 0.0, texels * texel / 256.0 }) } });
     for (Camera camera : cameras)
@@ -594,7 +593,7 @@ TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
 
 TEST(ConservativeMaps, areNeverWrongOfTrianglesWhoseRoundingIsMoreThanTheSheetAboveIsHigh)
 {
-  // A long, thin triangle askew, of which only rays that start far off it are safe.
+  // A long, thin, oblique triangle; only rays that start far off it are safe.
   const glm::dmat4 turn =
     glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(0.6, 0.7, 0.1)));
   const Mesh triangle = oneTriangle({ -0.1, -0.09, 0.0 }, { 0.1, 0.09, 0.0 }, { 0.1, 0.0901, 0.0 });
@@ -618,8 +617,8 @@ TEST(ConservativeMaps, areNeverWrongOfTrianglesWhoseRoundingIsMoreThanTheSheetAb
 
 TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
 {
-  // Far from the origin, with a corner in the cone's or the box's side, so that rounding says
-  // whether the light reaches it; or well inside, so that maps decide it.
+  // Far from the origin, with a corner in the cone's or the box's side, so rounding decides whether
+  // the light reaches it; or well inside, so maps decide.
   const glm::dvec3 lamp(1000.4, 1000.3, 1000.9);
   const Prop opposite{ makeBox(-lamp - 1.0, -lamp), glm::dmat4(1.0), false };
   const Prop ground{ makePlane(320.0), at(lamp - glm::dvec3(0.0, 0.0, 160.0)) };
@@ -642,7 +641,7 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
     const double from = uniform(random, -20.0, 20.0);
     const auto below = [&](double out, double across, double down)
     { return lamp + out * outwards + (from + across) * beside - glm::dvec3(0.0, 0.0, down); };
-    // Maps know nothing of what is nearer to a lamp than all casters.
+    // Maps hold nothing nearer to a lamp than all casters.
     const glm::dvec3 low = below(-15.0, -from, 41.0);
     const Prop shade{ makeBox(low, low + 1.0) };
     const double inside = i % 4 < 2 ? 1.0 : 0.8;
@@ -651,7 +650,7 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
       below(inside * side, across, 80.0), below(5.0, 5.0, 90.0), below(10.0, -5.0, 85.0));
     const Occluders occluders =
       makeOccluders({ { triangle, glm::dmat4(1.0), false }, opposite, ground, shade });
-    // Most rays pass the corner by.
+    // Most rays pass beside the corner.
     const glm::dvec3 corner = triangle.points[0];
     Camera camera;
     camera.width = camera.height = 32;
@@ -667,8 +666,8 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
 
 TEST(ConservativeMaps, areNeverWrongOfWhatDoesNotCastOrOnOneSide)
 {
-  // It is not a layer of the map, so that the nearest one is above it. The plate lies in the middle
-  // of the scene, where it has no rounding, as if all rays started far off it.
+  // The plate is no layer of the map, so the nearest layer is above it. It lies in the middle of
+  // the scene, where it has no rounding, as if all rays started far off it.
   const Prop plate{ makePlane(1.5), at({ 0.0, 0.0, 0.5 }) };
   const Prop tower{ makeBox({ 2.0, 2.0, 0.9 }, { 2.5, 2.5, 1.0 }) };
   ShadowLight light = directionalLight({ 0.1, 0.2, -1.0 });
@@ -683,7 +682,7 @@ TEST(ConservativeMaps, areNeverWrongOfWhatDoesNotCastOrOnOneSide)
       Prop floor{ makePlane(4.0, cells) };
       floor.casts = casts;
       floor.oneSided = casts;
-      // Turned over, it casts nothing on the side that is seen.
+      // Turned over, it casts nothing on the visible side.
       floor.worldFromMesh =
         casts ? glm::rotate(glm::dmat4(1.0), 3.14159265358979, { 1.0, 0.0, 0.0 }) : glm::dmat4(1.0);
       const Occluders occluders = makeOccluders({ floor, plate, tower });
@@ -742,7 +741,7 @@ TEST(ConservativeMaps, areNeverWrongInTheLastTexels)
 TEST_P(ConservativeMapsBy, areNeverWrongWithMapsOf64To4096)
 {
   Camera camera;
-  camera.width = 203; // the last tiles are not whole
+  camera.width = 203; // cuts the last tiles
   camera.height = 117;
   camera.position = { 1.5, -3.0, 2.5 };
   camera.target = { 0.0, 0.0, 0.4 };

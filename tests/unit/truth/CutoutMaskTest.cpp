@@ -1,4 +1,4 @@
-// Where a texture leaves something: known answers, and a twin that sums weights.
+// Where a texture has alpha: known answers, and a twin that sums weights.
 
 #include "shadowtech/base/CutoutMask.h"
 
@@ -24,7 +24,7 @@ CutoutMask makeMask(TextureWrap wrap, bool interpolated)
   return mask;
 }
 
-/// The texel that a wrapped index leads to (OpenGL 4.5, table 8.20); negative for the border.
+/// Return the texel of a wrapped index (OpenGL 4.5, table 8.20); negative for the border.
 int wrapped(int i, int size, TextureWrap wrap)
 {
   const auto modulo = [](int a, int b) { return ((a % b) + b) % b; };
@@ -45,7 +45,7 @@ int wrapped(int i, int size, TextureWrap wrap)
   return modulo(i, size);
 }
 
-/// The filtered alpha (OpenGL 4.5, 8.14.2).
+/// Return the filtered alpha (OpenGL 4.5, 8.14.2).
 double alphaAt(const CutoutMask& mask, const glm::dvec2& coordinates)
 {
   const auto texel = [&](int x, int y)
@@ -99,8 +99,8 @@ TEST(CutoutMask, AgreesWithTheFilteredAlpha)
   }
 }
 
-// Interpolated, alpha is 0 at a texel's centre only if the texel's is, and along the line between
-// the centres of empty texels.
+// Interpolated alpha is 0 at a texel's centre only if the texel's is, and on the line between the
+// centres of empty texels.
 TEST(CutoutMask, TexelsWithoutWeightDoNotCount)
 {
   const CutoutMask mask = makeMask(TextureWrap::ClampToEdge, true);
@@ -112,7 +112,7 @@ TEST(CutoutMask, TexelsWithoutWeightDoNotCount)
   EXPECT_FALSE(at(0.5f, 1.5f));
   EXPECT_TRUE(at(0.5f, 1.25f));
   EXPECT_FALSE(at(1.25f, 1.5f));
-  EXPECT_TRUE(at(1.75f, 1.75f)); // from the texel (2, 2), a corner's neighbour
+  EXPECT_TRUE(at(1.75f, 1.75f)); // from the texel (2, 2), diagonally
 }
 
 TEST(CutoutMask, AnyCoordinatesHaveAnAnswer)
@@ -136,7 +136,7 @@ TEST(CutoutMask, AnyCoordinatesHaveAnAnswer)
       }
     }
   }
-  // A border goes on for ever.
+  // A border extends without end.
   CutoutMask mask = makeMask(TextureWrap::ClampToBorder, true);
   EXPECT_FALSE(mask.isDrawn({ large, 0.0f }));
   EXPECT_FALSE(mask.isDrawn({ 0.5f, -infinite }));

@@ -1,4 +1,4 @@
-// What the layers of `montecarlo` hold, against rays along the light through the texels' centres.
+// The layers of `montecarlo`, against rays along the light through the texels' centres.
 
 #include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
@@ -22,7 +22,7 @@ namespace gnomon::test
 namespace
 {
 
-/// Where a surface is along a texel's ray.
+/// A surface along a texel's ray.
 struct Hit
 {
   double depth; ///< in ray space
@@ -30,7 +30,7 @@ struct Hit
   bool front;   ///< faces the light
 };
 
-/// The layers of a light with a single view, and the rays that they were seen along.
+/// The layers of a light with a single view, and the rays along which they were seen.
 class Layers
 {
 public:
@@ -69,7 +69,7 @@ public:
 
   int side() const { return this->side_; }
   const LightView& view() const { return this->view_; }
-  /// Of a texel, those that are none among them.
+  /// Return a texel's slabs, including empty ones.
   const std::vector<glm::dvec2>& slabs(int x, int y) const
   {
     return this->slabs_[static_cast<std::size_t>(y) * static_cast<std::size_t>(this->side_) +
@@ -82,7 +82,7 @@ public:
       all.begin(), all.end(), [](const glm::dvec2& slab) { return slab == glm::dvec2(2.0, -2.0); });
   }
 
-  /// The ray at a place of the map, in the view's space.
+  /// Return the ray at a place of the map, in the view's space.
   void ray(const glm::dvec2& texel, glm::dvec3& origin, glm::dvec3& direction) const
   {
     const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view_, this->side_));
@@ -91,7 +91,7 @@ public:
     origin = positional ? glm::dvec3(0.0) : glm::dvec3(across, 0.0);
     direction = positional ? glm::dvec3(across, 1.0) : glm::dvec3(0.0, 0.0, 1.0);
   }
-  /// In ray space, of a distance along the view.
+  /// Return the depth in ray space of a distance along the view.
   double depthAt(double z) const
   {
     return this->view_.rays.positional ? -this->nearest_ / z
@@ -103,8 +103,8 @@ public:
                                        : (depth - this->view_.depthOffset) / this->view_.depthScale;
   }
 
-  /// What a texel's ray meets, in its order; nothing where the picture of a corner that is drawn a
-  /// bit beside its place, as rasterisers may, would be another.
+  /// Return the hits of a texel's ray in order. Nothing if they change when a corner is drawn
+  /// slightly off its place, as rasterisers may.
   std::optional<std::vector<Hit>> hits(int x, int y) const
   {
     const glm::dvec2 centre(x + 0.5, y + 0.5);
@@ -182,14 +182,14 @@ private:
   std::vector<std::vector<glm::dvec2>> slabs_;
 };
 
-/// Corners are drawn to within 1/256 of a texel, and depths are rounded: a small part of what a
-/// plane spans in the texel.
+/// Corners are drawn to within 1/256 of a texel, and depths are rounded: a small part of the
+/// plane's span in the texel.
 double tolerance(const Hit& hit)
 {
   return hit.span / 100.0 + 4e-6;
 }
 
-/// A box, a sphere and two sheets of either winding over a floor, none of which touch.
+/// A box, a sphere and two sheets of either winding over a floor; none of them touch.
 std::vector<Prop> things()
 {
   return { { makePlane(8.0) }, { makeBox({ -1.2, -1.0, 0.5 }, { 0.2, 0.3, 1.6 }) },
@@ -276,9 +276,9 @@ TEST_F(DepthLayersTest, endAtTheLastSurfaceAndWhatItSpans)
 }
 
 //------------------------------------------------------------------------------
-/// How deep at most what ends at a surface of a texel is solid. A sheet spans the texel; a body
-/// whose front spans more than the body is thick goes on to that front's depths in the texels
-/// beside it.
+/// Return the largest depth of a solid that ends at a surface of a texel. A sheet spans the texel.
+/// If a body's front spans more than the body's thickness, the body extends to that front's depths
+/// in the texels beside it.
 double reachOf(const Layers& layers, int x, int y, const std::vector<Hit>& hits, std::size_t i)
 {
   double reach = hits[i].depth + hits[i].span;
@@ -300,7 +300,7 @@ double reachOf(const Layers& layers, int x, int y, const std::vector<Hit>& hits,
     const std::optional<std::vector<Hit>> others = layers.hits(column, row);
     if (!others)
     {
-      return std::max(reach, farthest); // nobody knows
+      return std::max(reach, farthest); // the neighbour's hits are uncertain
     }
     for (const Hit& other : *others)
     {

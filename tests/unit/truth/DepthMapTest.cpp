@@ -1,4 +1,4 @@
-// What a depth map holds, read back: its metrics, biases and surfaces, and the pyramid of its
+// The contents of a depth map, read back: its metrics, biases and surfaces, and the pyramid of its
 // bounds.
 
 #include "EstimatorGlsl.h"
@@ -53,7 +53,7 @@ public:
 
   const LightView& view() const { return this->views.views.front(); }
   float at(int x, int y) const { return this->depths[static_cast<std::size_t>(y * mapSide + x)]; }
-  /// The ray through a texel's centre, in the view's space, to distance 1.
+  /// Return the ray through a texel's centre, in the view's space, to distance 1.
   glm::dvec3 ray(int x, int y) const
   {
     const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view(), mapSide));
@@ -75,8 +75,8 @@ using DepthMap = GlslTest;
 
 TEST_F(DepthMap, euclideanDepthIsTheDistanceWhateverNearAndFarAre)
 {
-  // A sheet across the axis, so that nothing is pushed back in the linear metric; and far casters
-  // that move the far plane.
+  // A sheet across the axis, so nothing is pushed back in the linear metric; and far casters that
+  // move the far plane.
   for (const double farther : { 0.0, 10.0, 1000.0 })
   {
     for (const DepthSurface surface : { DepthSurface::First, DepthSurface::Second })
@@ -123,7 +123,7 @@ TEST_F(DepthMap, constantBiasIsAddedInWorldUnits)
     biased.of<DepthMapSettings>().biasConstant = 0.03;
     const BakedDepths<Compare> without(plain, floorAndBox());
     const BakedDepths<Compare> with(biased, floorAndBox());
-    // Polygon offset pushes by the larger slope, the shader by half their sum.
+    // Polygon offset pushes by the larger slope; the shader pushes by half of the slopes' sum.
     ShadowLight twice = biased;
     twice.of<DepthMapSettings>().biasConstant = 0.06;
     const BakedDepths<Compare> withTwice(twice, floorAndBox());
@@ -146,13 +146,13 @@ TEST_F(DepthMap, constantBiasIsAddedInWorldUnits)
 
 TEST_F(DepthMap, slopeBiasIsAFactorOnWhatASlopeSpans)
 {
-  // Only a floor, whose depth has one slope.
+  // Only a floor; its depth has one slope.
   const ShadowLight plain = directionalLight({ 0.6, 0.0, -1.0 });
   const auto pushedBy = [&](double factor)
   {
     ShadowLight light = plain;
     light.of<DepthMapSettings>().biasSlope = factor;
-    light.of<DepthMapSettings>().biasConstant = 1e-9; // so that the shader pushes in all cases
+    light.of<DepthMapSettings>().biasConstant = 1e-9; // the shader then pushes in all cases
     const BakedDepths<Compare> baked(light, { { makePlane(6.0) } });
     return baked.at(mapSide / 2, mapSide / 2);
   };
@@ -179,25 +179,25 @@ TEST_F(DepthMap, holdsTheSurfaceThatIsAskedFor)
   };
   const std::vector<Prop> props = floorAndBox();
   EXPECT_NEAR(glm::distance(heightsOf(DepthSurface::First, props), { 2.0, 0.0 }), 0.0, 1e-5);
-  // The floor is open: it faces the light, and nothing of it faces away.
+  // The floor is open: it faces the light, and none of it faces away.
   EXPECT_NEAR(glm::distance(heightsOf(DepthSurface::Second, props), { 1.0, -100.0 }), 0.0, 1e-5);
-  // Alone it stays where it is.
+  // Alone it is not pushed back.
   EXPECT_NEAR(glm::distance(heightsOf(DepthSurface::Midpoint, props), { 1.5, 0.0 }), 0.0, 1e-5);
-  // Under the box lies the box's bottom, not the floor; one-sided casters have their front alone.
+  // Under the box lies the box's bottom, not the floor. One-sided casters have only their front.
   std::vector<Prop> oneSided = props;
   oneSided[1].oneSided = true;
   EXPECT_NEAR(heightsOf(DepthSurface::Second, oneSided).x, 2.0, 1e-5);
   EXPECT_NEAR(heightsOf(DepthSurface::Midpoint, oneSided).x, 1.0, 1e-5);
 }
 
-/// Gives the pyramid away.
+/// Gives access to the pyramid.
 class OpenAdaptive : public Adaptive
 {
 public:
   using Adaptive::map;
 };
 
-/// The fragments of the casters that are written into the map.
+/// Count the casters' fragments that are written into the map.
 GLuint fragmentsOf(
   DepthSurface surface, const glm::dvec3& direction, const std::vector<Prop>& props)
 {
@@ -216,8 +216,8 @@ GLuint fragmentsOf(
 
 TEST_F(DepthMap, secondSurfacesTakeNoMoreFragments)
 {
-  // The sphere's rings are drawn from one pole to the other: where its far side comes first, it is
-  // written twice, and where its near side does, once. Of second surfaces only one is drawn.
+  // The sphere's rings are drawn from one pole to the other. Where its far side comes first, it is
+  // written twice; where its near side comes first, once. Of second surfaces only one is drawn.
   const std::vector<Prop> closed = { { makeSphere(40, 80) } };
   const glm::dvec3 directions[] = { { 0.3, 0.2, -1.0 }, { 0.3, 0.2, 1.0 } };
   GLuint most = 0;

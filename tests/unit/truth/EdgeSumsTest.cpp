@@ -1,4 +1,4 @@
-// Edges that are summed for all rays side by side, against one ray after another.
+// Edges summed for all rays side by side, against one ray after another.
 
 #include "RandomScenes.h"
 
@@ -20,7 +20,7 @@ namespace
 
 constexpr float pixel = 1.0f / 64.0f;
 
-/// On a grid, so that products and sums are exact and rays come to lie on edges and at their ends.
+/// On a grid, so products and sums are exact, and rays lie on edges and at their ends.
 float onGrid(Random& random)
 {
   return std::round(static_cast<float>(uniform(random, -1.0, 1.0)) / pixel) * pixel;
@@ -41,7 +41,7 @@ SeenEdge anyEdge(Random& random)
   return edge;
 }
 
-/// A rotation that swaps and turns round axes, so that what is turned by it is not rounded.
+/// A rotation that swaps and negates axes, so the turned values are not rounded.
 glm::mat3 anyTurn(Random& random)
 {
   const auto x = static_cast<glm::length_t>(random() % 3);
@@ -57,10 +57,10 @@ TEST(EdgeSums, areThoseOfOneRayAfterAnother)
 {
   Random random(1);
   EdgeSums sums;
-  // Pictures in which edges lower the least count, all in all, and in which they raise it.
+  // Pictures in which edges lower the total of the least count, and in which they raise it.
   int lowered = 0;
   int raised = 0;
-  for (const std::size_t count : { 1, 64, 7, 256, 16, 65, 23 }) // more and fewer than before
+  for (const std::size_t count : { 1, 64, 7, 256, 16, 65, 23 }) // more and fewer than the last
   {
     for (int picture = 0; picture < 50; ++picture)
     {

@@ -1,4 +1,4 @@
-// Which triangles rays leave for certain, whatever rounding makes of the signs that a tracer finds.
+// Triangles that rays leave for certain, under any rounding of a tracer's signs.
 
 #include "RandomScenes.h"
 #include "SyntheticScene.h"
@@ -21,14 +21,14 @@ namespace
 /// The unit roundoff of float.
 constexpr double unit = 1.0 / 16777216.0;
 
-/// A triangle of the tree, and what docs/theory/exact_penumbrae.md says of it.
+/// A triangle of the tree, with the quantities of docs/theory/exact_penumbrae.md.
 struct Known
 {
   const EdgeTriangle& triangle;
   const std::array<glm::vec3, 3>& corners; ///< centred
   glm::dvec3 extent;                       ///< of its box
 
-  /// How far from a start its corners are, axis by axis.
+  /// Return the distance of its corners from a start, axis by axis.
   glm::dvec3 reach(const glm::dvec3& start) const
   {
     glm::dvec3 reach(0.0);
@@ -38,21 +38,21 @@ struct Known
     }
     return reach;
   }
-  /// What T, or N . D for a direction in place of the reach, is off by at most: 11u (r_x YZ + r_y
-  /// ZX + r_z XY).
+  /// Return the error bound of T, or of N . D for a direction in place of the reach: 11u (r_x YZ +
+  /// r_y ZX + r_z XY).
   double rounding(const glm::dvec3& reach) const
   {
     const glm::dvec3& e = this->extent;
     return 11.0 * unit * glm::dot(reach, glm::dvec3(e.y * e.z, e.z * e.x, e.x * e.y));
   }
-  /// How large N . D has to be: 128u r^2 |D|.
+  /// Return the least N . D: 128u r^2 |D|.
   static double leastAlong(const glm::dvec3& reach, const glm::dvec3& direction)
   {
     return 128.0 * unit * glm::dot(reach, reach) * glm::length(direction);
   }
-  /// N, twice the area vector, is so many times as long as EdgeTriangle::normal.
+  /// The ratio of N, twice the area vector, to EdgeTriangle::normal.
   double longest() const { return static_cast<double>(this->triangle.longest); }
-  /// Whether rays from a start leave it, in one direction.
+  /// True if rays from a start leave the triangle, in one direction.
   bool isLeft(const glm::dvec3& start, const glm::dvec3& direction) const
   {
     return this->triangle.isLeft(glm::dvec2(this->triangle.behind(start)), this->reach(start),
@@ -60,8 +60,8 @@ struct Known
   }
 };
 
-/// Triangles of all shapes, slivers among them, all around the middle of coordinates, and far from
-/// it.
+/// Return triangles of all shapes, slivers among them, around the middle of coordinates and far
+/// from it.
 void forEachTriangle(const std::function<void(const Known&)>& visit)
 {
   for (const double away : { 0.0, 20.0 })
@@ -94,14 +94,14 @@ glm::dvec3 pointOn(const Known& known, Random& random)
     glm::dvec3(known.corners[2]) * b;
 }
 
-/// What Embree's robust test finds for a ray, in float, but for fused operations.
+/// The results of Embree's robust test for a ray, in float, without fused operations.
 struct Found
 {
   float plane; ///< T, which is (corner - start) . N
   float along; ///< N . D
 };
 
-/// Of three sides: of each component the one of smaller products.
+/// Return the normal of three sides: per component, the one with the smaller products.
 glm::vec3 stableNormal(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
 {
   const glm::vec3 ofAb(a.z * b.y, a.x * b.z, a.y * b.x);
@@ -120,21 +120,21 @@ Found findInFloat(const Known& known, const glm::vec3& start, const glm::vec3& d
   return { glm::dot(a, normal), glm::dot(normal, direction) };
 }
 
-/// A number within [-most, most] that is more often small: what rounding comes to is mostly far
-/// from its bound.
+/// Return a number within [-most, most] that is more often small, since rounding is mostly far from
+/// its bound.
 double mostlySmall(Random& random, double most)
 {
   return most * std::pow(uniform(random, -1.0, 1.0), 3);
 }
 
-/// What came of the rays to whose starts or directions rounding matters.
+/// Counts of the rays for whose starts or directions rounding matters.
 struct Tried
 {
-  std::size_t left = 0;   ///< that leave their triangle for certain
-  std::size_t turned = 0; ///< that leave it, which in float they seem not to
+  std::size_t left = 0;   ///< rays that leave their triangle for certain
+  std::size_t turned = 0; ///< of these, rays that in float seem not to
 };
 
-/// Tries a ray, which a tracer must not find to go to the triangle if it leaves it for certain.
+/// Try a ray. If it leaves the triangle for certain, a tracer must not find that it goes to it.
 void tryRay(const Known& known, const glm::vec3& start, const glm::vec3& direction, Tried& tried)
 {
   const double behind = known.triangle.behind(start);
@@ -149,8 +149,7 @@ void tryRay(const Known& known, const glm::vec3& start, const glm::vec3& directi
   tried.turned += meets && behind * along < 0.0 ? 1 : 0;
 }
 
-/// Starts in a triangle's box and within some roundings of its plane, with rays that go away from
-/// that.
+/// Starts in a triangle's box, within some roundings of its plane, with rays that go away from it.
 TEST(EdgeTriangle, isNotLeftWhereRoundingMayPutAStartOnItsOtherSide)
 {
   Random random(1);
@@ -175,7 +174,7 @@ TEST(EdgeTriangle, isNotLeftWhereRoundingMayPutAStartOnItsOtherSide)
   EXPECT_GT(tried.turned, 1000u);
 }
 
-/// Rays that go along a triangle's plane to within some roundings, from starts that are off it.
+/// Rays along a triangle's plane, to within some roundings, from starts off the plane.
 TEST(EdgeTriangle, isNotLeftWhereRoundingMayTurnARayToIt)
 {
   Random random(2);
@@ -203,7 +202,7 @@ TEST(EdgeTriangle, isNotLeftWhereRoundingMayTurnARayToIt)
   EXPECT_GT(tried.turned, 1000u);
 }
 
-/// From twice what T may be off by on, and from 128u r^2 |D| on.
+/// From twice the error of T on, and from 128u r^2 |D| on.
 TEST(EdgeTriangle, isLeftFromItsBoundsOn)
 {
   Random random(3);
@@ -230,7 +229,7 @@ TEST(EdgeTriangle, isLeftFromItsBoundsOn)
         EXPECT_FALSE(isLeftBy(1.001, -1.001));
         EXPECT_FALSE(isLeftBy(-1.001, 1.001));
       }
-      // All of several rays.
+      // The result for all of several rays.
       const glm::dvec2 certain(1.001, 2.0);
       const glm::dvec2 uncertain(0.999, 2.0);
       EXPECT_TRUE(isLeft(leastBehind * certain, -leastAlong * glm::dvec2(2.0, 1.001)));

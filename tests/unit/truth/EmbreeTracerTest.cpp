@@ -23,7 +23,7 @@ struct TestScene
   Camera camera;
 };
 
-/// Small enough for brute force.
+/// Scenes small enough for brute force.
 std::vector<TestScene> smallScenes()
 {
   Camera camera;
@@ -33,7 +33,7 @@ std::vector<TestScene> smallScenes()
   const Prop sphere{ makeSphere(12, 24), at({ 0.0, 0.0, 1.0 }) };
   Prop oneSided{ makePlane(1.5), glm::rotate(at({ 0.0, 0.0, 1.2 }), 0.7, { 1.0, 0.3, 0.0 }) };
   oneSided.oneSided = true;
-  // Rays go through the holes of the upper one to the lower one, which is one-sided.
+  // Rays go through the holes of the upper plane to the lower one, which is one-sided.
   const glm::dmat4 tilted = glm::rotate(at({ 0.0, 0.0, 1.0 }), 0.2, { 1.0, 0.3, 0.0 });
   const Prop upper = makePerforatedPlane(1.6, 3, glm::translate(tilted, { 0.1, 0.2, 0.3 }));
   Prop lower = makePerforatedPlane(1.8, 2, tilted);
@@ -54,11 +54,11 @@ std::vector<ShadowLight> lightsOfSmallScenes()
     boxLight({ -1.0, 0.5, -1.5 }, { 0.9, -0.6, 1.1 }, { 1.7, 2.3, 3.1 }) };
 }
 
-/// Those whose pictures show what rounding does.
+/// Scenes whose pictures show the effect of rounding.
 std::vector<TestScene> largeScenes()
 {
   std::vector<TestScene> scenes = smallScenes();
-  scenes.erase(scenes.begin() + 2); // slivers by the hundred are no honest sample of pixels
+  scenes.erase(scenes.begin() + 2); // hundreds of slivers are no fair sample of pixels
   Camera eyes;
   eyes.position = { 0.0, -300.0, 22.0 };
   eyes.target = { 0.0, 0.0, 10.0 };
@@ -169,15 +169,16 @@ TEST(EmbreeTracer, MovedAndScaledScenesGiveTheSameVisibility)
   }
 }
 
-/// How many pixels of the first surface face the light, and how many of these are not lit.
+/// Counts of the first surface's pixels that face the light, and of these the ones that are not
+/// lit.
 struct FacingPixels
 {
   int facing = 0;
   int dark = 0;
 };
 
-/// Pixels count whose triangle faces the light by more than the rounding that facesLight() allows
-/// for, and that lie inside the cone, by more than a float tells apart.
+/// Count pixels whose triangle faces the light by more than the rounding that facesLight() allows.
+/// They must lie inside the cone by more than the rounding of a float.
 FacingPixels countFacing(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
@@ -203,7 +204,7 @@ FacingPixels countFacing(
   return count;
 }
 
-/// A lit plane does not shadow itself, wherever it lies, however large, however low the light.
+/// A lit plane does not shadow itself, at any place, size and angle of the light.
 TEST(EmbreeTracer, LitPlanesHaveNoAcne)
 {
   for (const double tilt : { 0.0, 0.3, 1.1 })
@@ -218,7 +219,7 @@ TEST(EmbreeTracer, LitPlanesHaveNoAcne)
     {
       for (const int cells : { 1, 9 })
       {
-        // Something far off, below, moves the centred frame's origin away from the plane.
+        // A far surface below moves the centred frame's origin away from the plane.
         const Occluders occluders = makeOccluders({ { makePlane(side, cells), turn },
           { makeBox(glm::dvec3(-0.01), glm::dvec3(0.01)),
             turn * at({ 3.0 * side, side, -2.0 * side }) } });
@@ -232,7 +233,7 @@ TEST(EmbreeTracer, LitPlanesHaveNoAcne)
           const FacingPixels sun = countFacing(directionalLight(-toLight), occluders, receivers);
           EXPECT_EQ(sun.dark, 0) << degrees << " degrees, side " << side << ", tilt " << tilt;
           EXPECT_EQ(sun.facing, ofPlane);
-          // Its cone ends inside the plane where it grazes.
+          // The light's cone ends inside the plane where it grazes.
           const FacingPixels spot = countFacing(
             spotLight(0.4 * side * toLight, glm::dvec3(0.0), 89.0), occluders, receivers);
           EXPECT_EQ(spot.dark, 0) << degrees << " degrees, side " << side << ", tilt " << tilt;
@@ -292,12 +293,12 @@ TEST(EmbreeTracer, SpotLightsReachTheirConeAndNoFurtherThanThemselves)
   EXPECT_EQ(roof.visibility(spotLight({ 0.1, 0.2, 0.9 }, { 0.1, 0.2, 2.0 }, 89.0)), 0.0f);
 }
 
-/// A wavy surface to shoot through, and parallel rays from chosen origins.
+/// A wavy surface, and parallel rays through it from chosen origins.
 struct Sheet
 {
   static constexpr unsigned int cells = 40;
 
-  /// The receivers whose shadow rays start exactly there.
+  /// Return receivers whose shadow rays start exactly at the origins.
   ReceiverPixels receiversAt(const std::vector<glm::vec3>& origins) const
   {
     std::vector<PlacedReceiver> receivers;
@@ -343,17 +344,17 @@ TEST(EmbreeTracer, SurfacesAreWatertight)
   EXPECT_EQ(std::count(visibility.begin(), visibility.end(), 1.0f), 0);
 }
 
-/// At a corner Embree's robust mode has cracks, of a rounding's width. Two triangles compute their
-/// common edge's sign alike, so none slips through at an edge; but a ray near a corner passes all
-/// triangles around it when the signs of all its edges, six here, come out the same, which rounding
-/// can bring about. By chance that is 2 in 64 of the rays so near that every sign is rounding's.
+/// At a corner, Embree's robust mode has cracks of a rounding's width. Two triangles compute their
+/// common edge's sign alike, so no ray slips through at an edge. A ray near a corner passes all
+/// triangles around it if the signs of all their edges, six here, come out equal by rounding. By
+/// chance that is 2 in 64 of the rays so near that rounding decides every sign.
 ///
-/// How near: an edge's sign is that of (e x s) . D with e = b - a, s = a + b, a and b less the
-/// ray's origin. In units of u |e| |s| |D|, u = 2^-24, the roundings of a and b cost 2 in e's and
-/// s's direction each, those of e and s 1 each, the cross product 3, the dot product 3: less than
-/// 12. The volume is |e| |D| times twice the distance from the edge, so rounding decides within 12
-/// u L, where L is the distance from the ray's origin to the corner; where edges meet at less than
-/// a right angle, somewhat farther.
+/// Width of the crack: an edge's sign is that of (e x s) . D with e = b - a, s = a + b, a and b
+/// less the ray's origin. In units of u |e| |s| |D|, u = 2^-24, the roundings of a and b cost 2 in
+/// e's and s's direction each, those of e and s 1 each, the cross product 3, the dot product 3:
+/// less than 12. The volume is |e| |D| times twice the distance from the edge. So rounding decides
+/// within 12 u L, where L is the distance from the ray's origin to the corner. Where edges meet at
+/// less than a right angle, it decides somewhat farther.
 TEST(EmbreeTracer, RaysAtCornersSlipThroughOnlyByARounding)
 {
   const Sheet sheet;
@@ -382,7 +383,7 @@ TEST(EmbreeTracer, RaysAtCornersSlipThroughOnlyByARounding)
     }
   }
   EXPECT_LT(slipped.size(), origins.size() / 32);
-  // The very rays do meet the surface: it is no gap between its float vertices.
+  // The very same rays meet the surface: the crack is no gap between its float vertices.
   const std::vector<float> exact =
     traceBruteForce(sheet.light, sheet.occluders, sheet.receiversAt(slipped));
   EXPECT_EQ(std::count(exact.begin(), exact.end(), 1.0f), 0);
@@ -451,7 +452,7 @@ TEST(EmbreeTracer, ImagesOfAnyShape)
   }
 }
 
-/// Bad triangles do no harm: points, needles, the same triangle many times.
+/// Bad triangles do no harm: points, needles, many equal triangles.
 TEST(EmbreeTracer, DegenerateTriangles)
 {
   Mesh mesh = makePlane(1.0);
@@ -472,7 +473,7 @@ TEST(EmbreeTracer, DegenerateTriangles)
   }
 }
 
-/// Surfaces that lie in one another, as decals do, leave each other lit.
+/// Coincident surfaces, such as decals, leave each other lit.
 TEST(EmbreeTracer, CoplanarSurfacesDoNotShadowEachOther)
 {
   const glm::dmat4 turn = glm::rotate(at({ 0.3, 0.2, 0.1 }), 0.6, { 1.0, 0.5, 0.2 });
@@ -517,7 +518,7 @@ TEST(EmbreeTracer, UpdatesWhatChanged)
   }
   expectUpdate(0, 0);
 
-  // The plane goes: what is left keeps its triangles and its place in memory changes.
+  // The plane is removed: the other surfaces keep their triangles, and move in memory.
   Occluders fewer = makeOccluders({ cube, second });
   for (std::size_t i = 0; i < 2; ++i)
   {
@@ -526,7 +527,7 @@ TEST(EmbreeTracer, UpdatesWhatChanged)
   occluders = fewer;
   expectUpdate(0, 2);
 
-  // An edit of one surface, a change of sides of the other.
+  // An edit of one surface, and a change of sides of another.
   occluders.surfaces[0].topologyVersion = occluders.surfaces[0].positionsVersion += 1000;
   occluders.topologyVersion = occluders.positionsVersion += 1000;
   expectUpdate(1, 0);
@@ -534,7 +535,7 @@ TEST(EmbreeTracer, UpdatesWhatChanged)
   occluders.topologyVersion += 1000;
   expectUpdate(1, 0);
 
-  // Nothing casts any more.
+  // No surface casts any more.
   occluders.surfaces[0].casts = occluders.surfaces[1].casts = false;
   occluders.topologyVersion += 1000;
   expectUpdate(0, 0);
@@ -564,7 +565,7 @@ TEST(EmbreeTracer, CutoutsComeChangeAndGo)
   mask.interpolated = false; // the holes grow
   surface.cutout = std::make_shared<const CutoutMask>(mask);
   EXPECT_LT(darkAfter(0), perforated);
-  surface.oneSided = true; // its front, which faces the light
+  surface.oneSided = true; // its front faces the light
   EXPECT_LT(darkAfter(1), perforated);
   surface.cutout = nullptr;
   EXPECT_GT(darkAfter(1), perforated);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The GLSL of estimators on maps that are given, for comparison with twins.
+// The GLSL of estimators on given maps, for comparison with twins.
 
 #include "lights/LightViews.h"
 #include "lights/SettingsTable.h"
@@ -24,7 +24,7 @@ namespace gnomon::test
 
 constexpr int mapSize = 64;
 
-/// Whether a texel holds a caster that hides the points below.
+/// True if a texel holds a caster that hides the points below.
 using Map = std::function<bool(const glm::ivec2&)>;
 
 /// A map's depths, texel by texel.
@@ -33,17 +33,17 @@ using Depths = std::function<float(const glm::ivec2&)>;
 /// A map's layer of depths.
 void fillDepths(GlTexture& texture, const Depths& depths);
 
-/// The views of a sun around the cube [-1, 1]^3.
+/// Return the views of a sun around the cube [-1, 1]^3.
 LightViews sunViews(const ShadowLight& light);
 
-/// Replaces what must stand in a shader once, for tests that count what it does or have it do
-/// something else.
+/// Replace a text that must occur in a shader exactly once, for tests that count or change its
+/// work.
 void replaceOnce(std::string& text, const std::string& from, const std::string& to);
 
-/// The source of a compute shader that maps `given[i]` to `result[i]`.
+/// Return the source of a compute shader that maps `given[i]` to `result[i]`.
 /// @param declarations before `main`
 /// @param in,out the types of `given` and `result`
-/// @param body statements that have `i`
+/// @param body statements that may use `i`
 std::string computeGlsl(const std::string& declarations, const std::string& in,
   const std::string& out, const std::string& body);
 
@@ -63,7 +63,7 @@ std::vector<Out> runCompute(ShaderLibrary& library, const std::string& glsl,
   return out;
 }
 
-/// What a technique's GLSL answers at points, on a plane.
+/// Run a technique's GLSL at points on a plane.
 /// @param pointsView in the camera's view coordinates
 /// @param normalView of the plane
 /// @param uniforms of the technique
@@ -71,13 +71,13 @@ std::vector<float> visibilityAt(const PointwiseTechnique& technique, const Shado
   ShaderLibrary& library, std::vector<glm::vec4> pointsView, const glm::vec3& normalView,
   std::vector<Uniform> uniforms);
 
-/// What the shader answers at places of the first view's map, on a plane across the light.
-/// @param more uniforms of the technique, which has baked nothing
+/// Run the shader at places of the first view's map, on a plane across the light.
+/// @param more uniforms of the technique, in place of those of a bake
 std::vector<float> runGlsl(const PointwiseTechnique& technique, const ShadowLight& light,
   const LightViews& views, const Map& map, const std::vector<glm::dvec2>& places,
   const std::vector<Uniform>& more = {});
 
-/// A sun along -z.
+/// Return a sun along -z.
 inline ShadowLight filteredSun(const char* kernel, int texels)
 {
   ShadowLight light;
@@ -87,8 +87,8 @@ inline ShadowLight filteredSun(const char* kernel, int texels)
   return light;
 }
 
-/// Places of a map whose kernels stay inside the map. Exact in float, so that both sides round
-/// alike.
+/// Return places of a map whose kernels stay inside the map. They are exact in float, so both sides
+/// round alike.
 inline std::vector<glm::dvec2> randomPlaces(int texels)
 {
   std::mt19937 random(5);
@@ -104,14 +104,14 @@ inline std::vector<glm::dvec2> randomPlaces(int texels)
   return places;
 }
 
-/// A map of which about half is covered, in texels that have nothing to do with their neighbours.
+/// A map of which about half is covered, each texel independent of its neighbours.
 inline bool scattered(const glm::ivec2& texel)
 {
   const auto bits = static_cast<unsigned>(texel.x * 73 + texel.y * 1009);
   return (bits * 2654435761u) >> 31u != 0u;
 }
 
-/// The part of a texel that a square of side `width` around a place covers.
+/// Return the part of a texel that a square of side `width` around a place covers.
 inline double covered(const glm::ivec2& texel, const glm::dvec2& place, double width)
 {
   const glm::dvec2 lower = glm::max(glm::dvec2(texel), place - 0.5 * width);
@@ -120,7 +120,7 @@ inline double covered(const glm::ivec2& texel, const glm::dvec2& place, double w
   return size.x * size.y;
 }
 
-/// The lit share of a map around a place, with a weight per texel.
+/// Return the lit share of a map around a place, with a weight per texel.
 template <typename Weight>
 double litShare(const Map& map, const Weight& weight)
 {

@@ -1,4 +1,4 @@
-// Estimators whose views have their last fit in a texture, against the same with the fit in their
+// Estimators whose views have their last fit in a texture, against the same with the fit in the
 // views.
 
 #include "EstimatorGlsl.h"
@@ -25,7 +25,7 @@ namespace
 
 constexpr int fittedSide = 128;
 
-/// A way to decide points.
+/// An estimator with its settings.
 struct Way
 {
   const char* name;
@@ -37,19 +37,19 @@ std::ostream& operator<<(std::ostream& stream, const Way& way)
   return stream << way.name;
 }
 
-/// A fit that is narrow one way, and none of which is like another's.
+/// Return a fit that is narrow along one axis, and different for each view.
 MapFit fitOf(std::size_t view)
 {
   const double step = static_cast<double>(view);
   return { { 1.25 + 0.5 * step, 2.5 - 0.25 * step }, { 0.125 * step - 0.25, 0.5 } };
 }
 
-/// Views that await a fit, and the same with the fit in them.
+/// Views that await a fit, and the same views with the fit applied.
 struct BothViews
 {
   LightViews awaiting;
   LightViews fitted;
-  /// What the GPU would have found for `awaiting`, as ReceiverFit stores it.
+  /// The GPU's result for `awaiting`, as ReceiverFit stores it.
   GlTexture found;
 };
 
@@ -108,7 +108,7 @@ CameraView cameraAbove()
   return camera;
 }
 
-/// Lights whose views lie in all ways.
+/// Return lights whose views have all layouts.
 std::vector<ShadowLight> lightsOfAllLayouts()
 {
   std::vector<ShadowLight> result;
@@ -124,7 +124,7 @@ std::vector<ShadowLight> lightsOfAllLayouts()
   result.push_back(pointLight({ -0.9, 0.4, 3.0 }));
   for (ShadowLight& light : result)
   {
-    light.technique = "nsm"; // or what the way's estimator is
+    light.technique = "nsm"; // replaced by the way's estimator
     light.fit = ViewFit::Frame;
     light.splits = 3;
     light.mapSizeTexels = fittedSide;
@@ -137,7 +137,7 @@ class FittedViews
   , public testing::WithParamInterface<Way>
 {
 protected:
-  /// Bakes and asks.
+  /// Bake, then compute visibility.
   /// @return per point of the floor and the box, in view coordinates
   std::vector<float> visibility(const ShadowLight& light, const LightViews& views,
     const Occluders& occluders, const TextureBinding& viewFits, const glm::dmat4& centredFromView)
@@ -224,15 +224,14 @@ TEST_P(FittedViews, decideAsIfTheFitWereInTheView)
     }
     EXPECT_GT(dark, points / 100);
     EXPECT_LT(dark, points / 2);
-    // A point on the border of texels, and a disc that is turned by the place, may round either
-    // way.
+    // A point on the border of texels, or a disc that the place turns, may round either way.
     EXPECT_LE(differing, points / 500);
   }
 }
 
 //------------------------------------------------------------------------------
-/// What caster_map.glsl says at the fragments of the casters: how far they are pushed follows from
-/// that, which shadows show too little of.
+/// Values of caster_map.glsl at the casters' fragments. They determine how far casters are pushed
+/// back, which shadows show too little of.
 class FittedCasters : public GlslTest
 {
 protected:

@@ -1,4 +1,4 @@
-// Shadow rays on the GPU against Embree, and where Embree has cracks, against what must be.
+// Shadow rays on the GPU, against Embree, and against known answers where Embree has cracks.
 
 #include "shadowtech/tracing/GpuTracer.h"
 
@@ -32,7 +32,7 @@ namespace
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// A random point of a triangle.
+/// Return a random point of a triangle.
 glm::dvec3 randomPointOf(const std::array<glm::dvec3, 3>& corners, SignedRandom& random)
 {
   const double v = 0.5 * (1.0 + random.uniform());
@@ -40,8 +40,8 @@ glm::dvec3 randomPointOf(const std::array<glm::dvec3, 3>& corners, SignedRandom&
   return corners[0] + v * (corners[1] - corners[0]) + w * (corners[2] - corners[0]);
 }
 
-/// Receivers anywhere around the casters, with normals that face the light more or less, and as
-/// many on triangles that are not instances', where shadow rays start.
+/// Return receivers anywhere around the casters, with normals that face the light more or less. As
+/// many lie on triangles that are not instances', where shadow rays start.
 ReceiverPixels randomReceivers(
   const ShadowLight& light, const Occluders& occluders, std::size_t count, SignedRandom& random)
 {
@@ -79,7 +79,7 @@ ReceiverPixels randomReceivers(
   return rowOf(receivers);
 }
 
-/// The rays of all receivers that have one.
+/// Return the rays of all receivers that have one.
 std::vector<TracedRay> raysOf(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
@@ -104,8 +104,8 @@ std::vector<TracedRay> raysOf(
   return rays;
 }
 
-/// Whether rays right beside a receiver's are not all blocked or all unblocked: it passes an edge,
-/// of a triangle or a hole, or ends on a surface, to within rounding.
+/// True if rays close beside a receiver's ray are not all blocked or all unblocked. The ray then
+/// passes an edge of a triangle or a hole, or ends on a surface, to within rounding.
 bool isUndecided(EmbreeTracer& tracer, const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t pixel, double nearness)
 {
@@ -126,7 +126,7 @@ bool isUndecided(EmbreeTracer& tracer, const ShadowLight& light, const Occluders
   return lit > 0 && lit < 256;
 }
 
-/// What was compared.
+/// Counts of compared rays.
 struct RayTally
 {
   std::size_t rays = 0;
@@ -139,7 +139,7 @@ struct RayTally
     this->blocked += other.blocked;
     this->different += other.different;
   }
-  /// Tracers may differ on one ray in a million: those that pass an edge to within a rounding.
+  /// Tracers may differ on one ray in a million: rays that pass an edge to within rounding.
   void expectAlike() const { EXPECT_LE(this->different, this->rays / 1000000 + 1); }
 };
 
@@ -154,7 +154,7 @@ protected:
   }
   void TearDown() override { EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR)); }
 
-  /// Made anew: nothing of what was traced before may matter.
+  /// Trace with new buffers and a new tracer, independent of earlier traces.
   std::vector<std::uint8_t> trace(const Occluders& occluders, const std::vector<TracedRay>& rays)
   {
     OccluderBuffers buffers;
@@ -172,7 +172,7 @@ protected:
     return std::count(blocked.begin(), blocked.end(), 1);
   }
 
-  /// Random rays against Embree.
+  /// Compare random rays with Embree.
   RayTally compare(const std::string& name, const Occluders& occluders, const ShadowLight& light,
     const ReceiverPixels& receivers)
   {
@@ -281,7 +281,7 @@ Occluders oneTriangle()
   return occluders;
 }
 
-/// At all scales and far away, too.
+/// At all scales, and far away.
 TEST_F(GpuTracerTest, AnswersAsEmbreeDoes)
 {
   SignedRandom random(3);
@@ -361,8 +361,8 @@ TEST_F(GpuTracerTest, AnswersAsEmbreeDoesOfInstances)
   all.expectAlike();
 }
 
-/// A lit plane does not shadow itself, from half of the shadow ray's offset on, wherever it lies,
-/// however large, however near the eye, however low the light.
+/// A lit plane does not shadow itself, from half of the shadow ray's offset on. That holds at any
+/// place and size, for a near eye and a low light.
 TEST_F(GpuTracerTest, LitPlanesHaveNoAcne)
 {
   SignedRandom random(19);
@@ -371,8 +371,8 @@ TEST_F(GpuTracerTest, LitPlanesHaveNoAcne)
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), tilt, { 1.0, 0.2, 0.1 });
     for (const double side : { 4.0, 20000.0 })
     {
-      // Level, it is one of the centred frame's own planes, without any noise; else something far
-      // off, below, moves the frame's origin away from it.
+      // A level plane is one of the centred frame's own planes, without noise. For other planes, a
+      // far surface below moves the frame's origin away from it.
       std::vector<Prop> props{ { makePlane(side, 3), turn } };
       if (tilt > 0.0)
       {
@@ -414,7 +414,7 @@ TEST_F(GpuTracerTest, NoRayLeavesAClosedSurface)
   {
     for (const glm::dvec3& place : { glm::dvec3(0.0), glm::dvec3(900.0, -700.0, 400.0) })
     {
-      // The second prop moves the centre away, so that corners are as coarse as the scene is large.
+      // The second prop moves the centre away, so corners are as coarse as in a large scene.
       const glm::dvec3 position = scale * place;
       const Occluders occluders = makeOccluders({ { makeSphere(60, 90, 0.2), at(position, scale) },
         { makeBox(glm::dvec3(-0.01), glm::dvec3(0.01)), at(-position, scale) } });
@@ -440,7 +440,7 @@ TEST_F(GpuTracerTest, NoRayLeavesAClosedSurface)
   }
 }
 
-/// Where corners lie exactly on a ray, edges have no sign.
+/// If corners lie exactly on a ray, edges have no sign.
 TEST_F(GpuTracerTest, NoRayLeavesABoxThroughTheCornersOfItsGrid)
 {
   constexpr int cells = 16;
@@ -451,7 +451,7 @@ TEST_F(GpuTracerTest, NoRayLeavesABoxThroughTheCornersOfItsGrid)
     const double turns = i < 4 ? 0.25 * i : 0.5 * i - 1.75;
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), glm::two_pi<double>() * turns, axis);
     sides.push_back({ makePlane(2.0, cells) });
-    for (glm::dvec3& point : sides.back().mesh.points) // exactly, whatever turning leaves of zeros
+    for (glm::dvec3& point : sides.back().mesh.points) // exactly, without the rotation's rounding
     {
       point = glm::round(512.0 * glm::dvec3(turn * glm::dvec4(point.x, point.y, 1.0, 1.0))) / 512.0;
     }
@@ -487,9 +487,9 @@ TEST_F(GpuTracerTest, NoRayLeavesABoxThroughTheCornersOfItsGrid)
   EXPECT_EQ(this->countBlocked(occluders, rays), std::ptrdiff_t(rays.size()));
 }
 
-/// A needle that points at a ray has two edges whose lines pass it by a rounding, on either side.
-/// Whoever takes a sign that rounding ate for "on the edge" has it met, far beyond its tip. These
-/// slant along the ray, so that their boxes are met.
+/// A needle that points at a ray has two edges whose lines pass the ray by a rounding, on either
+/// side. A tracer that treats a rounded-away sign as "on the edge" would find a hit far beyond the
+/// needle's tip. These needles slant along the ray, so the ray meets their boxes.
 TEST_F(GpuTracerTest, NeedlesThatPointAtARayDoNotBlockIt)
 {
   SignedRandom random(17);
@@ -580,7 +580,7 @@ TEST_F(GpuTracerTest, NothingBlocksWhereNothingCasts)
   Occluders occluders = oneTriangle();
   EXPECT_TRUE(this->trace(occluders, {}).empty());
 
-  // It stops casting, and goes, while a tracer is kept.
+  // It stops casting, and is removed, while a tracer is reused.
   OccluderBuffers buffers;
   GpuTracer tracer;
   std::vector<std::uint8_t> blocked;
@@ -602,8 +602,8 @@ TEST_F(GpuTracerTest, NothingBlocksWhereNothingCasts)
   EXPECT_EQ(blockedAfter(), std::vector<std::uint8_t>{ 0 });
 }
 
-/// The answers follow from the rays and the triangles alone: a refitted tree gives the same as one
-/// that is built, ray by ray.
+/// Answers depend on the rays and triangles alone: a refitted tree gives the same as a built one,
+/// ray by ray.
 TEST_F(GpuTracerTest, FollowsWhatMoves)
 {
   SignedRandom random(15);
@@ -645,7 +645,7 @@ TEST_F(GpuTracerTest, FollowsWhatMoves)
   EXPECT_EQ(update(), CasterBvh::Change::Refitted);
 }
 
-/// More rays than go at once, with answers that make a pattern.
+/// More rays than one batch holds, with a pattern of answers.
 TEST_F(GpuTracerTest, AnswersKeepTheOrderOfTheRays)
 {
   const Occluders occluders = oneTriangle();

@@ -8,22 +8,22 @@
 namespace gnomon::test
 {
 
-/// The share of a disk, or of what looks like one, on one side of a line at this distance from its
-/// middle, in radii.
+/// Return the share of a disk, or of an outline that looks like one, on one side of a line. The
+/// line is at this distance from its middle, in radii.
 inline double diskShare(double distance)
 {
   const double t = std::clamp(distance, -1.0, 1.0);
   return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / glm::pi<double>();
 }
 
-/// The same of a square, of a line along two of its sides, in half sides.
+/// Return the same share of a square, for a line along two of its sides, in half sides.
 inline double squareShare(double distance)
 {
   return std::clamp(0.5 + 0.5 * distance, 0.0, 1.0);
 }
 
-/// What is seen of a level lamp around (0, 0, lampHeight) from (x, 0, 0), past the edge x = 0, z =
-/// edgeHeight of a half plane that lies at x < 0. All in world units.
+/// The visible share of a level lamp around (0, 0, lampHeight) from (x, 0, 0), past the edge x = 0,
+/// z = edgeHeight of a half plane at x < 0. All lengths are in world units.
 struct LampPastEdge
 {
   double edgeHeight;
@@ -32,7 +32,7 @@ struct LampPastEdge
 
   double square(double x) const { return squareShare(this->distance(x) / this->edgeHeight); }
   double disk(double x) const { return diskShare(this->distance(x) / this->edgeHeight); }
-  /// A ball's outline lies across the way to it, so that the plane through the receiver and the
+  /// A ball's outline lies across the direction to it, so the plane through the receiver and the
   /// edge cuts it.
   double ball(double x) const
   {
@@ -46,11 +46,11 @@ private:
   }
 };
 
-/// The same of a sun in the zenith.
+/// The same for a sun in the zenith.
 struct SunPastEdge
 {
   double edgeHeight;
-  double tangent; ///< of half the angle that it is seen at
+  double tangent; ///< of half the sun's angle
 
   double square(double x) const { return squareShare(x / (this->tangent * this->edgeHeight)); }
   double disk(double x) const { return diskShare(x / (this->tangent * this->edgeHeight)); }

@@ -1,6 +1,6 @@
-// Hybrid techniques with conservative maps on scenes that show what they are about: seams between
-// triangles, holes at vertices, slivers, thin plates, open cups, poles. The exact ones are never
-// wrong, those as published where their construction is.
+// Hybrid techniques with conservative maps on characteristic scenes: seams between triangles, holes
+// at vertices, slivers, thin plates, open cups, poles. Exact techniques are never wrong. Those as
+// published are wrong where their construction is.
 
 #include "shadowtech/exact/ConservativeMaps.h"
 #include "shadowtech/published/PublishedMap.h"
@@ -30,13 +30,13 @@ namespace
 constexpr double pi = 3.14159265358979;
 constexpr int mapSizes[] = { 64, 256, 1024 };
 
-/// A sphere of triangles that are nearly alike, each point moved along its radius by up to half of
+/// A sphere of nearly equal triangles. Each point is moved along its radius by up to half of
 /// `noise`.
 Mesh makeIcosphere(int subdivisions, double noise, Random& random)
 {
   const double t = 0.5 * (1.0 + std::sqrt(5.0));
   Mesh mesh;
-  // Three golden rectangles; faces are the triples of corners that are next to each other.
+  // Three golden rectangles; faces are the triples of neighbouring corners.
   for (int axis = 0; axis < 3; ++axis)
   {
     for (int corner = 0; corner < 4; ++corner)
@@ -93,9 +93,9 @@ Mesh makeIcosphere(int subdivisions, double noise, Random& random)
   return mesh;
 }
 
-/// Bodies over a plane that do not touch each other.
+/// Make bodies over a plane that do not touch each other.
 /// @param radii of spheres around them, the least and the most
-/// @param make called for each of them; within the unit sphere
+/// @param make called for each body; it lies within the unit sphere
 std::vector<Prop> scatteredMeshes(
   int count, const glm::dvec2& radii, Random& random, const std::function<Mesh()>& make)
 {
@@ -156,7 +156,7 @@ std::vector<Prop> makeThinPlates()
     });
 }
 
-/// Open at the bottom, so that most of them faces the light.
+/// Open at the bottom, so most of the surface faces the light.
 std::vector<Prop> makeDomes()
 {
   Random random(103);
@@ -171,8 +171,8 @@ std::vector<Prop> makeDomes()
   return props;
 }
 
-/// A plate that faces down, off the map's grid, of triangles around its middle or of two. It
-/// receives nothing, as its other side is seen.
+/// Make a plate that faces down, off the map's grid, of triangles around its middle or of two
+/// triangles. It receives nothing, because its other side is visible.
 std::vector<Prop> makePlate(bool withMiddle)
 {
   Mesh plate;
@@ -184,7 +184,7 @@ std::vector<Prop> makePlate(bool withMiddle)
   return { { makePlane(2.0) }, { plate, at({ 0.0, 0.0, 0.5 }), true, false } };
 }
 
-/// What a map says of a scene's receivers, against the truth.
+/// A map's answers for a scene's receivers, against the truth.
 struct Verdict
 {
   double uncertain = 0.0; ///< share of the receivers that face the light
@@ -198,7 +198,7 @@ struct Verdict
   std::size_t wrong() const { return this->falseLight + this->falseShadow; }
 };
 
-/// A scene, what is seen of it, and the truth.
+/// A scene, its receivers, and the truth.
 class HybridScene
 {
 public:
@@ -332,7 +332,7 @@ TEST(HybridScenes, ofSliversAreSometimesWrongAsPublished)
 
 TEST(HybridScenes, ofThinPlatesHaveFalseShadowsWithNeighboursAsPublished)
 {
-  // A neighbour that is thinner than the texel does not cover the rest of it.
+  // A neighbour thinner than the texel does not cover the rest of the texel.
   HybridScene scene(makeThinPlates());
   EXPECT_GT(scene.ask(publishedCrsma, 256).falseShadow, 0u);
 }
@@ -353,13 +353,15 @@ TEST(HybridScenes, ofSpheresAreMuchLessUncertainByTheirSilhouette)
   const Verdict edges = scene.ask(silhouette, 64);
   const Verdict alone = scene.ask(crsm, 64);
   EXPECT_LE(uncertainOnGround(edges), 0.45 * uncertainOnGround(alone));
-  // Of receivers on the spheres, which cast with both sides, neither knows much at this size.
+  // For receivers on the spheres, which cast with both sides, neither rule decides many at this
+  // size.
   EXPECT_LE(edges.uncertain, 0.62 * alone.uncertain);
 }
 
 TEST(HybridScenes, withOpenDomesHaveFalseLightAsPublishedTheMoreTheFinerTheMap)
 {
-  // They face the light, and what is behind is not there: both layers agree that nothing is.
+  // The domes face the light, and no surface lies behind them: both layers agree that nothing
+  // casts.
   HybridScene scene(makeDomes());
   std::size_t before = 0;
   for (const int size : mapSizes)
@@ -413,7 +415,7 @@ TEST(HybridScenes, withContactAreRightWhereverRaysStart)
   }
 }
 
-/// How many of a fine grid of receivers under a plate are uncertain, away from its outer edges.
+/// Count the uncertain receivers of a fine grid under a plate, away from its outer edges.
 /// @param within of its middle; else everywhere
 std::size_t uncertainUnder(HybridScene& scene, const MapRule& rule, int size, double within)
 {

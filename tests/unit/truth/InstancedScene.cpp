@@ -58,7 +58,7 @@ Occluders expanded(const Occluders& instanced)
     surface.vertexCount = static_cast<std::uint32_t>(source.vertexCount * count);
     surface.triangleCount = static_cast<std::uint32_t>(source.triangleCount * count);
   }
-  result.positionsCentred.emplace_back(0.0f); // the slack that Occluders promises
+  result.positionsCentred.emplace_back(0.0f); // padding that Occluders guarantees
   return result;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scenes with instances, and the same with the triangles of all of them.
+// Scenes with instances, and the same scenes with all instances as triangles.
 
 #include "shadowtech/base/Occluders.h"
 
@@ -28,7 +28,7 @@ public:
     const double y = this->uniform();
     return { x, y, this->uniform() };
   }
-  /// Turned any way, and scaled along each axis by 10^-spread to 10^spread.
+  /// Return a matrix that turns at random, and scales each axis by 10^-spread to 10^spread.
   glm::dmat4 turned(double spread)
   {
     const glm::dmat4 turn = glm::rotate(
@@ -42,17 +42,17 @@ private:
   std::uniform_real_distribution<double> uniform_{ -1.0, 1.0 };
 };
 
-/// Makes a surface of a snapshot one with instances; its positions become source coordinates.
+/// Turn a surface of a snapshot into one with instances; its positions become source coordinates.
 void makeInstanced(Occluders& occluders, std::size_t surface,
   const std::vector<glm::dmat4>& centredFromSource, bool mirrored = false);
 
-/// The same with the triangles of all instances, numbered as VTK numbers them.
+/// Return the snapshot with the triangles of all instances, numbered like VTK's.
 Occluders expanded(const Occluders& instanced);
 
-/// A floor, and over it 60 open cups, turned and scaled in all ways.
+/// Return a floor, and over it 60 open cups, turned and scaled in all ways.
 Occluders cupsOverFloor(bool mirrored, bool oneSided);
 
-/// Gives the cups a texture with holes.
+/// Give the cups a texture with holes.
 void perforate(Occluders& occluders);
 
 } // namespace gnomon::test

@@ -1,4 +1,4 @@
-// Surfaces that are kept as instances, against the triangles of all of them.
+// Surfaces stored as instances, against the triangles of all instances.
 
 #include "shadowtech/base/Instances.h"
 
@@ -54,7 +54,7 @@ TEST(Instances, ReceiversAreThoseOfTheirTriangles)
       const glm::dvec3 off(receivers.positionX[i] - expected.positionX[i],
         receivers.positionY[i] - expected.positionY[i],
         receivers.positionZ[i] - expected.positionZ[i]);
-      // Silhouettes are met at a flat angle.
+      // Rays meet silhouettes at a flat angle.
       ASSERT_LT(glm::length(off), 2e-3);
       const glm::dvec3 normal(expected.normalX[i], expected.normalY[i], expected.normalZ[i]);
       const glm::dvec3 own(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
@@ -112,15 +112,15 @@ TEST(Instances, VisibilityIsThatOfTheirTriangles)
   EXPECT_LE(different, pixels / 100000) << "rays that meet an edge to within rounding";
 }
 
-/// No triangle of an instance shadows itself, from half of the shadow ray's offset on, however its
-/// matrix stretches, shears (as far as it may) and moves it.
+/// No triangle of an instance shadows itself, from half of the shadow ray's offset on. That holds
+/// for all matrices that stretch, shear (within their limit) and move it.
 TEST(Instances, TheOffsetHoldsThroughTheirMatrices)
 {
   SignedRandom random(11);
   EmbreeTracer tracer;
   int rays = 0;
   int dark = 0;
-  int darkWithout = 0; // what instances add
+  int darkWithout = 0; // without instanceNoise()
   while (rays < 20000)
   {
     const double size = std::pow(10.0, 2.0 * random.uniform());
@@ -188,7 +188,7 @@ TEST(Instances, TheOffsetHoldsThroughTheirMatrices)
   EXPECT_GT(darkWithout, 100) << "so that the bound is needed";
 }
 
-/// `penumbra` knows no edges of instances, and traces what may see one.
+/// `penumbra` has no edges of instances, and traces receivers that may see one.
 TEST(Instances, SoftShadowsByEdgesAreThoseOfAllRays)
 {
   for (const bool oneSided : { false, true })
@@ -244,7 +244,7 @@ TEST(Instances, MovingThemRefitsOnlyTheirPlaces)
   expectUpdate(0, 1);
   EXPECT_GT(countDifferent(before, visibility), 1000u);
 
-  // One is left out, as another surface has it; a new version of its triangles says so.
+  // One instance is left out, as if another surface had it; the triangles' new version states that.
   occluders.surfaces[1].centredFromSource[7] = glm::mat4x3(0.0f);
   occluders.surfaces[1].topologyVersion = occluders.topologyVersion += 1000000;
   expectUpdate(1, 0);

@@ -1,4 +1,4 @@
-// Kernels on warped maps: their shape is even across the light, on the CPU and in the shader.
+// Kernels on warped maps have an even shape across the light, on the CPU and in the shader.
 
 #include "EstimatorGlsl.h"
 
@@ -14,7 +14,7 @@ namespace gnomon::test
 namespace
 {
 
-/// The views of the sun, warped: the eye is so far before the map's lower side that texels at its
+/// Return the views of the sun, warped. The eye is in front of the map's lower side: texels at the
 /// upper side are (1 + 2 / eye)^2 as high, and 1 + 2 / eye as wide, as at the lower one.
 LightViews warpedViews(const ShadowLight& light, double eye)
 {
@@ -93,13 +93,13 @@ TEST(KernelShape, evenShapeIsTheJacobianOfTheSameAreaUpToTheLimit)
     }
     else
     {
-      // Along the same axes: shape^-1 wished is symmetric in them, and so is wished^T wished.
+      // Along the same axes: shape^-1 wished is symmetric in them, as is wished^T wished.
       const glm::dmat2 both = glm::transpose(shape) * wished;
       EXPECT_NEAR(both[0].y, both[1].x, 1e-6 * stretch);
     }
   }
   EXPECT_GT(limited, 100);
-  // Degenerate: all across the light lies on one line of the map.
+  // Degenerate: all points across the light lie on one line of the map.
   const glm::dmat2 flat = evenShape(glm::dmat2(1.0, 0.0, 0.0, 0.0), 3.0);
   EXPECT_NEAR(singularValues(flat).x, 3.0, 1e-9);
 }
@@ -116,7 +116,7 @@ TEST_F(KernelShapeGlsl, weighsTexelsInTheKernelsShape)
       const LightViews views = warpedViews(light, eye);
       const glm::dmat3 texelsFromAcross = texelFromAcross(views.views.front(), mapSize);
       const std::vector<glm::dvec2> places =
-        randomPlaces(40); // the stretched kernel, too, is on the map
+        randomPlaces(40); // the stretched kernel is on the map, too
       const std::vector<float> values = runGlsl(Pcf(), light, views, scattered, places);
       for (std::size_t i = 0; i < places.size(); ++i)
       {
@@ -137,13 +137,13 @@ TEST_F(KernelShapeGlsl, weighsTexelsInTheKernelsShape)
   }
 }
 
-/// What is seen of an edge across the light, as a mean over where it lies among the texels.
+/// The visible profile of an edge across the light, as a mean over its places among the texels.
 struct EdgeProfile
 {
   double step;
   std::vector<double> lit;
 
-  /// From 10 % to 90 % lit.
+  /// Return the width from 10 % to 90 % lit.
   double width() const
   {
     const auto reaches = [&](double value)
@@ -153,7 +153,7 @@ struct EdgeProfile
     };
     return reaches(0.9) - reaches(0.1);
   }
-  /// The width of a box that spreads an edge as much: what counts where taps make stairs.
+  /// Return the width of a box that spreads an edge as much; it applies where taps make stairs.
   double spread() const
   {
     double mean = 0.0;
@@ -169,8 +169,8 @@ struct EdgeProfile
   }
 };
 
-/// @param axis which the edge stands across, 0 or 1
-/// @param range of what is looked at around the edge
+/// @param axis the axis that the edge stands across, 0 or 1
+/// @param range evaluated around the edge
 EdgeProfile edgeAt(const ShadowLight& light, const LightViews& views, const glm::dvec2& across,
   int axis, double range = 0.5)
 {
@@ -202,7 +202,8 @@ EdgeProfile edgeAt(const ShadowLight& light, const LightViews& views, const glm:
   return { range / steps, profile };
 }
 
-/// Near and far on a map whose texels are 1.6 to 3.5 times as high as wide, or the other way round.
+/// Near and far places of a map whose texels are 1.6 to 3.5 times as high as wide, or as wide as
+/// high.
 TEST_F(KernelShapeGlsl, warpedMapsBlurAsEvenlyAsPlainOnesAndAsWidelyAsIsAskedFor)
 {
   const ShadowLight square = filteredSun("bilinear", 5);
@@ -232,7 +233,7 @@ TEST_F(KernelShapeGlsl, warpedMapsBlurAsEvenlyAsPlainOnesAndAsWidelyAsIsAskedFor
         << kernel << " at " << y << ", texels of " << aspect;
       for (const int axis : { 0, 1 })
       {
-        const glm::dvec2 inside(0.0, std::max(y, -0.5)); // so that all of the kernel is on the map
+        const glm::dvec2 inside(0.0, std::max(y, -0.5)); // all of the kernel is then on the map
         EXPECT_NEAR(edgeAt(wide, views, inside, axis, 0.9).spread() / expected, 1.0, 0.15)
           << kernel << " at " << inside.y << ", axis " << axis;
       }
@@ -242,7 +243,7 @@ TEST_F(KernelShapeGlsl, warpedMapsBlurAsEvenlyAsPlainOnesAndAsWidelyAsIsAskedFor
 
 TEST_F(KernelShapeGlsl, aBoxOfAnyWidthHasOneLevelMoreThanTaps)
 {
-  // What the survey calls the offset scale: the taps of a box lie farther apart than texels.
+  // The survey's offset scale: the taps of a box lie farther apart than texels.
   const Map halfPlane = [](const glm::ivec2& texel) { return texel.x >= mapSize / 2; };
   for (const int texels : { 1, 3, 5, 11 })
   {

@@ -1,4 +1,4 @@
-// light_views.glsl against its twins in lights/.
+// Compare light_views.glsl with its twins in lights/.
 
 #include "shadowtech/base/LightViewsGlsl.h"
 
@@ -25,15 +25,15 @@ class LightViewsGlsl : public GlslTest
 {
 };
 
-/// What light_views.glsl says of a point.
+/// The results of light_views.glsl for a point.
 struct FoundView
 {
   glm::vec4 inFace;    ///< the point in its face, with the face
-  glm::vec4 seen;      ///< texel, view, and whether the point is in the light's reach
-  glm::vec4 onCubeMap; ///< of a cube texel, view and face of who looks around
+  glm::vec4 seen;      ///< texel, view, and if the light reaches the point
+  glm::vec4 onCubeMap; ///< texel, view and face of a lookup on the whole cube
 };
 
-/// Runs light_views.glsl for a light on points of its own space.
+/// Run light_views.glsl for a light on points of its own space.
 std::vector<FoundView> runLightViews(
   const ShadowLight& light, const LightViews& views, int size, const std::vector<glm::vec4>& points)
 {
@@ -70,7 +70,7 @@ std::vector<glm::vec4> randomPoints()
     const float x = uniform(random);
     const float y = uniform(random);
     glm::vec3 point(x, y, uniform(random));
-    // Some of them exactly on the borders of faces.
+    // Some points lie exactly on the borders of faces.
     point = i % 10 == 0 ? glm::vec3(point.x, point.x, point.z) : point;
     point = i % 10 == 1 ? glm::vec3(point.x, -point.z, point.z) : point;
     points.emplace_back(point, 1.0f);
@@ -82,7 +82,7 @@ TEST_F(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
 {
   constexpr int size = 64;
   const ShadowLight light = pointLight({ 0.0, 0.0, 0.0 });
-  // Nothing above the light and to its left, so that there are faces without a view.
+  // No casters above the light and to its left, so some faces have no view.
   const LightViews views = fitLightViews(
     light, { glm::dvec3(0.0), { { 0.1, -1.0, -1.0 }, { 1.0, 1.0, -0.9 } }, {}, { size, 1 }, {} });
   ASSERT_GT(views.views.size(), 1u);
@@ -111,7 +111,7 @@ TEST_F(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
     EXPECT_EQ(outputs[i].seen.z, inside ? static_cast<float>(view) : -1.0f);
     found += inside ? 1 : 0;
 
-    // Who looks around has a place for every point, on a map or beside one.
+    // A lookup on the whole cube has a place for every point, on a map or beside one.
     const int around = view == LightViews::noView ? 0 : view;
     const glm::dvec2 place =
       mapped(texelFromAcross(views.views[static_cast<std::size_t>(around)], size),
@@ -169,7 +169,7 @@ TEST_F(LightViewsGlsl, FindsTheFirstSplitThatHoldsAPointAndItsBorder)
   {
     int expected = -1;
     glm::dvec2 texel(-1.0);
-    bool close = false; // to a border, where float may see it on either side
+    bool close = false; // close to a border, where float may decide either side
     for (int view = 0; view < 4 && expected < 0; ++view)
     {
       const glm::dmat3 matrix = texelFromAcross(views.views[static_cast<std::size_t>(view)], size);

@@ -1,4 +1,4 @@
-// The estimators over moments and the blur against twins in double precision.
+// The estimators over moments and the blur, against twins in double precision.
 
 #include "EstimatorGlsl.h"
 
@@ -21,7 +21,7 @@ namespace gnomon::test
 namespace
 {
 
-/// Depths in [0, 1] and how much of a kernel each of them covers.
+/// A depth in [0, 1] and the share of a kernel that it covers.
 struct Covered
 {
   double depth;
@@ -34,7 +34,7 @@ double centred(double depth)
   return 2.0 * depth - 1.0;
 }
 
-/// The mean of a function of the centred depths.
+/// Return the mean of a function of the centred depths.
 double mean(const CoveredDepths& depths, const std::function<double(double)>& function)
 {
   double sum = 0.0;
@@ -45,11 +45,11 @@ double mean(const CoveredDepths& depths, const std::function<double(double)>& fu
   return sum;
 }
 
-/// An estimator over moments, and what these are.
+/// An estimator over moments, and its moments.
 struct MomentsTwin
 {
   MomentEstimator estimator;
-  glm::dvec4 (*moments)(const CoveredDepths&); ///< as the map has them
+  glm::dvec4 (*moments)(const CoveredDepths&); ///< as stored in the map
 };
 
 glm::dvec4 powers(const CoveredDepths& depths)
@@ -110,15 +110,14 @@ ShadowLight sun(double bleeding, int kernelTexels = 1)
   return light;
 }
 
-/// A receiver: where it is on the map in texels, and its depth.
+/// A receiver: its place on the map in texels, and its depth.
 struct PlaneReceiver
 {
   glm::dvec2 place;
   double depth;
 };
 
-/// What the technique's shader answers at points of a map of a directional light, on planes across
-/// it.
+/// Run the technique's shader at points of a map of a directional light, on planes across it.
 /// @param map the moments of each texel
 std::vector<float> estimate(const MomentsTwin& twin, const ShadowLight& light,
   const std::vector<glm::vec4>& map, const std::vector<PlaneReceiver>& receivers)
@@ -140,7 +139,7 @@ std::vector<float> estimate(const MomentsTwin& twin, const ShadowLight& light,
     { 0.0f, 0.0f, 1.0f }, std::move(uniforms));
 }
 
-/// At points of these depths, over a map that holds the same moments everywhere.
+/// Run it at points of these depths, over a map with the same moments everywhere.
 std::vector<float> estimate(const MomentsTwin& twin, double bleeding, const CoveredDepths& depths,
   const std::vector<double>& receiverDepths)
 {
@@ -184,7 +183,7 @@ TEST_P(MomentsGlsl, areVisibilitiesForAllDepths)
     double sum = 0.0;
     for (int i = 0; i <= trial % 5; ++i)
     {
-      // Also at the ends, and two of the same.
+      // Also at the ends, and with two equal depths.
       const double depth = trial % 7 == 0 ? std::round(number()) : number();
       depths.push_back({ depth, number() + 1e-3 });
       sum += depths.back().share;
@@ -199,7 +198,7 @@ TEST_P(MomentsGlsl, areVisibilitiesForAllDepths)
     {
       ASSERT_TRUE(answers[i] >= 0.0f && answers[i] <= 1.0f)
         << answers[i] << " at " << receivers[i] << ", trial " << trial;
-      // The bound: no less than what lies as far as the receiver.
+      // Bound: at least the share of depths as far as the receiver or farther.
       double behind = 0.0;
       for (const Covered& covered : depths)
       {
@@ -214,8 +213,8 @@ TEST_P(MomentsGlsl, areVisibilitiesForAllDepths)
 
 TEST_P(MomentsGlsl, filterAsASquareAroundThePlaceDoes)
 {
-  // Half of the map is covered. The map is blurred on the CPU; bilinear filtering makes of boxes of
-  // even and of odd width a square around the place.
+  // Half of the map is covered, and the map is blurred on the CPU. Bilinear filtering turns boxes
+  // of even and of odd width into a square around the place.
   for (const int texels : { 1, 2, 3, 6 })
   {
     std::vector<glm::vec4> map;
@@ -270,7 +269,7 @@ TEST_P(MomentsGlsl, ofADepthAreTheMeansOverItsSpread)
       ASSERT_TRUE(std::isfinite(answers[i][channel]));
       ASSERT_LE(std::abs(answers[i][channel]), 1e37f) << "32 of them must not overflow";
     }
-    // In the exponential's own terms: the spread is linear there.
+    // In the exponential's own units, the spread is linear.
     const double half = 0.5 * inputs[i].y;
     const glm::dvec4 flat = this->GetParam().moments({ { inputs[i].z, 1.0 } });
     glm::dvec4 expected =
@@ -311,7 +310,7 @@ TEST_P(MomentsGlsl, ofNoCasterAreThoseOfDepthOne)
 
 TEST_P(MomentsGlsl, bleedThroughTwoCastersAsChebyshevSays)
 {
-  // Casters at depths 0 and 1, half covered each, and a receiver at 1 + k, which should be dark.
+  // Casters at depths 0 and 1, half covered each. A receiver at 1 + k should be dark.
   constexpr double unit = 0.3;
   std::vector<double> receivers;
   for (const double k : { 0.05, 0.1, 0.25, 0.5, 1.0, 2.0 })
@@ -336,7 +335,7 @@ TEST_P(MomentsGlsl, bleedThroughTwoCastersAsChebyshevSays)
       EXPECT_LT(all[i], expected[i]);
       EXPECT_LE(cut[i], expectedCut[i]);
     }
-    // Four moments tell two depths and the receiver's apart.
+    // Four moments can tell two depths and the receiver's apart.
     EXPECT_TRUE(name != "moments" || all[i] <= 0.01f);
   }
 }
@@ -349,7 +348,7 @@ struct LayeredMap
   std::vector<glm::vec4> texels;
   inline static const glm::vec4 empty{ 1.0f, 0.5f, -1.0f, 0.25f };
 
-  /// Random values between -largest and largest.
+  /// Return random values between -largest and largest.
   static LayeredMap random(int size, int count, const glm::vec4& largest = glm::vec4(1.0f))
   {
     std::mt19937 random(11);
@@ -364,7 +363,7 @@ struct LayeredMap
     return layers;
   }
 
-  /// The mean over a rectangle, by all of its texels.
+  /// Return the mean over a rectangle, by all of its texels.
   glm::dvec4 mean(const glm::dvec2& lower, const glm::dvec2& upper, int layer) const
   {
     const auto covered = [](double from, double to, int texel)
@@ -384,7 +383,7 @@ struct LayeredMap
   }
 };
 
-/// The largest difference of any channel, in units.
+/// Return the largest difference of any channel, in units.
 double differenceOf(const glm::vec4& answer, const glm::dvec4& expected, const glm::dvec4& units)
 {
   const glm::dvec4 off = glm::abs(glm::dvec4(answer) - expected) / units;
@@ -429,7 +428,7 @@ TEST_F(MomentMapsGlsl, boxBlurIsTheMeanOverTheBox)
 
 /// Compare a summed-area table with sums over all texels, in rectangles around random places.
 /// @param lower,upper bounds of the places' coordinates, which are sixteenths of texels
-/// @param units of differences; 0: the expected values
+/// @param units of differences; 0: relative to the expected values
 /// @return the largest difference
 double worstOfTable(const SummedAreaTable& table, const LayeredMap& map, int layer,
   const glm::dvec2& sides, int count, double lower, double upper, const glm::dvec4& units)
@@ -472,7 +471,7 @@ void sumUp(SummedAreaTable& table, const LayeredMap& map, const glm::vec4& large
   }
 }
 
-/// Of any place and any sides, also beyond the layer.
+/// Any place and any sides, also beyond the layer.
 TEST_F(MomentMapsGlsl, summedAreaTableIsTheMeanOverARectangle)
 {
   const glm::vec4 largest(1.0f, 2.0f, 4.0f, 8.0f);
@@ -493,8 +492,8 @@ TEST_F(MomentMapsGlsl, summedAreaTableIsTheMeanOverARectangle)
   }
 }
 
-/// Sums over a map of 1024, of which floats would lose a thousandth: a plane, whose texels are all
-/// rounded the same way, and a noisy slope.
+/// Sums over a map of 1024, of which floats would lose a thousandth. Tested with a plane, whose
+/// texels are all rounded the same way, and with a noisy slope.
 TEST_F(MomentMapsGlsl, summedAreaTableOfALargeMapLosesNoDigits)
 {
   constexpr int size = 1024;
@@ -510,7 +509,7 @@ TEST_F(MomentMapsGlsl, summedAreaTableOfALargeMapLosesNoDigits)
   {
     SummedAreaTable table;
     sumUp(table, map, { 1.0f, 2.0f, 4.0f, 8.0f }, width);
-    // Row 23 of the literature's table asks for 1e-4.
+    // Row 23 of the literature's table requires 1e-4.
     EXPECT_LE(
       worstOfTable(table, map, 0, glm::dvec2(width), 200, width, size - width, glm::dvec4(0.0)),
       1e-6)

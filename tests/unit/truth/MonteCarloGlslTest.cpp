@@ -1,4 +1,4 @@
-// What `montecarlo` computes on the GPU, against twins.
+// The GLSL of `montecarlo`, against twins.
 
 #include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
@@ -114,7 +114,7 @@ struct RayLine
 class SlabMap
 {
 public:
-  /// Random ones, two in a texel.
+  /// Random slabs, two in a texel.
   SlabMap(int side, int boxes, std::mt19937& random)
     : side_(side)
     , slabs_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side),
@@ -167,7 +167,7 @@ public:
   GLuint texture() const { return this->texture_.name(); }
   int side() const { return this->side_; }
 
-  /// The extrema over a square of texels, cut by [0, whole)^2, as slab_bounds.comp.glsl has them.
+  /// Return the extrema over a square of texels, cut by [0, whole)^2, like slab_bounds.comp.glsl.
   /// Texels beyond the map have no slab.
   glm::vec4 bounds(const glm::ivec2& lower, int size, int whole)
   {
@@ -189,7 +189,7 @@ public:
     return result;
   }
 
-  /// Whether a line meets a slab, texel by texel in the order of its crossings, in double
+  /// True if a line meets a slab; tested texel by texel in the order of its crossings, in double
   /// precision.
   bool meets(const glm::dvec3& begin, const glm::dvec3& end)
   {
@@ -230,8 +230,8 @@ public:
     return false;
   }
 
-  /// Whether lines this near to one all meet a slab, or all do not: 1e-4 of a texel, and 1e-6 in
-  /// depth. Others pass a texel's corner, or touch a slab, to within rounding.
+  /// True if lines this near all meet a slab, or all do not: 1e-4 of a texel, and 1e-6 in depth.
+  /// Other lines pass a texel's corner, or touch a slab, to within rounding.
   bool isDecided(const RayLine& line)
   {
     const glm::dvec3 begin(line.begin);
@@ -291,7 +291,7 @@ TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
       const int trials = std::clamp(10000000 / (size * size), 10, 2000);
       for (int i = 0; i < trials; ++i)
       {
-        // The corners, too.
+        // Including the corners.
         const auto place = [&](int end)
         {
           return i % 5 == 0 ? (this->random_() % 2 ? end - 1 : 0)
@@ -309,7 +309,7 @@ TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
 }
 
 //------------------------------------------------------------------------------
-/// Lines of any length from behind to before all slabs.
+/// Return lines of any length from behind to before all slabs.
 std::vector<RayLine> randomLines(int side, std::size_t count, std::mt19937& random)
 {
   const auto number = [&] { return static_cast<float>(random() / 4294967296.0); };
@@ -326,7 +326,7 @@ std::vector<RayLine> randomLines(int side, std::size_t count, std::mt19937& rand
   return lines;
 }
 
-/// Which lines meet a slab.
+/// Return which lines meet a slab.
 std::vector<bool> walksOf(SlabMap& map, const std::vector<RayLine>& lines)
 {
   std::vector<bool> met;
@@ -337,7 +337,7 @@ std::vector<bool> walksOf(SlabMap& map, const std::vector<RayLine>& lines)
   return met;
 }
 
-/// A search's source.
+/// Return a search's source.
 std::string searchGlsl(const std::string& cellsVisited)
 {
   return monteCarloGlsl("slab_search.glsl", "mat2x4", "uvec2",
@@ -353,12 +353,12 @@ std::vector<Uniform> searchUniforms(GLuint slabs, int side, const SlabBounds& bo
     { "topLevel", bounds.topLevel() } };
 }
 
-/// What the hierarchical searches find.
+/// Results of the hierarchical searches.
 struct Searched
 {
   std::string kind;
   int topLevel;
-  std::vector<glm::uvec2> found; ///< x: whether there is a slab; y: cells that were looked at
+  std::vector<glm::uvec2> found; ///< x: 1 if there is a slab; y: visited cells
   double meanVisits = 0.0;
   unsigned int mostVisits = 0;
 };
@@ -406,7 +406,7 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
         }
       }
       EXPECT_LE(differing, lines.size() / 10000) << searched.kind << ", " << boxes << " boxes";
-      // Sixty boxes, each as wide as a sixth of the map on the mean, are a maze.
+      // Sixty boxes, each a sixth of the map wide on average, form a maze.
       EXPECT_LT(searched.meanVisits, boxes == 6 ? 4.0 : 16.0) << searched.kind << ", " << boxes;
       EXPECT_LT(searched.mostVisits, (64u + 8u * 128u) / 4u) << "far from where it gives up";
     }
@@ -414,8 +414,8 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
 }
 
 //------------------------------------------------------------------------------
-/// Rays that begin inside of what is solid need no test of their own: the search sees it in the
-/// first texel.
+/// Rays that begin inside a solid need no test of their own: the search finds that in the first
+/// texel.
 TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
 {
   SlabMap map(128, 60, this->random_);
@@ -424,7 +424,7 @@ TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
   {
     const glm::vec4 texel = map.at(static_cast<int>(line.begin.x), static_cast<int>(line.begin.y));
     line.begin.z = 0.5f * (texel.x + texel.y);
-    if (line.begin.z != 0.0f) // in an empty one, before all slabs
+    if (line.begin.z != 0.0f) // begins in an empty texel or before all slabs
     {
       lines.push_back(line);
     }
@@ -474,7 +474,7 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
   const auto number = [&] { return 2.0 * this->uniform() - 1.0; };
   while (lines.size() < 10000)
   {
-    // About two texels before the ground, and as far as there are casters.
+    // From about two texels before the ground to the end of the casters.
     const double x = 3.0 * number();
     const glm::vec4 begin = inRaySpace({ x, 3.0 * number(), 0.05 });
     const double across = number();
@@ -498,9 +498,9 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
 }
 
 //------------------------------------------------------------------------------
-/// Boxes between depths of 5 and 20 under an eye, as a map with two layers has them, and rays from
-/// the ground at 20 to a light at 1 that fills the map's frustum there: the geometry of the rates
-/// that the linear search was specified with.
+/// Boxes between depths of 5 and 20 under an eye, as a map with two layers holds them. Rays go from
+/// the ground at 20 to a light at 1 that fills the map's frustum there. The linear search's rates
+/// were specified with this geometry.
 struct BoxesUnderALight
 {
   static constexpr int side = 256;
@@ -524,7 +524,8 @@ struct BoxesUnderALight
     }
   }
 
-  /// The first and the last depth along the eye's ray through a texel's centre, in ray space.
+  /// Return the first and the last depth along the eye's ray through a texel's centre, in ray
+  /// space.
   glm::vec2 slabAt(const glm::ivec2& texel) const
   {
     const glm::dvec2 across =
@@ -549,7 +550,7 @@ struct BoxesUnderALight
     return slab;
   }
 
-  /// Cut where there are no casters, as `montecarlo` cuts its rays.
+  /// Cut the ray where no casters are, like `montecarlo`.
   static std::vector<RayLine> rays(std::size_t count, std::mt19937& random)
   {
     const auto place = [&] {
@@ -568,23 +569,22 @@ struct BoxesUnderALight
   }
 };
 
-/// Rates are means over maps, since those of single ones lie between none and thrice as much. Boxes
-/// have sides that give the share of rays that meet something, 17.2 and 3.8 %, with which the rates
-/// were specified.
+/// Rates are means over maps: those of single maps lie between none and three times as much. The
+/// boxes' sides give the specified shares of rays with a hit, 17.2 and 3.8 %.
 TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
 {
   struct Rate
   {
     int steps;
-    double specified; ///< the share of all rays that are missed
+    double specified; ///< the share of all rays whose hit is missed
     double misses = 0.0;
   };
   struct Case
   {
     int boxes;
-    double least; ///< of a box's sides, and so on
+    double least; ///< of a box's sides
     double greatest;
-    double hits; ///< specified, too
+    double hits; ///< specified share of rays with a hit
     std::vector<Rate> rates;
   };
   Case cases[] = { { 6, 1.0, 2.8, 0.172, { { 8, 0.0015 }, { 32, 0.0004 } } },
@@ -627,14 +627,14 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
 }
 
 //------------------------------------------------------------------------------
-/// Pixels of surfaces across the view, for the filter.
+/// Pixels of surfaces across the view, as input of the filter.
 struct FilteredPicture
 {
   static constexpr int side = 70;   ///< some tiles of 16 and a part of one
   std::vector<glm::vec4> fragments; ///< as ReceiverTarget has them
   std::vector<glm::vec4> points;
   std::vector<glm::vec4> visibility; ///< x, and y: the class
-  std::vector<glm::vec4> slopes;     ///< xyz: what rays know of its gradient: nothing
+  std::vector<glm::vec4> slopes;     ///< xyz: its gradient by rays; 0: unknown
 
   FilteredPicture()
   {
@@ -646,13 +646,14 @@ struct FilteredPicture
       this->slopes.emplace_back(0.0f);
     }
   }
-  /// How far right of the middle a pixel's centre is.
+  /// Return a pixel centre's distance to the right of the middle, in pixels.
   static float across(std::size_t pixel)
   {
     return static_cast<float>(static_cast<int>(pixel) % side - side / 2) + 0.5f;
   }
-  /// Both passes of visibility_filter.frag.glsl, for 3 x 3 rays and 5 pixels. Pixels are of side 1.
-  /// @param inTiles in those that are not left out, as VisibilityFilter does
+  /// Run both passes of visibility_filter.frag.glsl, for 3 x 3 rays and 5 pixels. Pixels have side
+  /// 1.
+  /// @param inTiles only in tiles that are not left out, like VisibilityFilter
   std::vector<float> filtered(ShaderLibrary& library, bool inTiles = false) const
   {
     GlTexture textures[7];
@@ -669,7 +670,7 @@ struct FilteredPicture
     const TextureBinding places = allocated(1, this->points.data());
     const TextureBinding unfiltered = allocated(2, this->visibility.data());
     const TextureBinding ofPixels = allocated(3, this->slopes.data());
-    // What is left out of the rows must not be read.
+    // Rows that are left out must not be read.
     const std::vector<glm::vec4> nothing(this->visibility.size(), glm::vec4(std::nanf("")));
     const TextureBinding rows = allocated(4, nothing.data()), ofRows = allocated(5, nothing.data());
     const TextureBinding result = allocated(6, this->visibility.data());
@@ -715,13 +716,13 @@ struct FilteredPicture
   }
 };
 
-/// The error of values: root mean square, and maximum.
+/// The error of values: root mean square and maximum.
 struct Off
 {
   double rms = 0.0;
   double most = 0.0;
 };
-/// @param of whether a pixel counts
+/// @param of true for pixels that count
 Off offFrom(
   const std::vector<float>& values, const std::vector<glm::vec4>& truth,
   const std::function<bool(std::size_t)>& of = [](std::size_t) { return true; })
@@ -770,7 +771,7 @@ TEST_F(MonteCarloGlsl, filterKeepsEdgesOfSurfacesAndOfShadows)
   {
     const bool left = FilteredPicture::across(i) < 0.0f;
     gap.points[i].z = left ? -10.0f : -110.0f;
-    // To the right a surface that stands along the view: its normal is x.
+    // To the right is a surface that stands along the view: its normal is x.
     crease.fragments[i].z = left ? 0.0f : 1.0f;
     crease.points[i].w = left ? 1.0f : 0.0f;
     decided.visibility[i].y = 2.0f; // by bounds
@@ -795,7 +796,7 @@ TEST_F(MonteCarloGlsl, filterKeepsNarrowPenumbrae)
   EXPECT_LE(offFrom(ramp.filtered(this->library_), ramp.visibility).most, 0.025);
 }
 
-/// A penumbra keeps its width, and loses noise along it.
+/// A penumbra keeps its width, and loses noise along its edge.
 TEST_F(MonteCarloGlsl, filterGoesAlongPenumbraeWhoseSlopeRaysTell)
 {
   FilteredPicture ramp, noisy;
@@ -814,8 +815,8 @@ TEST_F(MonteCarloGlsl, filterGoesAlongPenumbraeWhoseSlopeRaysTell)
   EXPECT_LT(offFrom(noisy.filtered(this->library_), ramp.visibility, within(3.6f)).rms, 0.017);
 }
 
-/// Tiles that are left out would not change, and are not read: pictures are all lit or all dark by
-/// bounds but for a few pixels that rays have decided, near the tiles' sides and corners.
+/// Tiles that are left out would not change, and are not read. Pictures are all lit or all dark by
+/// bounds, except for a few pixels decided by rays near the tiles' sides and corners.
 TEST_F(MonteCarloGlsl, filterLeavesOutOnlyTilesThatStayAsTheyAre)
 {
   int changed = 0;
@@ -877,7 +878,7 @@ TEST(RaySpace, stepsBackUntilItsConeHoldsTheLight)
     EXPECT_EQ(lightOfMap(light).positionWorld.z, 10.0 + distanceToProjectionPoint(light));
   }
 
-  // Lines between points of the cone and of the light stay in the cone from there.
+  // Lines from points of the cone to points of the light stay in the cone.
   const ShadowLight seen = lightOfMap(light);
   std::mt19937 random(3);
   const auto number = [&] { return 2.0 * (random() / 4294967296.0) - 1.0; };
@@ -920,7 +921,7 @@ TEST(RaySpace, keepsLinesStraightAndDepthsInOrder)
     EXPECT_GT(a.z, b.z) << "farther from the light";
     const double share = (between.z - a.z) / (b.z - a.z);
     EXPECT_LT(glm::length(between - glm::mix(a, b, share)), 1e-10);
-    // Where the map has it.
+    // The place in the map.
     const glm::dvec3 inView(view.rays.viewFromCentred * glm::dvec4(from, 1.0));
     const glm::dvec2 texel = mapped(texelFromAcross(view, 256), view.rays.across(inView));
     EXPECT_LT(glm::distance(glm::dvec2(a), texel), 1e-9);

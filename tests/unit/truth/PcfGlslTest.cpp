@@ -1,4 +1,4 @@
-// pcf_estimator.glsl against a twin: which texels each kernel reads, with which weights.
+// pcf_estimator.glsl against a twin: the texels that each kernel reads, and their weights.
 
 #include "EstimatorGlsl.h"
 
@@ -15,7 +15,7 @@ namespace gnomon::test
 namespace
 {
 
-/// What the shader answers on a map of a sun above.
+/// Run the shader on a map of a sun above.
 std::vector<float> runPcf(
   const ShadowLight& light, const Map& map, const std::vector<glm::dvec2>& places)
 {
@@ -58,13 +58,13 @@ TEST_F(PcfGlsl, boxCountsTheNearestTexels)
         });
       different += std::abs(values[i] - expected) < 1e-6 ? 0 : 1;
     }
-    // Of places within rounding of a texel's border, the twin may take the other texel.
+    // At places within rounding of a texel's border, the twin may take the other texel.
     EXPECT_LE(different, 2u) << texels << " texels";
   }
 }
 
-/// Castano's filters of 3 x 3 and 5 x 5 texels as he gives them: bilinear look-ups in each
-/// direction, by where the point lies between two texels.
+/// Castano's published filters of 3 x 3 and 5 x 5 texels: bilinear lookups in each direction, by
+/// the point's place between two texels.
 struct Lookup
 {
   double place; ///< texels from the first of the two texels
@@ -86,7 +86,7 @@ std::vector<Lookup> castanoLookups(int texels, double s)
     { (7 * s + 5) / (11 * s + 17) + 1, 11 * s + 17 }, { s / (5 * s + 1) + 3, 5 * s + 1 } };
 }
 
-/// What a texture unit's bilinear filter of comparisons answers.
+/// Return the result of a texture unit's bilinear filter of comparisons.
 double litBilinear(const Map& map, const glm::dvec2& place)
 {
   return litShare(map, [&](const glm::ivec2& texel) { return covered(texel, place, 1.0); });
@@ -155,7 +155,7 @@ TEST_F(PcfGlsl, poissonReadsATurnedDisc)
 
 TEST_F(PcfGlsl, theMapsEndIsReadAgainWhereAKernelIsWider)
 {
-  // The whole border is covered, as no view would have it.
+  // The whole border is covered, unlike in any real view.
   const Map everywhere = [](const glm::ivec2&) { return true; };
   const Map nowhere = [](const glm::ivec2&) { return false; };
   const std::vector<glm::dvec2> places = { { 0.5, 0.5 }, { 63.9, 0.1 }, { 63.5, 63.5 } };
@@ -187,7 +187,7 @@ TEST(PoissonDisc, isEvenlyScattered)
 
 TEST_F(PcfGlsl, turningTheDiscKeepsTheMean)
 {
-  // Half of the plane is dark: the mean along the edge is one half, whatever the angles.
+  // Half of the plane is dark: the mean along the edge is one half, for any angles.
   const Map halfPlane = [](const glm::ivec2& texel) { return texel.x >= mapSize / 2; };
   std::vector<glm::dvec2> places;
   for (int y = 0; y < 4 * 40; ++y)

@@ -1,4 +1,4 @@
-// pcss_estimator.glsl on maps that are given: its early out, its reads of the map, and its points.
+// pcss_estimator.glsl on given maps: its early out, its reads of the map, and its points.
 
 #include "EstimatorGlsl.h"
 #include "HalfPlane.h"
@@ -27,7 +27,7 @@ namespace
 
 constexpr double pcssSlack = 1e-6;
 
-/// A light of the cube [-1, 1]^3 and the name that tests call it by.
+/// A light of the cube [-1, 1]^3 and its name in tests.
 struct AreaCase
 {
   const char* name;
@@ -50,8 +50,8 @@ std::vector<AreaCase> areaCases()
   spot.positionWorld = -4.0 * travel;
   spot.directionWorld = travel;
   spot.coneAngleDegrees = 40.0;
-  // One face of their cubes sees all casters. Rectangles stand at a slant to it; the plane of a
-  // steep one cuts through it.
+  // One face of their cubes sees all casters. Rectangles are oblique to it; the plane of a steep
+  // one cuts through it.
   ShadowLight wide = spot;
   wide.coneAngleDegrees = 75.0;
   wide.positionWorld = { 1.5, -1.2, 4.0 };
@@ -90,7 +90,7 @@ float slope(const glm::ivec2& texel)
   return texel.x < mapSize / 2 ? 0.3f + 0.004f * static_cast<float>(texel.x) : 1.0f;
 }
 
-/// Something above every level receiver, but some of it so low that it hides only its own ray.
+/// A caster above every level receiver, with parts so low that they hide only their own ray.
 float layers(const glm::ivec2& texel)
 {
   const unsigned bits = static_cast<unsigned>(texel.x * 73 + texel.y * 1009) * 2654435761u;
@@ -104,7 +104,7 @@ struct Receiver
   glm::dvec3 normal;
 };
 
-/// A light's first view of a cube that casts, as the only one.
+/// Return a light's first view of a cube that casts, as the only view.
 LightViews firstView(const ShadowLight& light)
 {
   LightViews views = fitLightViews(
@@ -117,7 +117,7 @@ LightViews firstView(const ShadowLight& light)
   return views;
 }
 
-/// Receivers on a plane that is tilted towards the light's first view.
+/// Return receivers on a plane that is tilted towards the light's first view.
 std::vector<Receiver> receiversOf(const LightViews& views, const glm::dvec2& tilt)
 {
   const LightView& view = views.views.front();
@@ -144,7 +144,7 @@ std::vector<Receiver> receiversOf(const LightViews& views, const glm::dvec2& til
       const int face = cubeFaceOf(glm::dvec3(positionLight));
       if (views.viewOfFace[static_cast<std::size_t>(face)] != 0)
       {
-        continue; // another face's
+        continue; // on another face
       }
     }
     receivers.push_back(receiver);
@@ -152,7 +152,7 @@ std::vector<Receiver> receiversOf(const LightViews& views, const glm::dvec2& til
   return receivers;
 }
 
-/// What a technique's GLSL answers at receivers on a map.
+/// Run a technique's GLSL at receivers on a map.
 std::vector<float> run(const PointwiseTechnique& technique, const ShadowLight& light,
   const LightViews& views, const Depths& depths, const std::vector<Receiver>& receivers)
 {
@@ -238,8 +238,8 @@ private:
   Changes changes_;
 };
 
-/// The texels of the map that the shader itself reads for receivers, counted as it runs. They have
-/// a pixel each for themselves.
+/// Counts of texels of the map that the shader itself reads for receivers. Each receiver has its
+/// own pixel.
 struct Reads
 {
   int fewest = 1000000;
@@ -291,8 +291,8 @@ TEST_F(PcssReads, areThoseOfItsPresets)
     const auto samples = static_cast<PcssSamples>(preset);
     const ShadowLight light = withSettings(areaCases().front().light, samples, EarlyOut::None);
     const auto [search, filter] = expected[preset];
-    // The receiver's own texel, the search, and the filter; where that finds nothing it has
-    // searched. What bounds decide reads none of the map.
+    // The reads are the receiver's own texel, the search, and the filter. Receivers without
+    // blockers are searched, too. Receivers decided by bounds read no texels of the map.
     for (const Depths& depths : { cover, nothing })
     {
       const Reads plain = readsOf(light, depths, {});
@@ -300,7 +300,7 @@ TEST_F(PcssReads, areThoseOfItsPresets)
       EXPECT_EQ(plain.most, 1 + search + filter);
       EXPECT_EQ(readsOf(withSettings(light, samples, EarlyOut::Exact), depths, {}).most, 0);
     }
-    // The filter searches, too, and looks at two depths, at each of them five times at most.
+    // The filter searches, too, and compares two depths, at most five times at each.
     const Reads mixed = readsOf(light, layers, {});
     EXPECT_GE(mixed.fewest, 1 + search + filter);
     EXPECT_GT(mixed.most, 1 + search + filter);
@@ -322,7 +322,7 @@ TEST_P(PcssGlsl, readsGrowFromLowToHighAndShrinkByTheEarlyOut)
   }
 }
 
-/// Pcss that returns a property of the points of a receiver's cell.
+/// Return Pcss with a shader that outputs a property of the points of a receiver's cell.
 /// @param statements of GLSL, which may use the cell's `pattern` and `none`, a plane that hides
 /// nothing
 ChangedPcss patternedPcss(const std::string& statements)
@@ -333,14 +333,13 @@ ChangedPcss patternedPcss(const std::string& statements)
       statements + "}\nfloat estimateOfPcss_LIGHT(ViewPoint point, float slack)\n{" } });
 }
 
-/// Turns of a disk, and shifts of a square whose edges meet, leave the points as far from each
-/// other as they are.
+/// Rotating a disk, or shifting a square whose edges meet, preserves the distances between points.
 TEST_P(PcssGlsl, patternsKeepThePointsDistances)
 {
   const ShadowLight& light = GetParam().light;
   const LightViews views = firstView(light);
   const std::vector<Receiver> receivers = receiversOf(views, {});
-  // Over the square's edges, if that is shorter.
+  // Measured over the square's edges, if that is shorter.
   const std::string wrap = light.area->shape == LightArea::Shape::Rectangle
     ? "    given = min(given, 2.0 - given);\n    taken = min(taken, 2.0 - taken);\n"
     : "";
@@ -360,7 +359,7 @@ TEST_P(PcssGlsl, patternsKeepThePointsDistances)
           "  return most;\n"),
       light, views, blocks, receivers);
   EXPECT_LT(*std::max_element(most.begin(), most.end()), 1e-5f);
-  // And from cell to cell they lie elsewhere.
+  // The places differ from cell to cell.
   const std::vector<float> places =
     run(patternedPcss("  return lightPoint_LIGHT(0, pattern, none).x;\n"), light, views, blocks,
       receivers);
@@ -368,7 +367,7 @@ TEST_P(PcssGlsl, patternsKeepThePointsDistances)
   EXPECT_GT(*largest - *least, 0.3f);
 }
 
-/// The map's depths may begin anywhere before its nearest caster, as if there were a near plane.
+/// The map's depths may begin anywhere before its nearest caster, as with a near plane.
 TEST_P(PcssGlsl, doesNotDependOnWhereDepthsBegin)
 {
   const ShadowLight& light = GetParam().light;
@@ -390,7 +389,7 @@ TEST_P(PcssGlsl, doesNotDependOnWhereDepthsBegin)
     {
       different += std::abs(values[i] - expected[i]) < 1e-5 ? 0 : 1;
     }
-    // Depths are floats: a receiver may lie on a texel's plane, a place on a texel's border.
+    // Depths are floats: a receiver may lie on a texel's plane, or a place on a texel's border.
     EXPECT_LE(different, values.size() / 50) << begin;
   }
 }
@@ -427,7 +426,7 @@ TEST(Pcss, pointsKeepTheirDistance)
         least = std::min(least, wrappedDistance(points[i], points[j]));
       }
     }
-    // Random points: 0.1 of it for 16, 0.02 for 256.
+    // Random points have 0.1 of it for 16 points, 0.02 for 256.
     EXPECT_GE(least, 0.69 * largestPoissonDistance(count)) << count;
     EXPECT_LE(least, largestPoissonDistance(count)) << count;
   }
@@ -440,8 +439,8 @@ TEST(Pcss, pointsOfADiskFillItEvenly)
     const std::vector<glm::vec2> points = pcssPoints(samples, LightArea::Shape::Disk);
     const PcssCounts counts = pcssCounts(samples);
     ASSERT_EQ(points.size(), static_cast<std::size_t>(counts.search + counts.filter));
-    // Four rings of equal area: chi-square with 3 degrees of freedom, which random points exceed
-    // once in twenty times.
+    // Four rings of equal area: chi-square with 3 degrees of freedom. Random points exceed it once
+    // in twenty times.
     double chiSquare = 0.0;
     const double expected = 0.25 * counts.filter;
     std::vector<int> rings(4, 0);
@@ -466,7 +465,7 @@ protected:
   static constexpr int rows = 100;
 
   /// @param across places across the penumbra, from -1 to 1
-  /// @return row by row of each of them
+  /// @return the rows of each of these places
   static std::vector<std::vector<float>> profile(
     const PointwiseTechnique& technique, const std::vector<double>& across)
   {
@@ -504,7 +503,7 @@ protected:
   }
 };
 
-/// Each row's mean is the truth. Its noise is white: cells do not depend on their neighbours.
+/// Each row's mean is the truth. The noise is white: cells do not depend on their neighbours.
 TEST_F(PcssEdge, turningThePointsLeavesNoBandsAndWhiteNoise)
 {
   std::vector<double> across;
@@ -513,7 +512,7 @@ TEST_F(PcssEdge, turningThePointsLeavesNoBandsAndWhiteNoise)
     across.push_back(0.05 * i);
   }
   double variance = 0.0, withNext = 0.0;
-  /// Root mean square of the rows' means from the truth.
+  /// Return the root mean square of the rows' means from the truth.
   const auto offBy = [&](const PointwiseTechnique& technique)
   {
     double square = 0.0;
@@ -543,8 +542,8 @@ TEST_F(PcssEdge, turningThePointsLeavesNoBandsAndWhiteNoise)
 TEST(Pcss, widthsAreThoseOfSimilarTriangles)
 {
   // Selected Real-Time Shadow Techniques, 2.9: a light of width 1, a receiver at 10 and a blocker
-  // at 5; a frustum that is 10 wide at the near plane 1. The penumbra is 0.1 of the map's plane
-  // there, the filter 0.01.
+  // at 5; a frustum that is 10 wide at the near plane 1. There the penumbra is 0.1 of the map's
+  // plane, the filter 0.01.
   ShadowLight light;
   light.kind = LightKind::Spot;
   light.directionWorld = { 0.0, 0.0, -1.0 };
@@ -554,14 +553,14 @@ TEST(Pcss, widthsAreThoseOfSimilarTriangles)
   const Bounds casters{ { -1.0, -1.0, 5.0 }, { 1.0, 1.0, 5.0 } };
   const Bounds receivers{ { -5.0, -5.0, 0.0 }, glm::dvec3(5.0) };
   LightViews views = fitLightViews(light, { glm::dvec3(0.0), casters, {}, { 1024, 1 }, {} });
-  // Half the light's diagonal times 1/5 - 1/10. Distances are cut 0.1 % short, so that rounding
-  // cuts no caster off.
+  // Half the light's diagonal times 1/5 - 1/10. Distances are cut 0.1 % short, so rounding removes
+  // no caster.
   EXPECT_NEAR(reachOfArea(*light.area, views, casters, receivers), std::sqrt(0.5) * 0.1, 2e-4);
   EXPECT_EQ(reachOfArea(LightArea(), views, casters, receivers), 0.0);
   light.kind = LightKind::Directional;
   views = fitLightViews(light, { glm::dvec3(0.0), casters, {}, { 1024, 1 }, {} });
   EXPECT_NEAR(reachOfArea(*light.area, views, casters, receivers), std::sqrt(0.5) * 5.0, 1e-3);
-  // Nothing is nearer to a point light than the casters' box, whatever its faces' planes cut.
+  // Nothing is nearer to a point light than the casters' box, wherever its faces' planes cut.
   light.kind = LightKind::Point;
   const Bounds wide{ glm::dvec3(-4.0), glm::dvec3(4.0) };
   views = fitLightViews(light, { glm::dvec3(0.0), wide, {}, { 1024, 1 }, {} });

@@ -1,4 +1,4 @@
-// `penumbra` shows what all rays of `raytraced` show, to the last bit.
+// `penumbra` equals all rays of `raytraced`, bit for bit.
 
 #include "RandomScenes.h"
 #include "SyntheticScene.h"
@@ -27,7 +27,7 @@ struct Outcome
   std::size_t rays = 0;
 };
 
-/// Compares a light's visibility with that of all of its rays.
+/// Compare a light's visibility with that of all of its rays.
 Outcome compareWithTruth(
   const ShadowLight& light, const Occluders& occluders, const Receivers& receivers)
 {
@@ -46,7 +46,7 @@ Outcome compareWithTruth(
   return outcome;
 }
 
-/// An area of any shape for a light, now and then a very large or a very small one.
+/// Return an area of any shape for a light, sometimes a very large or very small one.
 LightArea makeRandomArea(const ShadowLight& light, double scale, Random& random)
 {
   const bool directional = light.kind == LightKind::Directional;
@@ -102,9 +102,9 @@ TEST_P(RandomPenumbras, areThoseOfAllRays)
   EXPECT_LT(rays, raysOfTruth);
 }
 
-/// Receivers with a shadow ray each, wherever it starts. They fill squares of 8 x 8 pixels, one
-/// after another: those of a square should be close to each other, as what is far apart has too
-/// much in its way to be anything but traced.
+/// Receivers with a shadow ray each, from any start. They fill squares of 8 x 8 pixels one by one.
+/// Receivers of a square should be close to each other: distant ones have too many blockers between
+/// them, and are only traced.
 struct Starts
 {
   static constexpr std::size_t side = 8;
@@ -191,7 +191,7 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseGoAlongEdges)
   }
 }
 
-/// So are rays that start on a triangle that is not the receiver's own.
+/// Rays that start on a triangle other than the receiver's own are traced, too.
 TEST(Penumbra, isThatOfAllRaysWhereTheseStartOnTriangles)
 {
   Random random(2);
@@ -220,7 +220,7 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseStartOnTriangles)
   }
 }
 
-/// So are rays that end on a triangle, or near one.
+/// Rays that end on a triangle, or near one, are traced, too.
 TEST(Penumbra, isThatOfAllRaysWhereTheseEndOnTriangles)
 {
   Random random(3);
@@ -256,7 +256,7 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseEndOnTriangles)
   }
 }
 
-/// A triangle whose edge nearly points at the starts, and a light beside it: so seen, rounding
+/// A triangle whose edge nearly points at the starts, and a light beside it: in that view, rounding
 /// reaches far around its edges.
 TEST(Penumbra, isThatOfAllRaysWhereEdgesPointAtTheLight)
 {
@@ -305,7 +305,7 @@ TEST(Penumbra, isThatOfAllRaysWhereEdgesPointAtTheLight)
   }
 }
 
-/// Starts in a triangle's plane, and a light in it, too, beyond its tip.
+/// Starts lie in a triangle's plane. A light lies in it, too, beyond the triangle's tip.
 TEST(Penumbra, isThatOfAllRaysWhereTheseGoAlongTriangles)
 {
   Random random(5);
@@ -349,8 +349,8 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseGoAlongTriangles)
   }
 }
 
-/// Starts in the plane of a triangle of any slant, or on it, to within a rounding, and rays that go
-/// along it, to it or away from it.
+/// Starts lie in the plane of a triangle of any slant, or on the triangle, to within rounding. Rays
+/// go along it, to it or away from it.
 TEST(Penumbra, isThatOfAllRaysWhereTheseLeaveTriangles)
 {
   Random random(7);
@@ -371,7 +371,7 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseLeaveTriangles)
           const Mesh mesh{ { place - size * x, place + size * (x + 0.3 * y),
                              place + size * uniform(random, 0.1, 2.0) * y },
             { { 0, 1, 2 } } };
-          // A second one keeps the middle of all coordinates away from the first.
+          // A second triangle keeps the middle of all coordinates away from the first.
           const Occluders occluders =
             makeOccluders({ { mesh }, { makePlane(0.1), at({ 9.0, -7.0, 8.0 }) } });
           const glm::dvec3 towards = glm::normalize(
@@ -397,7 +397,7 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseLeaveTriangles)
   }
 }
 
-/// Rays that start closer to the near face of a light's box than their offset is long go beyond it.
+/// A ray that starts closer to the near face of a light's box than its offset goes beyond the face.
 TEST(Penumbra, isThatOfAllRaysWhereTheseGoBeyondTheBoxOfTheLight)
 {
   Random random(6);
@@ -416,7 +416,7 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseGoBeyondTheBoxOfTheLight)
   EXPECT_EQ(compareWithTruth(light, occluders, starts.receivers).different, 0u);
 }
 
-/// Samples that do not spread evenly are decided by the same edges.
+/// The same edges decide samples that are unevenly spread.
 TEST(Penumbra, isThatOfAllRaysWhicheverPointsOfTheLightTheyGoTo)
 {
   const Occluders occluders =
@@ -436,7 +436,7 @@ TEST(Penumbra, isThatOfAllRaysWhicheverPointsOfTheLightTheyGoTo)
   }
 }
 
-/// What the rest costs: one ray where no edge is seen, and few where some are.
+/// A pixel costs one ray if it sees no edge, and few if it sees some.
 TEST(Penumbra, takesOneRayOfAllPixelsWhereNothingIsInTheWay)
 {
   const Occluders occluders = makeOccluders({ { makePlane(20.0) } });
@@ -466,7 +466,7 @@ TEST(Penumbra, takesFewRaysOfSpheres)
   EXPECT_LT(outcome.rays, outcome.raysOfTruth / 55);
 }
 
-/// What moved is found again.
+/// Moved casters are found again.
 TEST(Penumbra, followsCastersThatMove)
 {
   Occluders occluders =

@@ -1,4 +1,5 @@
-// How many texels of a map shaders take a pixel to show, against the pixel's corners on the map.
+// The number of a map's texels that shaders compute for a pixel, against the pixel's corners on the
+// map.
 
 #include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
@@ -24,7 +25,7 @@ namespace
 constexpr glm::ivec2 pictureSize(1000, 700);
 constexpr int areaSide = 256;
 
-/// Answers with that number in place of a visibility.
+/// Outputs that number in place of a visibility.
 class TexelsOfPixel : public PointwiseTechnique
 {
 public:
@@ -43,7 +44,7 @@ struct Plane
   glm::dvec3 normal;
 };
 
-/// Where a plane is seen at a place of the picture.
+/// Return where a plane is seen at a place of the picture.
 glm::dvec3 seenAt(const CameraView& camera, const glm::dvec2& pixel, const Plane& plane)
 {
   const glm::dvec2 device = 2.0 * pixel / glm::dvec2(pictureSize) - 1.0;
@@ -55,7 +56,7 @@ glm::dvec3 seenAt(const CameraView& camera, const glm::dvec2& pixel, const Plane
   return from + along * glm::dot(plane.point - from, plane.normal) / glm::dot(along, plane.normal);
 }
 
-/// How many texels a quadrangle of points covers on a view's map.
+/// Return the number of texels that a quadrangle of points covers on a view's map.
 double texelsOf(const LightView& view, const std::array<glm::dvec3, 4>& corners)
 {
   const glm::dmat3 texels = texelFromAcross(view, areaSide);

@@ -18,7 +18,7 @@ namespace
 
 constexpr int sidePixels = 256;
 
-/// Says the same everywhere.
+/// Has the same visibility everywhere.
 class Constant : public PointwiseTechnique
 {
 public:
@@ -37,7 +37,7 @@ private:
   const char* visibility_;
 };
 
-/// A scene, its camera, and what the picture's own receivers show.
+/// A scene, its camera, and the visibility of the picture's own receivers.
 struct ProbedScene
 {
   Occluders occluders;
@@ -67,7 +67,7 @@ struct ProbedScene
     probes.look(
       this->view, { sidePixels, sidePixels }, this->occluders, *this->tracer.casterHits(), number);
   }
-  /// The share of what faces the light that is in shadow.
+  /// Return the share of the pixels facing the light that are in shadow.
   double shadowShare(const ShadowLight& light)
   {
     std::vector<float> visibility;
@@ -108,7 +108,7 @@ protected:
 
 } // namespace
 
-// What is asked are the picture's own pixels, and their visibility is the picture's.
+// Probes are the picture's own pixels, with the picture's visibility.
 TEST_F(ProbesTest, areASampleOfThePicture)
 {
   const ShadowLight lights[] = { directionalLight({ -1.0, 0.5, -1.5 }),
@@ -159,7 +159,7 @@ TEST_F(ProbesTest, fewerSamplesHaveALargerError)
   EXPECT_LT(of4, 0.2);
 }
 
-// The bound is the share of which what was found is two standard deviations too little.
+// The bound is the share at which the count found is two standard deviations too small.
 TEST(WrongProbes, mostShareIsWilsonsBound)
 {
   for (const std::size_t asked : { 100u, 4096u })

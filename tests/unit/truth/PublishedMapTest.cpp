@@ -1,5 +1,5 @@
-// The published construction of conservative shadow maps: its offset lines, the triangles that it
-// erodes, and who counts as a neighbour.
+// The published construction of conservative shadow maps: its offset lines, its eroded triangles,
+// and its neighbours.
 
 #include "shadowtech/published/PublishedMap.h"
 
@@ -35,8 +35,8 @@ double areaOf(const Points& polygon)
   return area;
 }
 
-/// The corners that half planes leave of a square far around the map, without those that fall
-/// together.
+/// Return the corners that half planes leave of a square far around the map, without coincident
+/// ones.
 Points cornersOf(const TexelRegion& region)
 {
   const double far = 4.0 * width;
@@ -91,8 +91,8 @@ std::set<std::size_t> texelsOf(const TexelRegion& region)
   return texels;
 }
 
-/// The published corners of an eroded triangle, case by case: walking around it, each side stays or
-/// is moved, and between two that stay the corner goes.
+/// Return the published corners of an eroded triangle, case by case: walking around it, each side
+/// stays or moves, and the corner between two sides that stay goes.
 Points publishedCorners(const Corners& corners, const SharedSides& shared, double offset)
 {
   const double inwards = doubleAreaOf(corners) > 0.0 ? 1.0 : -1.0;
@@ -121,7 +121,7 @@ Points publishedCorners(const Corners& corners, const SharedSides& shared, doubl
   return points;
 }
 
-/// 1 - offset / radius of the inscribed circle: what is left of a triangle's sides.
+/// Return the remaining share of a triangle's sides: 1 - offset / radius of the inscribed circle.
 double shrunkBy(const Corners& corners, double offset)
 {
   const glm::dvec2 a(corners[0]), b(corners[1]), c(corners[2]);
@@ -195,7 +195,7 @@ TEST(PublishedMap, dilatesToAllTexelsThatATriangleMeetsAndNoFartherThanItsBox)
       EXPECT_TRUE(glm::all(glm::greaterThanEqual(centre, low - 0.5)));
       EXPECT_TRUE(glm::all(glm::lessThanEqual(centre, high + 0.5)));
     }
-    // Points of the triangle are in texels that it has.
+    // Points of the triangle lie in its texels.
     for (int sample = 0; sample < 64; ++sample)
     {
       double u = uniform(random, 0.0, 1.0), v = uniform(random, 0.0, 1.0);
@@ -233,8 +233,8 @@ TEST(PublishedMap, leavesNothingOfATriangleWhoseLinesMeetTurnedOver)
     const Points left = cornersOf(erodedRegion(polygonWith(corners), {}, offset));
     if (k <= 0.0)
     {
-      // Crossing its lines gives a triangle all the same, wound as the first was: its area is k * k
-      // of that.
+      // Crossing its lines still gives a triangle, wound like the first one: its area is k * k of
+      // the first one's.
       const Corners crossed = withMovedSides(corners, [&](const glm::dvec2&) { return offset; });
       EXPECT_GE(doubleAreaOf(crossed) * doubleAreaOf(corners), 0.0);
       EXPECT_LT(left.size(), 3u);
@@ -276,13 +276,13 @@ TEST(PublishedMap, erodesTrianglesAsTheirNeighboursSay)
         EXPECT_TRUE(std::any_of(found.begin(), found.end(),
           [&](const glm::dvec2& other) { return glm::distance(corner, other) < 1e-7; }));
       }
-      // So that the published pieces, a fan of it, do not overlap.
+      // The published pieces, a fan of it, then do not overlap.
       EXPECT_NEAR(areaOf(found), std::abs(areaOf(expected)), 1e-6);
     }
   }
 }
 
-/// Receivers at texels' centres, so far along the view.
+/// Return receivers at texels' centres, at this distance along the view.
 ReceiverPixels receiversAt(
   const LightView& view, const std::function<double(const glm::dvec2&)>& depthAt)
 {
@@ -304,7 +304,7 @@ ReceiverPixels receiversAt(
   return receivers;
 }
 
-/// A triangle in the middle of the map and one across each side, of which some face away from the
+/// A triangle in the middle of the map and one across each side. Some of them face away from the
 /// light.
 struct Flaps
 {
@@ -317,7 +317,7 @@ struct Flaps
     Mesh mesh;
     mesh.points = { { -1.0, -0.9, 0.0 }, { 0.1, 1.0, 0.0 }, { 1.0, -0.8, 0.0 }, { -1.1, 0.5, 0.1 },
       { 1.2, 0.4, 0.1 }, { 0.1, -1.6, 0.1 } };
-    // Clockwise seen from above, where the light is: it faces away.
+    // Clockwise from above, where the light is: it faces away.
     mesh.triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 2, 1, 4 }, { 0, 2, 5 } };
     for (std::size_t k = 0; k < 3; ++k)
     {
@@ -336,7 +336,7 @@ struct Flaps
       this->occluders.surfaces.front(), 0, triangle);
   }
 
-  /// The texels in which receivers far below are certain, by the map's rule.
+  /// Return the texels in which receivers far below are certain, by the map's rule.
   std::vector<Certainty> ask(PublishedLayers layers) const
   {
     const ReceiverPixels receivers =
@@ -421,7 +421,7 @@ struct Askew
     return publishedRule(PublishedLayers::Crsm)(this->view, false, width, this->occluders, edges);
   }
 
-  /// What is said of points at texels' centres, so far behind the triangle's plane.
+  /// Return the map's answers for points at texels' centres, so far behind the triangle's plane.
   std::vector<Certainty> ask(double behind, bool onCaster) const
   {
     const auto depthAt = depthOf(this->corners);
@@ -470,7 +470,7 @@ TEST(PublishedMap, knowsNoShadowOfHoles)
 TEST(PublishedMap, knowsNothingWhereTheLightIsInACaster)
 {
   EXPECT_GT(Askew(spotLight({ 0.1, 0.0, 2.0 }, { 0.0, 0.0, 0.0 }, 40.0)).map().bytes(), 0u);
-  // In the middle of the triangle.
+  // A light in the middle of the triangle.
   EXPECT_EQ(
     Askew(spotLight({ 0.1 / 3.0, -0.7 / 3.0, 1.0 / 3.0 }, { 0.0, 0.0, -5.0 }, 55.0)).map().bytes(),
     0u);

@@ -74,7 +74,7 @@ Mesh makeNeedles(Random& random, int count)
   return mesh;
 }
 
-/// A sheet that is folded to and fro, with every fold nearly closed.
+/// A sheet folded to and fro, with every fold nearly closed.
 Mesh makeFolds(int folds)
 {
   Mesh mesh;
@@ -94,7 +94,7 @@ Mesh makeFolds(int folds)
   return mesh;
 }
 
-/// A square whose halves are cut differently, so that vertices lie on edges.
+/// A square whose halves are cut differently, so vertices lie on edges.
 Mesh makeTJunctions()
 {
   Mesh mesh;
@@ -104,7 +104,7 @@ Mesh makeTJunctions()
   return mesh;
 }
 
-/// Triangles that are there twice, once turned over.
+/// Triangles that exist twice, once turned over.
 Mesh makeDuplicates(Random& random, int count)
 {
   Mesh mesh = makeTriangleSoup(count, random());
@@ -116,7 +116,7 @@ Mesh makeDuplicates(Random& random, int count)
   return mesh;
 }
 
-/// The triangles of a mesh dealt out to some meshes, of which every other one is turned over.
+/// Distribute the triangles of a mesh over several meshes; every other mesh is turned over.
 std::vector<Mesh> dealtOut(const Mesh& mesh, std::size_t count, Random& random)
 {
   std::vector<Mesh> dealt(count);
@@ -208,7 +208,7 @@ std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
     }
     else if (name == "sheets")
     {
-      // Close to each other, the last in the same place as the one before.
+      // Close to each other; the last one coincides with the one before.
       const double height = i == 3 ? 0.52 : 0.5 + 0.01 * i;
       props.push_back({ makePlane(1.5, 1 + i), at({ 0.1 * i, 0.0, height }) });
     }
@@ -235,14 +235,15 @@ std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
   }
   else if (name == "lamp")
   {
-    // The shade around a light is small against the scene, which rounding is in proportion to.
+    // The shade around a light is small against the scene, and rounding is proportional to the
+    // scene.
     props.push_back(
       { makeCup(8, 24), glm::rotate(at({ 0.1, -0.2, 1.0 }, 0.15), 3.0, { 1.0, 0.2, 0.0 }) });
     props.push_back({ makeBox(glm::dvec3(20.0), glm::dvec3(25.0)) });
   }
   else if (name == "patchwork")
   {
-    // Surfaces that go on as others: smooth ones, sharp ones, some that meet in corners alone.
+    // Surfaces that continue others: smooth ones, sharp ones, and some that meet only in corners.
     props.clear();
     const Mesh wholes[] = { makeTerrain(6.0, 12, 0.5), makeSphere(8, 16),
       makeBox(glm::dvec3(-0.5), glm::dvec3(0.5)), makeFolds(6) };
@@ -289,8 +290,8 @@ ShadowLight makeRandomLight(Random& random)
 //------------------------------------------------------------------------------
 RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, const glm::dmat4& world)
 {
-  // Of the name, too: else kinds that draw as many numbers for their scenes would share cameras and
-  // lights.
+  // The seed includes the name. Otherwise kinds that draw as many numbers for their scenes would
+  // share cameras and lights.
   std::vector<unsigned int> parts(name.begin(), name.end());
   parts.push_back(seed);
   std::seed_seq sequence(parts.begin(), parts.end());

@@ -1,5 +1,4 @@
-// The reduction over the receivers and the fit that follows from it, against their twins on the
-// CPU.
+// The reduction over the receivers and the resulting fit, against their twins on the CPU.
 
 #include "shadowtech/fitting/ReceiverFit.h"
 
@@ -34,7 +33,7 @@ namespace
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 constexpr float infiniteFloat = std::numeric_limits<float>::infinity();
 
-/// The receivers' images, as the receivers stage draws them.
+/// The receivers' images, as the receivers stage renders them.
 struct Image
 {
   Image(int w, int h)
@@ -60,8 +59,7 @@ struct Image
   std::vector<glm::vec4> points;
 };
 
-/// Whatever a driver may leave in pixels that mean nothing, or that went wrong: none of it may
-/// count.
+/// Add invalid pixels, as drivers may leave them. None of them may count.
 void addDebris(Image& image, std::mt19937& random)
 {
   std::uniform_int_distribution<std::size_t> anywhere(0, image.points.size() - 1);
@@ -75,7 +73,7 @@ void addDebris(Image& image, std::mt19937& random)
         image.points[pixel] = glm::vec4(1e9f);
         break;
       case 1:
-        image.fragments[pixel].x = -3.0f; // shows no shadows
+        image.fragments[pixel].x = -3.0f; // a surface that shows no shadows
         break;
       case 2:
         image.points[pixel][static_cast<int>(i / 6 % 3)] = notANumber;
@@ -94,7 +92,7 @@ void addDebris(Image& image, std::mt19937& random)
   }
 }
 
-/// A window with nothing in it, for its context.
+/// An empty window, for its context.
 class ReceiverFitTest : public testing::Test
 {
 protected:
@@ -117,7 +115,7 @@ protected:
       this->library_);
   }
 
-  /// A texture of four floats, bound.
+  /// Bind a texture of four floats.
   static void allocate(GlTexture& texture, const glm::ivec2& size, const glm::vec4* texels)
   {
     glBindTexture(GL_TEXTURE_2D, texture.create());
@@ -130,8 +128,8 @@ protected:
   ShaderLibrary library_;
 };
 
-/// A sun whose map's texels before the fit are the x and y of view coordinates, exactly: what is
-/// computed from a position is the position itself.
+/// A sun whose map's texels before the fit are the x and y of view coordinates, exactly. Values
+/// computed from a position equal the position.
 struct ExactSun
 {
   static constexpr int side = 1024;
@@ -148,7 +146,7 @@ struct ExactSun
     this->views.views = { view };
   }
 
-  /// Whether the CPU counts a pixel.
+  /// True if the CPU counts a pixel.
   static bool counts(const Image& image, std::size_t pixel)
   {
     const glm::vec3 p = image.points[pixel];
@@ -186,7 +184,7 @@ Image randomImage(int width, int height, std::mt19937& random)
   return image;
 }
 
-/// A ground of 200 x 200 seen from 2 above its middle, and what each pixel shows of it.
+/// A ground of 200 x 200 seen from 2 above its middle, and the receiver of each pixel.
 struct Ground
 {
   Ground(const glm::dvec3& direction, int width, int height)
@@ -240,7 +238,7 @@ ShadowLight lightThatChoosesWarp(ShadowLight light)
   return light;
 }
 
-/// A buffer's contents.
+/// Return a buffer's contents.
 template <typename Number>
 std::vector<Number> readBuffer(GLuint buffer)
 {
@@ -255,11 +253,11 @@ std::vector<Number> readBuffer(GLuint buffer)
   return result;
 }
 
-/// The bounds of the receivers in each view, as of the last compute().
+/// Return the bounds of the receivers in each view, after the last compute().
 std::vector<Bounds> readBounds(const ReceiverFit& fit)
 {
   const std::vector<std::uint32_t> keys = readBuffer<std::uint32_t>(fit.bounds());
-  // ofKey() of bounds_buffer.glsl.
+  // Twin of ofKey() in bounds_buffer.glsl.
   const auto number = [](std::uint32_t key)
   {
     const std::uint32_t bits = (key & 0x80000000u) ? key & 0x7fffffffu : ~key;
@@ -279,7 +277,7 @@ std::vector<Bounds> readBounds(const ReceiverFit& fit)
   return result;
 }
 
-/// The texture of the fits, a row of which has a texel for each view.
+/// The texture of the fits; a row has a texel for each view.
 struct FitTexels
 {
   explicit FitTexels(const ReceiverFit& fit)
@@ -316,8 +314,8 @@ std::vector<MapFit> readFits(const ReceiverFit& fit)
   return result;
 }
 
-/// The warp that was chosen, from the view's uniform map to its own, in device coordinates; the
-/// identity where none was to be chosen.
+/// Return the chosen warp, from the view's uniform map to its own, in device coordinates; the
+/// identity if there was no choice.
 glm::dmat3 readWarp(const ReceiverFit& fit)
 {
   const FitTexels texels(fit);
@@ -364,8 +362,8 @@ TEST_F(ReceiverFitTest, boundsAreTheCpusExactlyOnRandomImagesOfAnySize)
 //------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, boundsOfTheLargestImage)
 {
-  // Two images of 1 GiB, which are made on the GPU; few points, in the corners and where pieces of
-  // the work meet.
+  // Two images of 1 GiB are made on the GPU. They have few points, in the corners and where work
+  // groups meet.
   constexpr int side = 8192;
   const ExactSun sun;
   std::mt19937 random(42);
@@ -438,7 +436,7 @@ TEST_F(ReceiverFitTest, fitsAreTheCpus)
   {
     sun.light.snap = i % 2 == 0;
     sun.views.borderTexels = i % 5;
-    // Some of it beyond the map, some a point or a line.
+    // Parts lie beyond the map; some extents are a point or a line.
     const glm::vec2 corner = (1.2f * glm::vec2(unit(random), unit(random)) - 0.1f) * 1024.0f;
     const glm::vec2 extent = std::pow(10.0f, -5.0f * unit(random)) * 1024.0f *
       glm::vec2(i % 7 == 0 ? 0.0f : unit(random), unit(random));
@@ -467,7 +465,7 @@ TEST_F(ReceiverFitTest, fitsAreTheCpus)
     }
     for (int axis = 0; axis < 2; ++axis)
     {
-      // A centre is rounded to 2^-24 of the map, and the scale with a small extent the more.
+      // A centre is rounded to 2^-24 of the map; the scale is rounded more if the extent is small.
       const double scale = expected->scale[axis];
       const double tolerance = 1e-6 * (1.0 + scale * (sun.light.snap ? 0.0 : scale));
       EXPECT_NEAR(
@@ -545,7 +543,7 @@ TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
     pointLight({ 0.1, -0.1, 0.05 }) };
   std::mt19937 random(46);
   std::uniform_real_distribution<double> uniform(-1.5, 1.5);
-  CameraView camera; // that sees all of it
+  CameraView camera; // sees all of it
   camera.viewFromCentred =
     glm::lookAt(glm::dvec3(3.0, -4.0, 2.0), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
   camera.clipFromView = glm::ortho(-9.0, 9.0, -9.0, 9.0, -9.0, 9.0);
@@ -699,7 +697,7 @@ TEST_F(ReceiverFitTest, fittedWarpHoldsAllReceivers)
       seen.add(mapped(warped, glm::dvec2(lightFromView * glm::dvec4(position, 1.0))));
     }
   }
-  // All of it, and it fills the map up to the border.
+  // All of it is seen, and it fills the map up to the border.
   const double inside = MapTexels{ light.mapSizeTexels, views.borderTexels }.inside();
   for (int axis = 0; axis < 2; ++axis)
   {

@@ -53,7 +53,7 @@ public:
     return this->occluders.surfaces.back();
   }
 
-  /// Puts a surface elsewhere. The box around all does not change: it may be larger than it must.
+  /// Move a surface. The box around all surfaces stays: it may be larger than needed.
   void move(std::size_t number, const glm::vec3& by)
   {
     Surface& surface = this->occluders.surfaces[number];
@@ -180,7 +180,7 @@ TEST(ReceiverPlanes, followDroppedTrianglesAndChanges)
   EXPECT_EQ(drawn[0], drawn[2]);
   EXPECT_NE(drawn[0], drawn[3]);
 
-  // Nothing is looked at again as long as the versions stay; then it is.
+  // While versions stay, nothing is read again; with a new version it is.
   const std::uint64_t version = planes.version();
   planes.update(snapshot.occluders, mostPlanes);
   EXPECT_EQ(planes.version(), version);
@@ -192,8 +192,8 @@ TEST(ReceiverPlanes, followDroppedTrianglesAndChanges)
 
 TEST(ReceiverPlanes, haveSliversThatLookElsewhere)
 {
-  // Rounding may turn a triangle that is no wider than its corners' error any way: this one stands
-  // upright, as a wall does that makes its direction count.
+  // Rounding may turn a triangle that is no wider than its corners' error any way. This one stands
+  // upright, like a wall whose direction counts.
   Snapshot snapshot;
   snapshot.add(z, 2.0 * x, 2.0 * y);
   snapshot.add(5.0 * y, x, z);

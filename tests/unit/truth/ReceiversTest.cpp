@@ -20,8 +20,8 @@ namespace gnomon::test
 namespace
 {
 
-/// A plane and a cube far from the world's origin, none of them along an axis. The cube is inside
-/// out, so that the camera sees the back of its triangles.
+/// A plane and a cube far from the world's origin, neither along an axis. The cube is inside out,
+/// so the camera sees the back of its triangles.
 Occluders turnedScene()
 {
   const glm::dmat4 turn = glm::rotate(at({ 1e5, -2e5, 3e5 }), 0.5, { 1.0, 0.4, 0.2 });
@@ -40,7 +40,7 @@ Camera turnedCamera()
   return camera;
 }
 
-/// A pixel's side at distance 1.
+/// Return a pixel's side at distance 1.
 double pixelSizeOf(const Camera& camera)
 {
   return 2.0 * std::tan(0.5 * glm::radians(camera.fovDegrees)) / camera.height;
@@ -53,7 +53,7 @@ ReceiverPixels project(const View& view, const Occluders& occluders)
   return receivers;
 }
 
-/// Fields of a pixel that is not covered, and no number that is not finite.
+/// Expect uncovered pixels to have empty fields, and all numbers to be finite.
 void expectNotCovered(const ReceiverPixels& receivers, std::size_t i)
 {
   EXPECT_EQ(receivers.surface[i], ReceiverPixels::notCovered);
@@ -65,7 +65,7 @@ void expectNotCovered(const ReceiverPixels& receivers, std::size_t i)
   }
 }
 
-/// The corners of the triangle that was drawn in a pixel.
+/// Return the corners of the triangle that was drawn in a pixel.
 std::array<glm::dvec3, 3> drawnCorners(
   const View& view, const Occluders& occluders, std::size_t pixel)
 {
@@ -86,7 +86,7 @@ glm::dvec3 normalOf(const ReceiverPixels& receivers, std::size_t i)
   return { receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i] };
 }
 
-/// How far a point lies outside of a triangle, in the triangle's plane; 0 inside.
+/// Return a point's distance outside a triangle, in the triangle's plane; 0 inside.
 double outside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point)
 {
   const glm::dvec3 normal =
@@ -100,7 +100,7 @@ double outside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point
   return most;
 }
 
-/// How far inside of a triangle a point lies from the nearest edge.
+/// Return a point's distance inside a triangle from the nearest edge.
 double inside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point)
 {
   const glm::dvec3 normal =
@@ -114,7 +114,7 @@ double inside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point)
   return least;
 }
 
-/// How far a point lies off a pixel's ray, in pixels.
+/// Return a point's distance from a pixel's ray, in pixels.
 double offRay(const View& view, std::size_t pixel, const glm::dvec3& point)
 {
   const PixelRays& rays = view.images.rays;
@@ -152,13 +152,13 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
         glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
       const glm::dvec3 position = positionOf(receivers, i);
 
-      // On the triangle, by no more than rounding the position explains.
+      // On the triangle, to within the rounding of the position.
       const glm::dvec3 rounding = std::ldexp(1.0, -24) * glm::abs(position);
       ASSERT_LE(std::abs(glm::dot(position - corners[0], normal)),
         1.001 * glm::dot(glm::abs(normal), rounding));
       ASSERT_LE(outside(corners, position), glm::length(rounding));
-      // On the ray, but where the ray passes the triangle by: the view's jitter, and a step
-      // inwards.
+      // On the ray, except where the ray passes the triangle: there off by the view's jitter and a
+      // step inwards.
       const double off = offRay(view, i, position);
       ASSERT_LT(off, (0.5 * std::sqrt(2.0) + 1.0) / 256.0 + 1e-4);
       clamped += off > 1e-4 ? 1 : 0;
@@ -175,7 +175,7 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
         glm::dot(position - rays.firstOrigin, glm::normalize(rays.direction(127.5, 127.5)));
       const auto footprint = static_cast<float>(
         parallelHeight > 0.0 ? parallelHeight / 256.0 : pixelSizeOf(camera) * depth);
-      // A rasteriser's footprint where the ray passes the triangle by, else 1/256 of it.
+      // A rasteriser's footprint where the ray passes the triangle, else 1/256 of it.
       ASSERT_GT(receivers.offset[i],
         off > 1e-4 ? shadowRayOffset(0.0f, 0.999f * footprint)
                    : shadowRayOffsetInside(0.0f, 0.999f * footprint));
@@ -183,13 +183,13 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
       small += receivers.offset[i] < shadowRayOffset(0.0f, 0.5f * footprint) ? 1 : 0;
     }
     EXPECT_GT(small, 10 * clamped);
-    EXPECT_GT(clamped, 0u); // the test has met such pixels
+    EXPECT_GT(clamped, 0u); // there are such pixels
   }
 }
 
-/// Whatever the rasteriser says is in a pixel: the receiver is a point inside of that triangle, and
-/// the closest to the pixel's ray but for a step away from the edge, where it would lie on the
-/// neighbour's plane, too.
+/// For any triangle that the rasteriser reports, the receiver is a point inside that triangle, and
+/// the closest to the pixel's ray. It is only moved a step away from the edge, where it would lie
+/// on the neighbour's plane, too.
 TEST(Receivers, OfTrianglesThatTheRayPassesByAreTheClosestPoints)
 {
   const Occluders occluders = turnedScene();
@@ -236,7 +236,7 @@ TEST(Receivers, OfTrianglesThatTheRayPassesByAreTheClosestPoints)
 
 TEST(Receivers, OnATriangleThatReachesBehindTheCamera)
 {
-  // The camera stands 2 above a ground of 20,000, so that corners lie behind it.
+  // The camera stands 2 above a ground of 20,000, so some corners lie behind it.
   const Occluders occluders = makeOccluders({ { makePlane(20000.0), at({ 0.0, 0.0, 0.0 }) } });
   Camera camera;
   camera.position = { 10.0, 20.0, 2.0 };
@@ -257,7 +257,7 @@ TEST(Receivers, OnATriangleThatReachesBehindTheCamera)
 
 TEST(Receivers, SeenEdgeOnStayOnTheirTriangle)
 {
-  // A plane seen exactly along itself: no ray meets it. A rasteriser may draw it all the same.
+  // A plane seen exactly edge-on: no ray meets it, but a rasteriser may draw it.
   const Occluders occluders = makeOccluders({ { makePlane(2.0), glm::dmat4(1.0) } });
   Camera camera;
   camera.position = { 0.0, -5.0, 0.0 };
@@ -299,7 +299,7 @@ TEST(Receivers, FindTheirTrianglesThroughTables)
   EXPECT_EQ(project(shared, plain).surface, expected.surface);
   EXPECT_EQ(project(shared, plain).positionX, expected.positionX);
 
-  // Numbers outside of both blocks.
+  // Numbers outside both blocks.
   for (const float primitive : { 2.0f, 15.0f, 19.0f, 20.0f + planeTriangles, -1.0f, 1e30f })
   {
     View astray = shared;
@@ -307,7 +307,7 @@ TEST(Receivers, FindTheirTrianglesThroughTables)
     expectNotCovered(project(astray, plain), 0);
   }
 
-  // VTK draws a triangle that the snapshot dropped in front of the plane's.
+  // VTK draws a triangle that the snapshot dropped, in front of the plane's triangle.
   Occluders dropped = plain;
   dropped.surfaces[0].triangleOfDrawn.push_back(Surface::noTriangle);
   for (std::uint32_t k = 0; k < planeTriangles; ++k)
@@ -364,7 +364,7 @@ TEST(Receivers, BrokenFragmentsAreNotCovered)
   }
 }
 
-/// Where the triangle has no normal, the direction to the camera counts.
+/// If the triangle has no normal, the direction to the camera counts.
 TEST(Receivers, TrianglesWithoutAreaFaceTheCamera)
 {
   Occluders occluders = turnedScene();
@@ -381,7 +381,7 @@ TEST(Receivers, TrianglesWithoutAreaFaceTheCamera)
   const glm::dvec3 toCamera = -glm::normalize(view.images.rays.direction(128.0, 128.0));
   EXPECT_LT(glm::length(normalOf(receivers, middle) - toCamera), 1e-6);
   EXPECT_GT(receivers.offset[middle], 0.0f);
-  // Of what is left of the triangle, a line, the closest point.
+  // The triangle is reduced to a line: the receiver is its closest point.
   const std::array<glm::dvec3, 3> corners = drawnCorners(view, occluders, middle);
   const double off = offRay(view, middle, positionOf(receivers, middle));
   for (int step = 0; step <= 100; ++step)
@@ -392,7 +392,7 @@ TEST(Receivers, TrianglesWithoutAreaFaceTheCamera)
 
 TEST(Receivers, TilesAreThePicture)
 {
-  // More than one tile each way, the last ones smaller.
+  // More than one tile along each axis, the last ones smaller.
   Camera camera = turnedCamera();
   camera.width = 2 * static_cast<int>(ReceiverTile::mostColumns) + 5;
   camera.height = static_cast<int>(ReceiverTile::mostRows) + 3;

@@ -1,4 +1,4 @@
-// Which compositions there are, and which are refused: the whole table.
+// The whole table of compositions: those that exist, and those that are refused.
 
 #include "shadowtech/Registry.h"
 
@@ -25,7 +25,7 @@ ShadowLight lightOf(LightKind kind, double coneAngleDegrees = 0.0)
   return light;
 }
 
-/// "" if the light takes it, else a word of the reason.
+/// "" if the light can have it, else a word of the reason.
 struct Verdicts
 {
   const char* sun;
@@ -307,7 +307,7 @@ TEST(Registry, followsAPublicationWhereThereIsOneThatIsNotExact)
     light.technique = name;
     EXPECT_TRUE(compose(light).info.exact);
     light.asPublished = true;
-    // Of a light that was composed already, too.
+    // Also for a light that was composed already.
     for (int i = 0; i < 2; ++i)
     {
       const TechniqueInfo& info = compose(light).info;
@@ -319,7 +319,7 @@ TEST(Registry, followsAPublicationWhereThereIsOneThatIsNotExact)
   EXPECT_TRUE(findEstimator("silhouette")->info.asPublished.empty());
 }
 
-// Of a resting picture: exact, unless an estimator is named.
+// For a picture at rest: exact, unless an estimator is named.
 TEST(Registry, completesLightsThatLeaveTheirTechniqueToThePass)
 {
   for (const char* const name : { "", "auto" })

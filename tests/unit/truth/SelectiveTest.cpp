@@ -1,4 +1,4 @@
-// coherence and selective, stage by stage, and against ray tracing.
+// `coherence` and `selective`, stage by stage, and against ray tracing.
 
 #include "shadowtech/selective/CertainHit.h"
 #include "shadowtech/selective/Chain.h"
@@ -29,7 +29,7 @@ namespace gnomon::test
 namespace
 {
 
-/// What casts of a light with a box, as TriangleMap takes it.
+/// Return the casters of a light with a box, as TriangleMap takes them.
 std::optional<glm::dvec4> keptFromCentred(const RandomPicture& picture)
 {
   return picture.light.box
@@ -73,7 +73,7 @@ TEST(LightInCaster, IsOnWhatCastsAlone)
 //------------------------------------------------------------------------------
 // The contour
 
-/// Brute force: a pixel belongs if it has a status, and the other one is near.
+/// Brute force: a pixel belongs if it has a status, and the other status is near.
 TEST(StatusContour, isWhereBothStatusesAreWithinTheRadius)
 {
   Random random(3);
@@ -149,7 +149,7 @@ TEST(Neighbourhood, ofFourIsTheBilinearFootprintAndOfNineItsSurroundings)
   }
 }
 
-/// Triangles of a mesh that count as adjacent to one, itself first.
+/// Return the triangles of a mesh that count as adjacent to one, itself first.
 std::vector<std::uint32_t> adjacentTo(
   const SurfaceFans& fans, std::uint32_t triangle, Adjacency adjacency)
 {
@@ -166,7 +166,7 @@ std::vector<std::uint32_t> adjacentTo(
   return found;
 }
 
-/// Brute force: triangles are adjacent by how many places they share, whatever their vertices.
+/// Brute force: triangles are adjacent by the number of places they share, whatever their vertices.
 TEST(TriangleFans, haveAllTrianglesThatShareAnEdgeOrAVertex)
 {
   Mesh manyAtAnEdge;
@@ -174,7 +174,7 @@ TEST(TriangleFans, haveAllTrianglesThatShareAnEdgeOrAVertex)
     { -1.0, 1.0, 0.0 }, { -1.0, -1.0, 0.0 }, { 0.0, 0.0, 3.0 }, { 0.0, 1.0, 3.0 } };
   manyAtAnEdge.triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 0, 1, 4 }, { 1, 5, 6 } };
   const Mesh sheet = apart(makeTerrain(2.0, 9, 0.4));
-  // The first surface moves the others' numbers away from those of the snapshot.
+  // The first surface shifts the others' numbers from those of the snapshot.
   const Occluders occluders =
     makeOccluders({ { makePlane(1.0, 2) }, { manyAtAnEdge }, { sheet }, { makeSphere(9, 14) } });
   TriangleFans all;
@@ -222,7 +222,7 @@ TEST(TriangleFans, areKeptWhileTheSameVerticesAreAtTheSamePlace)
   kept.update(occluders);
   const auto expectAsFoundAnew = [&](bool isKept)
   {
-    // What is found anew lies elsewhere, as what was there before is let go afterwards.
+    // Rebuilt fans have another address, since the old ones are freed afterwards.
     const glm::uvec3* const before = kept.of(1).corners.data();
     kept.update(occluders);
     EXPECT_EQ(kept.of(1).corners.data() == before, isKept);
@@ -238,7 +238,7 @@ TEST(TriangleFans, areKeptWhileTheSameVerticesAreAtTheSamePlace)
   };
   moveSurface(occluders, 1, { 1.0, 2.0, 3.0 });
   expectAsFoundAnew(true);
-  // Two places become one, and come apart again.
+  // Two places merge, and separate again.
   const std::size_t first = occluders.surfaces[1].firstVertex;
   const glm::vec3 place = occluders.positionsCentred[first];
   occluders.positionsCentred[first] = occluders.positionsCentred[first + 1];
@@ -252,7 +252,7 @@ TEST(TriangleFans, areKeptWhileTheSameVerticesAreAtTheSamePlace)
 //------------------------------------------------------------------------------
 // The map
 
-/// What a ray of the light meets first, of all that casts.
+/// The first hit of a light's ray, of all casters.
 struct FirstHit
 {
   CasterTriangle caster;
@@ -289,14 +289,14 @@ FirstHit firstHit(
   return first;
 }
 
-/// A ray of the light, centred, of any length: from the light, or of parallel ones from somewhere.
+/// A ray of the light, centred, of any length: from the light, or parallel to its direction.
 struct LightRay
 {
   glm::dvec3 origin;
   glm::dvec3 direction;
 };
 
-/// The one that a map of a view has at a place, in texels.
+/// Return the ray of a view's map at a place, in texels.
 LightRay rayAt(const LightView& view, int sizeTexels, const glm::dvec2& texels)
 {
   const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
@@ -377,17 +377,17 @@ TEST(CertainHit, isAMarginAwayFromEdgesAndEnds)
   };
   for (const auto& [origin, direction, rayFar, expected] :
     { Case{ { 0.0f, 0.0f, -1.0f }, up, never, true }, { { 0.0f, 0.0f, 1.0f }, -up, never, true },
-      // Beside, on and just inside of an edge.
+      // Beside, on and just inside an edge.
       { { 0.0f, -1.001f, -1.0f }, up, never, false }, { { 0.0f, -1.0f, -1.0f }, up, never, false },
       { { 0.0f, -0.9999999f, -1.0f }, up, never, false },
       { { 0.0f, -0.999f, -1.0f }, up, never, true },
-      // Where the ray starts behind it, on it or just before it.
+      // Rays that start behind the triangle, on it or just before it.
       { { 0.0f, 0.0f, 1.0f }, up, never, false }, { { 0.0f, 0.0f, 0.0f }, up, never, false },
       { { 0.0f, 0.0f, -1e-7f }, up, never, false }, { { 0.0f, 0.0f, -1e-3f }, up, never, true },
-      // Where it ends before it, on it or just behind it.
+      // Rays that end before the triangle, on it or just behind it.
       { { 0.0f, 0.0f, -2.0f }, up, 1.0f, false }, { { 0.0f, 0.0f, -1.0f }, up, 1.0f, false },
       { { 0.0f, 0.0f, -0.9999999f }, up, 1.0f, false }, { { 0.0f, 0.0f, -0.999f }, up, 1.0f, true },
-      // Along it.
+      // Rays along the triangle.
       { { 0.0f, -3.0f, 0.0f }, { 0.0f, 1.0f, 0.0f }, never, false } })
   {
     EXPECT_EQ(certainlyStops(occluders, { 0, 0, 0 }, { origin, direction, true }, rayFar), expected)
@@ -408,7 +408,7 @@ TEST(CertainHit, isNotOnTheBackOfOneSidedCastersAndNotOnCutouts)
     return certainlyStops(occluders, { 0, 0, 0 }, ray, never) ||
       certainlyStops(occluders, { 0, 0, 1 }, ray, never);
   };
-  EXPECT_TRUE(hits(oneSided, -1.0f)); // the light is above, where the front is
+  EXPECT_TRUE(hits(oneSided, -1.0f)); // the light is above, at the front
   EXPECT_FALSE(hits(oneSided, 1.0f));
   EXPECT_FALSE(hits(perforated, -1.0f));
 }
@@ -416,7 +416,7 @@ TEST(CertainHit, isNotOnTheBackOfOneSidedCastersAndNotOnCutouts)
 //------------------------------------------------------------------------------
 // The chain
 
-/// What a chain made of a picture.
+/// The result of a chain for a picture.
 struct ChainRun
 {
   std::vector<ChainClass> classes;
@@ -469,8 +469,8 @@ public:
       this->picture_.light, this->picture_.occluders, this->receivers_, this->truth_);
   }
 
-  /// Run stages, and expect what holds for any of them: visibilities are those of their classes,
-  /// and wrong only where the class is no proof.
+  /// Run stages, and expect the properties of all chains: visibilities are those of their classes,
+  /// and are wrong only if the class is no proof.
   ChainRun run(const ChainStages& stages)
   {
     std::vector<std::uint8_t> classes;
@@ -533,7 +533,7 @@ void visitChains(const Names& names, unsigned int seeds, const Visit& visit)
   }
 }
 
-/// All that proves, and the rest traced.
+/// Return all stages that prove, with the rest traced.
 ChainStages provenStages(int contourPixels)
 {
   ChainStages stages;
@@ -568,14 +568,14 @@ TEST_P(ChainIn, withoutCoherenceIsNeverWrong)
     const ChainRun contour = chained.run(provenStages(4));
     for (std::size_t i = 0; i < contour.classes.size(); ++i)
     {
-      // What decides a pixel of the contour decides it in the whole image.
+      // A stage that decides a pixel of the contour decides it in the whole image.
       EXPECT_TRUE(contour.isOutside(i) || contour.classes[i] == image.classes[i]);
       proven += image.isConfirmed(i) ? 1 : 0;
       const bool reached = image.classes[i] != ChainClass::Unreached;
       dark += reached && chained.truth()[i] == 0.0f ? 1 : 0;
     }
   }
-  // Holes are no proof.
+  // Hits in surfaces with holes are no proof.
   EXPECT_GE(proven, GetParam() == std::string("perforated") ? 0 : dark / 2);
 }
 
@@ -597,7 +597,7 @@ TEST(Chain, isNeverWrongFarAwayAndAtAnyScale)
 
 TEST(Chain, confirmsMoreWithMoreTriangles)
 {
-  // By 1, 4 and 9 texels, and by the triangles around the one of the texel.
+  // By 1, 4 and 9 texels, and by the triangles around the texel's triangle.
   std::array<ChainStages, 5> stages;
   for (std::size_t k = 0; k < stages.size(); ++k)
   {
@@ -619,7 +619,7 @@ TEST(Chain, confirmsMoreWithMoreTriangles)
         {
           EXPECT_TRUE(!runs[fewer].isConfirmed(i) || runs[all].isConfirmed(i));
         }
-        // The own texel's triangle is the first that is tried.
+        // The texel's own triangle is tried first.
         EXPECT_EQ(runs[0].classes[i] == ChainClass::ConfirmedByTexel,
           runs[2].classes[i] == ChainClass::ConfirmedByTexel);
         for (std::size_t k = 0; k < runs.size(); ++k)
@@ -656,7 +656,7 @@ TEST(Chain, hintsTheStatusOfPixelsWhoseTexelsAgree)
         EXPECT_TRUE(!runs[0].isHinted(i) ||
           (runs[0].classes[i] == ChainClass::HintedShadow) ==
             (statuses.classes[i] == ChainClass::TracedShadow));
-        // Pixels that the light does not reach are dark by definition and need no hint.
+        // Pixels that the light does not reach are dark by definition, and need no hint.
         EXPECT_EQ(runs[0].classes[i] == ChainClass::Unreached,
           statuses.classes[i] == ChainClass::Unreached);
       }
@@ -772,7 +772,7 @@ TEST(Chain, withOneStageIsWrongWhereShadowIsNotConfirmedOrLightNotCorrected)
   {
     EXPECT_GT(unconfirmed[k], 0u);
     EXPECT_GT(uncorrected[k], 0u);
-    // Neighbours alone are asked about what their texel calls lit.
+    // Only stages of neighbouring texels test pixels that their own texel calls lit.
     EXPECT_EQ(uncorrected[k] < falseLight, k < 3);
   }
   EXPECT_GT(falseShadow, 0u);
@@ -794,7 +794,7 @@ Chained sunlit(const std::vector<Prop>& props, const glm::dvec3& direction, int 
 
 TEST(Chain, hasNoAcneOnRidgesAndInValleys)
 {
-  // A sheet with folds that are wider than texels, and steep, lit from above: nothing is in shadow.
+  // A sheet with steep folds wider than texels, lit from above: no part is in shadow.
   Mesh sheet;
   for (int i = 0; i <= 20; ++i)
   {
@@ -815,7 +815,7 @@ TEST(Chain, hasNoAcneOnRidgesAndInValleys)
     EXPECT_GT(run.count({ ChainClass::TracedLit }), 10000u);
     for (std::size_t i = 0; i < run.classes.size(); ++i)
     {
-      // Rays of receivers in the very bottom of a valley may start behind its other side.
+      // Rays of receivers at the very bottom of a valley may start behind its other side.
       EXPECT_TRUE(run.classes[i] != ChainClass::TracedShadow || chained.truth()[i] == 0.0f) << i;
     }
   }
@@ -823,7 +823,7 @@ TEST(Chain, hasNoAcneOnRidgesAndInValleys)
 
 TEST(Chain, hasNoAcneOnSmoothSurfaces)
 {
-  // Closed and open, convex and concave, and a plane; beyond the contours they are right.
+  // Closed and open, convex and concave bodies, and a plane; outside the contours they are right.
   const Mesh ball = makeSphere(60, 120);
   Mesh bowl = ball;
   bowl.triangles.erase(std::remove_if(bowl.triangles.begin(), bowl.triangles.end(),
@@ -846,7 +846,7 @@ TEST(Chain, hasNoAcneOnSmoothSurfaces)
       falseShadow += run.isOutside(i) && run.visibility[i] < chained.truth()[i] ? 1 : 0;
     }
     EXPECT_EQ(falseShadow, 0u);
-    // Shadows' edges and little else are looked at.
+    // Little except shadows' edges is traced.
     EXPECT_LT(
       run.count({ ChainClass::TracedLit, ChainClass::TracedShadow }), chained.needRays() / 8);
   }

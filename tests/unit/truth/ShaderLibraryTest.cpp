@@ -1,4 +1,4 @@
-// Shaders that cannot be: errors that say what and why, and a library that goes on.
+// Invalid shaders: errors that name the shader and the reason, and a library that still works.
 
 #include "EstimatorGlsl.h"
 
@@ -18,7 +18,7 @@ namespace
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// What a call that is to fail says.
+/// Return the error of a call that has to fail.
 std::string errorOf(const std::function<void()>& call)
 {
   try
@@ -67,7 +67,7 @@ TEST_F(ShaderLibraryTest, saysWhatDoesNotLink)
 }
 
 //------------------------------------------------------------------------------
-/// More uniforms than there can be are no program that shows something else.
+/// A program with too many uniforms is an error.
 TEST_F(ShaderLibraryTest, saysThatUniformsAreTooMany)
 {
   GLint most = 0;

@@ -14,7 +14,7 @@ namespace gnomon::test
 namespace
 {
 
-/// What planeNoise() asks of a triangle.
+/// The arguments of planeNoise() for a triangle.
 struct TriangleNumbers
 {
   glm::vec3 normal;
@@ -75,7 +75,7 @@ TEST(PlaneNoise, IsZeroWhereFloatsAreExact)
   EXPECT_GT(numbersOf({ -2, -2, 1 }, { 2, -2, 1 }, { 2, 2, 1 }).noise(), 0.0f);
 }
 
-/// However thin a triangle, its shadow rays start close to it.
+/// Shadow rays start close to a triangle, however thin it is.
 TEST(PlaneNoise, OfSliversStaysSmall)
 {
   for (const float width : { 1e-2f, 1e-4f, 1e-8f, 1e-20f })
@@ -87,8 +87,8 @@ TEST(PlaneNoise, OfSliversStaysSmall)
   }
 }
 
-/// The sign of Embree's depth, in float, at points that rounding left off their plane: right
-/// wherever the origin lies as far off as planeNoise() says.
+/// Test the sign of Embree's depth, in float, at points that rounding moved off their plane. It is
+/// right if the origin is at least planeNoise() off the plane.
 TEST(PlaneNoise, BoundsWhatRoundingDoes)
 {
   RandomTriangles random;
@@ -110,7 +110,7 @@ TEST(PlaneNoise, BoundsWhatRoundingDoes)
     const glm::vec3 v1 = b - origin;
     const glm::vec3 v2 = c - origin;
     const float depth = glm::dot(v0, glm::cross(v2 - v0, v0 - v1));
-    // Below the plane's front: the origin is seen on the side it is meant to be on.
+    // Below the plane's front: the origin is seen on its intended side.
     ASSERT_LT(depth, 0.0f) << i;
   }
 }

@@ -1,4 +1,4 @@
-// Where a picture has shadows, in tiles.
+// The tiles of a picture that hold shadows.
 
 #include "shadowtech/base/ShadowedTiles.h"
 
@@ -14,7 +14,7 @@ namespace
 
 using Rectangles = std::vector<ShadowedTiles::Rectangle>;
 
-/// A picture's visibility, lit but for rectangles.
+/// A picture's visibility: lit, except for rectangles.
 std::vector<float> litBut(const glm::ivec2& size, const Rectangles& shadows)
 {
   std::vector<float> visibility(static_cast<std::size_t>(size.x * size.y), 1.0f);

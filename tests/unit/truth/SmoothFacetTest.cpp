@@ -1,4 +1,4 @@
-// The curved surface above a facet that is shaded with normals of its corners.
+// The curved surface above a facet that is shaded with its corners' normals.
 
 #include "shadowtech/base/SmoothFacet.h"
 #include "shadowtech/base/Occluders.h"
@@ -58,7 +58,7 @@ struct FacetOfBall
   }
 };
 
-/// One triangle, as a surface with normals under a matrix; seen from its front, unless told.
+/// Return one triangle as a surface with normals under a matrix, by default seen from its front.
 std::optional<Normals> normalsUnder(const glm::dmat4& matrix, const FacetOfBall& facet, bool back)
 {
   Occluders occluders;
@@ -111,7 +111,7 @@ TEST(SmoothFacet, isNotAboveAHollow)
   FacetOfBall facet(0.4);
   for (glm::vec3& normal : facet.normals)
   {
-    normal = -normal; // the camera is inside of the ball
+    normal = -normal; // the camera is inside the ball
   }
   EXPECT_LT(lookAbove(facet.corners, facet.normals, { 0.05, -0.02, std::cos(0.4) }).height, 1e-6f);
   EXPECT_LT(SmoothFacet(facet.corners, facet.normals).largestHeight(), 1e-6f);
@@ -175,7 +175,7 @@ TEST(SmoothFacet, wantsNormalsThatGoWithTheFacet)
   const glm::dmat4 identity(1.0);
   FacetOfBall facet(0.3);
   EXPECT_TRUE(normalsUnder(identity, facet, false).has_value());
-  EXPECT_TRUE(normalsUnder(identity, facet, true).has_value()); // both sides are seen
+  EXPECT_TRUE(normalsUnder(identity, facet, true).has_value()); // both sides are visible
   facet.normals[1] = glm::vec3(1.0f, 0.0f, 0.01f);
   EXPECT_FALSE(normalsUnder(identity, facet, false).has_value());
   facet.normals[1] = glm::vec3(0.0f);

@@ -1,4 +1,4 @@
-// Spheres and cylinders of impostors: where rays meet them, and that none shadows itself.
+// Spheres and cylinders of impostors: the hits of rays, and no self-shadows.
 
 #include "SyntheticScene.h"
 
@@ -47,7 +47,7 @@ public:
     return glm::normalize(vector);
   }
 
-  /// As the snapshot keeps it.
+  /// Return the solid's matrix as the snapshot stores it.
   glm::mat4x3 matrix(Solid kind, double reach)
   {
     const double radius = std::exp2(this->uniform(-8.0, 2.0));
@@ -72,7 +72,7 @@ private:
   std::mt19937 random_;
 };
 
-/// How far inside a solid a point is: negative outside.
+/// Return a point's depth inside a solid: negative outside.
 double depthIn(const PlacedSolid& solid, const glm::dvec3& point)
 {
   const glm::dvec3 from = point - solid.centre;
@@ -90,7 +90,7 @@ double depthIn(const PlacedSolid& solid, const glm::dvec3& point)
     solid.radius - glm::length(from - along * solid.axis), solid.halfLength - std::abs(along));
 }
 
-/// Solids as a snapshot has them, one surface for each kind.
+/// Return solids as in a snapshot, one surface for each kind.
 Occluders occludersOf(const std::vector<std::pair<Solid, std::vector<glm::mat4x3>>>& kinds)
 {
   Occluders occluders;
@@ -147,7 +147,7 @@ TEST_P(Solids, linesCrossThemWhereTheyAreInside)
     const glm::dvec3 direction =
       random.uniform(0.1, 10.0) * (solid.centre + 1.2 * size * random.vector() - origin);
     const auto crossing = crossingOf(solid, origin, direction);
-    // The deepest point is where depth, which is concave along the line, stops growing.
+    // Depth is concave along the line; find its maximum.
     double lower = -30.0;
     double upper = 30.0;
     for (int step = 0; step < 200; ++step)
@@ -161,7 +161,7 @@ TEST_P(Solids, linesCrossThemWhereTheyAreInside)
     const double deepest = depthIn(solid, origin + lower * direction);
     if (std::abs(deepest) < 1e-9 * size)
     {
-      continue; // it touches
+      continue; // it only touches
     }
     ASSERT_EQ(crossing.has_value(), deepest > 0.0) << i;
     if (crossing)
@@ -190,7 +190,7 @@ TEST_P(Solids, aRayMeetsTheirSurfaceOrPassesByIt)
     const SolidPoint point = seenPoint(solid, origin, direction);
     EXPECT_NEAR(depthIn(solid, point.position), 0.0, 1e-12 * size);
     EXPECT_NEAR(glm::length(point.normal), 1.0, 1e-12);
-    // Along the normal it goes outwards, against it inwards.
+    // A step along the normal leads outwards, a step against it inwards.
     EXPECT_LT(depthIn(solid, point.position + 1e-6 * size * point.normal), 0.0);
     EXPECT_GT(depthIn(solid, point.position - 1e-6 * std::min(solid.radius, size) * point.normal),
       -1e-12 * size);
@@ -208,7 +208,7 @@ TEST_P(Solids, aRayMeetsTheirSurfaceOrPassesByIt)
 }
 
 //------------------------------------------------------------------------------
-/// In any light that the receiver faces; at half, once and twice the offset; near the origin and
+/// For any light that the receiver faces; at half, once and twice the offset; near the origin and
 /// far away.
 TEST_P(Solids, noneShadowsItself)
 {
@@ -240,7 +240,7 @@ TEST_P(Solids, noneShadowsItself)
 }
 
 //------------------------------------------------------------------------------
-/// Molecules show a bond as two sticks, one for each atom's colour, each rounded for itself.
+/// Molecules show a bond as two sticks, one for each atom's colour, each rounded separately.
 class SolidPairs : public testing::TestWithParam<Solid>
 {
 };
@@ -287,7 +287,7 @@ TEST_P(SolidPairs, halvesOfABondDoNotShadowEachOther)
 }
 
 //------------------------------------------------------------------------------
-/// Parts of a bent line reach into each other.
+/// Parts of a bent line overlap.
 TEST(SolidBends, whatBeginsInATubeIsNotInItsShadow)
 {
   RandomSolids random(7);
@@ -375,7 +375,7 @@ TEST_P(Solids, meshesAreClosedAndInscribed)
 }
 
 //------------------------------------------------------------------------------
-/// In packets and alone, built and refitted, from the side that casts and from any.
+/// In packets and alone, built and refitted, one-sided and two-sided.
 TEST(SolidTracing, theTracerAnswersAsTheyDo)
 {
   RandomSolids random(6);

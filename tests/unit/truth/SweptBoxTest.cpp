@@ -43,7 +43,7 @@ gnomon::LightArea discOfRadius(double radius)
 
 const glm::dvec3 centreWorld(10.0, 20.0, 30.0);
 
-/// Directions are from the origin, so of a sun the centre takes nothing off.
+/// A sun's direction starts at the origin, so the centre is not subtracted.
 glm::dvec3 placeOf(LightKind kind, const glm::dvec3& centred)
 {
   return kind == LightKind::Directional ? centred : centred + centreWorld;
@@ -65,7 +65,7 @@ TEST(SweptBox, meetsWhatIsOnTheWayToTheLight)
     EXPECT_EQ(
       swept.meets(boxAround({ 0.0, 0.0, 12.0 }, glm::dvec3(0.4))), kind == LightKind::Directional)
       << "beyond the light";
-    // Towards a point rays come closer; along a direction they do not.
+    // Rays towards a point converge; rays along a direction do not.
     EXPECT_EQ(
       swept.meets(boxAround({ 0.4, 0.0, 8.0 }, glm::dvec3(0.1))), kind == LightKind::Directional);
   }

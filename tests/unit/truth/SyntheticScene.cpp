@@ -298,7 +298,7 @@ void moveSurface(Occluders& occluders, std::size_t index, const glm::dvec3& by)
 namespace
 {
 
-/// The nearest triangles along rays, for makeView().
+/// Finds the nearest triangles along rays, for makeView().
 class Caster
 {
 public:
@@ -350,7 +350,7 @@ private:
   std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
 };
 
-/// A number in [-1, 1] that looks random, by pixel.
+/// Return a pseudo-random number in [-1, 1] for a pixel.
 double jitter(std::uint32_t seed)
 {
   seed = (seed ^ 61u) ^ (seed >> 16);
@@ -487,8 +487,8 @@ struct Segment
   glm::dvec3 b;
 };
 
-/// The distance between two segments (Ericson, Real-Time Collision Detection, 5.1.9). The first one
-/// has a length; the second need not.
+/// Return the distance between two segments (Ericson, Real-Time Collision Detection, 5.1.9). The
+/// first one has a length; the second need not.
 double distanceBetween(const Segment& first, const Segment& second)
 {
   const glm::dvec3 d = first.b - first.a;
@@ -506,7 +506,7 @@ double distanceBetween(const Segment& first, const Segment& second)
   return glm::length(first.a + s * d - (second.a + t * e));
 }
 
-/// The ray of a pixel, where one is traced.
+/// Return the ray of a pixel, if one is traced.
 ShadowRay rayOf(const ShadowRayLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t i)
 {
@@ -554,11 +554,11 @@ std::vector<CastingTriangle> castingTriangles(const Occluders& occluders)
   return result;
 }
 
-/// Differences of floats are exact in double, so that neighbours agree on their common edge.
+/// Differences of floats are exact in double, so neighbours agree on their common edge.
 bool hits(const glm::dvec3& origin, const glm::dvec3& direction, double rayFar,
   const CastingTriangle& triangle)
 {
-  // Signed volumes of the ray's line with the three edges: all of one sign inside.
+  // The signed volumes of the ray's line with the three edges have one sign if it passes inside.
   const glm::dvec3 v0 = triangle.a - origin;
   const glm::dvec3 v1 = triangle.b - origin;
   const glm::dvec3 v2 = triangle.c - origin;

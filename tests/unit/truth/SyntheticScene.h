@@ -13,7 +13,7 @@
 
 /// @file
 /// Scenes and camera views made on the CPU, without VTK and OpenGL, in the form in which the plugin
-/// hands them to the techniques.
+/// passes them to the techniques.
 
 namespace gnomon::test
 {
@@ -25,21 +25,21 @@ struct Mesh
   std::vector<glm::uvec3> triangles;
 };
 
-/// A square in the plane z = 0, facing +z, of cells x cells quads.
+/// Return a square in the plane z = 0, facing +z, of cells x cells quads.
 Mesh makePlane(double side, int cells = 1);
-/// The same with hills of this height.
+/// Return the same square with hills of this height.
 Mesh makeTerrain(double side, int cells, double height);
 Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper);
-/// A unit sphere around the origin; `bumps` displaces it along its normals.
+/// Return a unit sphere around the origin; `bumps` displaces it along its normals.
 Mesh makeSphere(int rings, int segments, double bumps = 0.0);
-/// Triangles of all shapes and sizes in the unit cube, slivers among them.
+/// Return triangles of all shapes and sizes in the unit cube, slivers among them.
 Mesh makeTriangleSoup(int count, unsigned int seed);
-/// The same triangles, each with corners of its own, at exactly the same places.
+/// Return the same triangles, each with its own corners, at exactly the same places.
 Mesh apart(const Mesh& mesh);
-/// The mesh of a Wavefront file; polygons are fanned.
+/// Return the mesh of a Wavefront file; polygons are fanned.
 Mesh readObj(const std::string& path);
 
-/// One prop: a mesh and where it stands.
+/// One prop: a mesh and its matrix.
 struct Prop
 {
   Mesh mesh;
@@ -51,15 +51,15 @@ struct Prop
   std::vector<glm::vec2> textureCoordinates = {}; ///< with a cut-out, of the mesh's points
 };
 
-/// makePlane() with holes of all shapes, by an interpolated texture that repeats.
+/// Return makePlane() with holes of all shapes, by an interpolated texture that repeats.
 Prop makePerforatedPlane(double side, int cells, const glm::dmat4& worldFromMesh = glm::dmat4(1.0));
 
-/// The snapshot of these props, as the collector makes it: doubles less the centre, then floats.
-/// The centre is the middle of their box, so that all coordinates round.
+/// Return the snapshot of these props as the collector makes it: doubles less the centre, then
+/// floats. The centre is the middle of their box, so all coordinates are rounded.
 Occluders makeOccluders(const std::vector<Prop>& props);
 
-/// Moves one surface of a snapshot, as a moved prop does, and marks what changed. The boxes around
-/// all surfaces stay.
+/// Move one surface of a snapshot, like a moved prop, and mark the changes. The boxes around all
+/// surfaces stay.
 void moveSurface(Occluders& occluders, std::size_t surface, const glm::dvec3& by);
 
 /// A camera in world coordinates.
@@ -74,8 +74,8 @@ struct Camera
   int height = 256;
 };
 
-/// What the camera sees, as a rasteriser gives it: the triangle of each pixel is the one at a point
-/// that is off the pixel's centre by up to 1/512 pixel.
+/// A camera's view, as a rasteriser gives it: each pixel's triangle is that at a point off the
+/// pixel's centre by up to 1/512 pixel.
 struct View
 {
   ReceiverImages images;
@@ -83,7 +83,7 @@ struct View
 };
 View makeView(const Occluders& occluders, const Camera& camera);
 
-/// makeView() and projectReceivers().
+/// Run makeView() and projectReceivers().
 ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera);
 
 /// A receiver that a test places, centred.
@@ -93,37 +93,37 @@ struct PlacedReceiver
   glm::vec3 normal;
   float offset; ///< of its shadow ray
 };
-/// A row of receivers of one surface.
+/// Return a row of receivers of one surface.
 ReceiverPixels rowOf(const std::vector<PlacedReceiver>& receivers, std::uint32_t surface = 0);
 
 ShadowLight directionalLight(const glm::dvec3& direction);
 ShadowLight spotLight(
   const glm::dvec3& position, const glm::dvec3& target, double coneAngleDegrees);
 ShadowLight pointLight(const glm::dvec3& position);
-/// A directional light that begins at `position`, in a box of this width, height and depth.
+/// Return a directional light that begins at `position`, in a box of this width, height and depth.
 ShadowLight boxLight(
   const glm::dvec3& direction, const glm::dvec3& position, const glm::dvec3& size);
 
-/// Visibility by every triangle against every ray, in double precision.
+/// Return visibility by every triangle against every ray, in double precision.
 std::vector<float> traceBruteForce(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers);
 
-/// The smallest distance between a pixel's shadow ray and an edge of a casting triangle, over the
-/// largest coordinate of the scene.
+/// Return the smallest distance between a pixel's shadow ray and an edge of a casting triangle,
+/// over the largest coordinate of the scene.
 double edgeDistance(const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t pixel);
 
-/// Visibility by a EmbreeTracer made for it.
+/// Return visibility by a new EmbreeTracer.
 std::vector<float> trace(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers);
 
-/// The same receivers with the offset of their shadow rays multiplied.
+/// Return the same receivers with the offset of their shadow rays multiplied.
 ReceiverPixels withOffset(const ReceiverPixels& receivers, float factor);
 
-/// A place and a size.
+/// Return a matrix of a place and a size.
 glm::dmat4 at(const glm::dvec3& position, double scale = 1.0);
 
-/// Pixels whose visibilities differ.
+/// Count the pixels whose visibilities differ.
 std::size_t countDifferent(const std::vector<float>& a, const std::vector<float>& b);
 std::size_t countCovered(const ReceiverPixels& receivers);
 

@@ -1,5 +1,5 @@
-// The rasteriser of conservative maps, against cells and triangles compared one by one: which
-// texels a triangle meets, which it contains, and what depths it has there.
+// The rasteriser of conservative maps, against each pair of cell and triangle: the texels that a
+// triangle meets and contains, and its depths there.
 
 #include "shadowtech/exact/TexelCells.h"
 
@@ -20,16 +20,16 @@ namespace
 
 constexpr int cellsWidth = 32;
 
-/// Less than the margin by more than rounding.
+/// The margin, minus more than rounding.
 constexpr double margin = 0.999 * marginTexels;
 
-// Of all that is drawn.
+// For all drawn shapes.
 constexpr double sheetSlack = 0.01;
 constexpr double sheetNoise = 0.02;
 
 constexpr Span allRows{ 0, cellsWidth - 1 };
 
-/// With the noise of those that do not lie along the light.
+/// Draw polygons, with the noise of those that do not lie along the light.
 std::vector<Cell> drawn(const std::vector<MapPolygon>& polygons)
 {
   std::vector<Cell> cells(cellsWidth * cellsWidth);
@@ -79,7 +79,7 @@ void visitCells(const Corners& corners, const Visit& visit)
 
 TEST(TexelCells, areThoseThatATriangleMeetsAndContainsAndHardlyMore)
 {
-  /// How many cells truly are, and how the rasteriser errs.
+  /// The number of true cells, and the rasteriser's errors.
   struct Said
   {
     std::size_t truly = 0, missing = 0, extra = 0;
@@ -135,7 +135,7 @@ TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
           return;
         }
         const double middle = depthAt(low + 0.5);
-        // What float leaves of depths of this size.
+        // The rounding of depths of this size in float.
         const double rounding = 1e-6 * (1.0 + std::abs(middle));
         for (int sample = 0; sample < 64; ++sample)
         {
@@ -153,7 +153,7 @@ TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
             }
           }
         }
-        // And are no wider than the triangle, and its plane in the texel.
+        // Cells' depths are no wider than the triangle, and than its plane in the texel.
         EXPECT_GE(cell.nearest, std::max(least, middle - half) - sheetSlack - rounding);
         EXPECT_LE(cell.partAcross, std::min(most, middle + half) + sheetSlack + rounding);
         EXPECT_EQ(cell.noise, static_cast<float>(sheetNoise));
@@ -164,8 +164,8 @@ TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
   EXPECT_GT(layers, 100000u);
 }
 
-/// What lies behind the one layer does not matter for how far off that rays have to start; what may
-/// come before its receivers does.
+/// The offset of rays depends on the shapes that may come before the map's receivers, not on those
+/// behind its only layer.
 TEST(TexelCells, haveTheNoiseOfWhatBeginsBeforeTheLastReceiver)
 {
   constexpr std::size_t middle = 6 * cellsWidth + 6;
@@ -187,7 +187,7 @@ TEST(TexelCells, haveTheNoiseOfWhatBeginsBeforeTheLastReceiver)
       polygons.back().noise = noise;
     }
     std::vector<float> noises;
-    // In whichever order they are drawn.
+    // In any order of drawing.
     const auto isLess = [](const MapPolygon& a, const MapPolygon& b) { return a.noise < b.noise; };
     std::sort(polygons.begin(), polygons.end(), isLess);
     do
@@ -202,7 +202,7 @@ TEST(TexelCells, haveTheNoiseOfWhatBeginsBeforeTheLastReceiver)
     << "each climbs, and begins behind the last receiver";
   EXPECT_EQ(noiseOf({ { 0.2, 0.0, 0.01 }, { 0.4, 0.2, 0.02 }, { 0.7, 0.0, 0.03 } }), 0.01f)
     << "the second begins before its depth at the sample, but it climbs as far";
-  // One that does not come to the sample is no layer.
+  // A shape that does not reach the sample is no layer.
   const Sheet sheet{ 0.2, 0.0, 0.01 }, behind{ 0.5, 0.0, 0.02 };
   EXPECT_EQ(noiseOf({ sheet, behind, { 0.3, 0.0, 0.03, 6.1, 0.2 } }), 0.03f);
   EXPECT_EQ(noiseOf({ sheet, behind, { 0.6, 0.0, 0.03, 6.1, 0.2 } }), 0.01f);
@@ -254,7 +254,7 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
     std::vector<Cell> cells(cellsWidth * cellsWidth);
     drawSegment(segment, marginTexels, cellsWidth, allRows, cells.data());
     drawEndOfPart(segment, marginTexels, cellsWidth, allRows, cells.data());
-    // Near it, too.
+    // Near the segment, too.
     const double near = margin + thinTexels;
     for (int k = 0; k < 64; ++k)
     {
@@ -286,8 +286,8 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
 
 TEST(TexelCells, areCoveredByAPartThatDoesNotEndThereWhateverOthersDo)
 {
-  // A square of two triangles at depth 0.5, and an edge before or behind it, of its own part or
-  // another one.
+  // A square of two triangles at depth 0.5, and an edge before or behind it, of its own part or of
+  // another part.
   const Corners halves[] = { { { { 2.0, 2.0, 0.5 }, { 9.0, 2.0, 0.5 }, { 9.0, 9.0, 0.5 } } },
     { { { 2.0, 2.0, 0.5 }, { 9.0, 9.0, 0.5 }, { 2.0, 9.0, 0.5 } } } };
   constexpr std::size_t onDiagonal = 5 * cellsWidth + 5;

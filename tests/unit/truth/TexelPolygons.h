@@ -15,7 +15,7 @@
 #include <vector>
 
 /// @file
-/// Triangles on the texels of a map, and plane geometry to compare with what is drawn.
+/// Triangles on the texels of a map, and plane geometry for comparison with the rasteriser.
 
 namespace gnomon::test
 {
@@ -25,20 +25,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// x and y in texels, z the depth.
 using Corners = std::array<glm::dvec3, 3>;
 
-/// The area between two vectors, positive where the second lies to the left of the first.
+/// Return the area between two vectors, positive if the second lies to the left of the first.
 inline double perp(const glm::dvec2& a, const glm::dvec2& b)
 {
   return a.x * b.y - a.y * b.x;
 }
 
-/// Twice the area of a triangle, positive where it is counter-clockwise.
+/// Return twice the area of a triangle, positive if it is counter-clockwise.
 inline double doubleAreaOf(const Corners& corners)
 {
   return perp(glm::dvec2(corners[1] - corners[0]), glm::dvec2(corners[2] - corners[0]));
 }
 
-/// A triangle of any size from a hundredth of a texel to the whole map, wound either way, each
-/// third one a sliver.
+/// Return a triangle of any size from a hundredth of a texel to the whole map, wound either way.
+/// Each third one is a sliver.
 inline Corners randomTriangle(Random& random, int width)
 {
   const double size = std::pow(10.0, uniform(random, -2.0, 1.5));
@@ -56,7 +56,7 @@ inline Corners randomTriangle(Random& random, int width)
   return corners;
 }
 
-/// As what is drawn: a caster that covers.
+/// Return the shape to draw: a caster that covers.
 inline MapPolygon polygonWith(const Corners& corners)
 {
   MapPolygon polygon;
@@ -79,7 +79,7 @@ inline bool isInside(const Corners& corners, const glm::dvec2& point)
     sign * perp(a - c, point - c) >= 0.0;
 }
 
-/// Whether a triangle and a cell have a point in common, by separating axes.
+/// True if a triangle and a cell have a point in common, by separating axes.
 inline bool overlap(const Corners& corners, const glm::dvec2& low, const glm::dvec2& high)
 {
   std::vector<glm::dvec2> axes{ { 1.0, 0.0 }, { 0.0, 1.0 } };
@@ -104,14 +104,14 @@ inline bool overlap(const Corners& corners, const glm::dvec2& low, const glm::dv
     });
 }
 
-/// Whether all of a cell lies in a triangle.
+/// True if all of a cell lies in a triangle.
 inline bool contains(const Corners& corners, const glm::dvec2& low, const glm::dvec2& high)
 {
   return isInside(corners, low) && isInside(corners, high) &&
     isInside(corners, { low.x, high.y }) && isInside(corners, { high.x, low.y });
 }
 
-/// The depth of a triangle's plane.
+/// Return the depth of a triangle's plane.
 inline auto depthOf(const Corners& corners)
 {
   const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -132,8 +132,8 @@ inline glm::dvec2 crossing(const Line& a, const Line& b)
     perp(a.normal, b.normal);
 }
 
-/// The line from one point to another, moved to the inside of a triangle.
-/// @param inwards 1 or -1: which side that is of a line's left and right
+/// Return the line from one point to another, moved to the inside of a triangle.
+/// @param inwards 1 or -1: which side of the line, left or right, is inside
 inline Line movedLine(const glm::dvec2& from, const glm::dvec2& to, double inwards, double by)
 {
   const glm::dvec2 along = glm::normalize(to - from);
@@ -141,7 +141,7 @@ inline Line movedLine(const glm::dvec2& from, const glm::dvec2& to, double inwar
   return { normal, glm::dot(normal, from) + by };
 }
 
-/// Where the sides of a triangle cross once they were moved inwards.
+/// Return where the sides of a triangle cross after they were moved inwards.
 /// @param by called with a side's unit normal
 template <typename By>
 Corners withMovedSides(const Corners& corners, const By& by)

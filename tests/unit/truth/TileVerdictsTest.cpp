@@ -1,4 +1,4 @@
-// What is known of whole tiles without rays is what tracing finds.
+// Verdicts on whole tiles without rays agree with tracing.
 
 #include "shadowtech/tracing/TileVerdicts.h"
 
@@ -25,7 +25,7 @@ namespace gnomon::test
 namespace
 {
 
-/// A picture's visibility, and how its pixels came to it.
+/// A picture's visibility, its classes and its rays.
 struct Shown
 {
   std::vector<float> visibility;
@@ -88,7 +88,7 @@ private:
   std::optional<ReceiverBoxes> boxes_;
 };
 
-/// Compares what a light shows with verdicts and without, pixel by pixel.
+/// Compare a light's visibility with verdicts and without, pixel by pixel.
 void expectSame(const Shown& judged, const Shown& traced, const std::string& where)
 {
   ASSERT_EQ(judged.visibility, traced.visibility) << where;
@@ -104,7 +104,7 @@ void expectSame(const Shown& judged, const Shown& traced, const std::string& whe
   }
 }
 
-/// How many pixels are decided in which way.
+/// Counts of pixels by the way in which they are decided.
 using DecidedPixels = std::array<std::size_t, 5>; // by TracedClass
 void countDecided(const TileVerdicts& verdicts, const Shown& judged, DecidedPixels& counts)
 {
@@ -112,7 +112,7 @@ void countDecided(const TileVerdicts& verdicts, const Shown& judged, DecidedPixe
   {
     counts[judged.classes[i]] += judged.of(i) != TracedClass::Unreached ? 1 : 0;
   }
-  // Those that are turned away are of this class as well, but not in dark tiles as a whole.
+  // Pixels turned away have this class as well, but not as whole dark tiles.
   std::vector<std::uint8_t> dark(judged.classes.size(), 0);
   for (std::size_t tile = 0; tile < verdicts.darkTiles().size(); ++tile)
   {
@@ -125,7 +125,7 @@ void countDecided(const TileVerdicts& verdicts, const Shown& judged, DecidedPixe
     std::count(dark.begin(), dark.end(), static_cast<std::uint8_t>(TracedClass::Unreached)));
 }
 
-/// Gives a light an area of some shape, or none.
+/// Give a light an area of some shape, or none.
 void addArea(ShadowLight& light, Random& random)
 {
   const glm::dvec3 travel =
@@ -226,8 +226,7 @@ TEST(TileVerdicts, AreWhatTracingFinds)
 namespace
 {
 
-/// A floor that does not cast, and over its half with x > 0 a wall that stands between it and the
-/// lamp.
+/// Return a floor that does not cast, and over its half with x > 0 a wall between it and the lamp.
 std::vector<Prop> makeWallAndFloor()
 {
   Prop floor{ makePlane(8.0) };
@@ -284,7 +283,7 @@ TEST(TileVerdicts, AreNewWhereACasterMoved)
 }
 
 //------------------------------------------------------------------------------
-/// Only what surely blocks hides a light.
+/// Only a sure blocker hides a light.
 TEST(TileVerdicts, DoNotTrustWallsWithHolesOrOneSide)
 {
   const auto isDark = [](const Prop& wall)
@@ -295,7 +294,7 @@ TEST(TileVerdicts, DoNotTrustWallsWithHolesOrOneSide)
   };
   Prop wall = makeWallAndFloor()[1];
   EXPECT_TRUE(isDark(wall));
-  wall.oneSided = true; // its front looks at the lamp
+  wall.oneSided = true; // its front faces the lamp
   EXPECT_TRUE(isDark(wall));
   wall.worldFromMesh = glm::rotate(wall.worldFromMesh, 3.0, { 1.0, 0.0, 0.0 }); // turned over;
   EXPECT_FALSE(isDark(wall));
@@ -328,7 +327,7 @@ void addQuad(Mesh& mesh, const glm::dvec3& corner, const glm::dvec3& along, cons
     mesh.triangles.end(), { { first, first + 1, first + 2 }, { first, first + 2, first + 3 } });
 }
 
-/// A wall of a room with a door that is nearer to its end.
+/// Return a wall of a room with a door, which is nearer to its end.
 void addWallWithDoor(Mesh& mesh, const glm::dvec3& corner, const glm::dvec3& direction)
 {
   const glm::dvec3 up(0.0, 0.0, 1.0);
@@ -386,7 +385,8 @@ TEST(TileVerdicts, OfABuildingTraceOnlyLampsInSight)
     withoutRays += judged.rays == 0 ? 1 : 0;
     raysOfHidden += isInSight ? 0 : judged.rays;
   }
-  // Rays are left where a door's jamb or lintel is between: the lamp's own room is open there.
+  // Rays are still traced where a door's jamb or lintel is between: the lamp's own room is open
+  // there.
   const int hidden = roomsAcross * roomsAcross - inSight;
   EXPECT_GT(inSight, 4);
   EXPECT_GT(withoutRays, hidden * 3 / 4);

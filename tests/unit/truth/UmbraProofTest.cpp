@@ -1,5 +1,5 @@
-// Blockers that fit around the rays from a box to a light, tightly or not quite: whatever is proved
-// to be blocked is blocked where it is traced.
+// Blockers around the rays from a box to a light, tight or not quite. Receivers that are proved to
+// be blocked are blocked when traced.
 
 #include "shadowtech/tracing/UmbraProof.h"
 
@@ -25,7 +25,7 @@ glm::dvec3 randomPoint(Random& random)
   return { uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0) };
 }
 
-/// A light of any kind that is some way off, with an area or none.
+/// Return a light of any kind at some distance, with an area or none.
 ShadowLight farLight(Random& random, const glm::dvec3& towards)
 {
   ShadowLight light;
@@ -53,8 +53,8 @@ ShadowLight farLight(Random& random, const glm::dvec3& towards)
   return light;
 }
 
-/// A polygon that stands across the rays from a box to a light, around all of them.
-/// @param more by how much it is larger, as a share of its size
+/// Return a polygon that stands across the rays from a box to a light, around all of them.
+/// @param more its enlargement, as a share of its size
 std::vector<glm::dvec3> polygonAround(
   const Bounds& box, const RayEnds& ends, int corners, double more, Random& random)
 {
@@ -108,7 +108,7 @@ Mesh fanOf(const std::vector<glm::dvec3>& polygon)
   return mesh;
 }
 
-/// Receivers in the corners of a box, that face the light.
+/// Return receivers in the corners of a box, facing the light.
 ReceiverPixels cornersOf(const Bounds& box, const ShadowLight& light, const glm::dvec3& centreWorld)
 {
   std::vector<PlacedReceiver> receivers;
@@ -122,13 +122,13 @@ ReceiverPixels cornersOf(const Bounds& box, const ShadowLight& light, const glm:
   return rowOf(receivers);
 }
 
-/// The box of the same corners in float.
+/// Return the box of the same corners in float.
 Bounds inFloat(const Bounds& box)
 {
   return { glm::dvec3(glm::vec3(box.lower)), glm::dvec3(glm::vec3(box.upper)) };
 }
 
-/// A small box, a light, and what is between them.
+/// A small box, a light, and the blockers between them.
 struct Blocked
 {
   ShadowLight light;
@@ -183,7 +183,7 @@ TEST(UmbraProof, ProvesOnlyWhatIsBlocked)
   int refused = 0;
   for (int i = 0; i < 4000; ++i)
   {
-    // Some leave rays out, some touch them to within rounding, some are around them.
+    // Some blockers miss rays, some touch them to within rounding, some surround them.
     const double size = std::pow(10.0, uniform(random, -9.0, -1.0));
     const Blocked blocked = makeBlocked(random, 3 + i % 4, random() % 4 ? size : -size);
     EmbreeTracer tracer;

@@ -1,0 +1,176 @@
+#include "view/LightSights.h"
+
+#include "lights/LightManager.h"
+#include "plugin/scene/ShownView.h"
+#include "shadowtech/Registry.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+/// The view that shows a point, by the layout's own rule (LightViews.h); null where none does.
+const LightView* viewOf(const LightViews& views, const glm::dvec3& positionCentred)
+{
+  if (views.layout == ViewLayout::Cube)
+  {
+    const int face =
+      cubeFaceOf(glm::dvec3(views.lightFromCentred * glm::dvec4(positionCentred, 1.0)));
+    const int view = views.viewOfFace[static_cast<std::size_t>(face)];
+    return view == LightViews::noView ? nullptr : &views.views[static_cast<std::size_t>(view)];
+  }
+  for (const LightView& view : views.views)
+  {
+    const glm::dvec3 seen(view.rays.viewFromCentred * glm::dvec4(positionCentred, 1.0));
+    if (view.rays.positional && seen.z <= 0.0)
+    {
+      continue;
+    }
+    const glm::dvec3 map = view.mapFromAcross * glm::dvec3(view.rays.across(seen), 1.0);
+    if (map.z > 0.0 && std::abs(map.x) < map.z && std::abs(map.y) < map.z)
+    {
+      return &view;
+    }
+  }
+  return nullptr;
+}
+
+/// Completes a light, and tells whether its technique has a map. One that refuses the light has
+/// none.
+bool bakesMap(ShadowLight& light)
+{
+  try
+  {
+    return compose(light).info.bakesMap();
+  }
+  catch (const CompositionError&)
+  {
+    return false;
+  }
+}
+
+/// A corner of what a view holds, in centred coordinates.
+glm::dvec3 cornerOf(const LightView& view, double x, double y, double z)
+{
+  const glm::dvec2 across = mapped(glm::inverse(view.mapFromAcross), { x, y });
+  const glm::dvec3 seen = view.rays.positional ? glm::dvec3(z * across, z) : glm::dvec3(across, z);
+  return glm::dvec3(glm::inverse(view.rays.viewFromCentred) * glm::dvec4(seen, 1.0));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void LightSights::update(vtkRenderer* renderer, const ShadowSettings& settings)
+{
+  this->collector_.collect(renderer);
+  const Occluders& occluders = this->collector_.occluders();
+  this->lights_.clear();
+  for (ShadowLight& light : LightManager().collect(renderer, settings).lights)
+  {
+    LightViews views;
+    if (bakesMap(light))
+    {
+      ViewFitting fitting;
+      fitting.centreWorld = occluders.centreWorld;
+      fitting.castersCentred = occluders.castersCentred;
+      fitting.receiversCentred = occluders.allCentred;
+      fitting.texels = { light.mapSizeTexels, 1 };
+      if (isFittedToCamera(light))
+      {
+        fitting.camera = cameraOf(renderer, occluders.centreWorld);
+      }
+      views = fitLightViews(light, fitting);
+    }
+    this->lights_.push_back({ std::move(light), std::move(views) });
+  }
+}
+
+//------------------------------------------------------------------------------
+const LightSight* LightSights::find(int sceneIndex) const
+{
+  const auto found = std::find_if(this->lights_.begin(), this->lights_.end(),
+    [sceneIndex](const LightSight& sight) { return sight.light.sceneIndex == sceneIndex; });
+  return found == this->lights_.end() ? nullptr : &*found;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> frustumLines(const LightViews& views, const glm::dvec3& centreWorld)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  for (std::size_t i = 0; i < views.views.size(); ++i)
+  {
+    const LightView& view = views.views[i];
+    const double nearest = std::max(view.beginsAt, -view.depthOffset / view.depthScale);
+    const double farthest = (1.0 - view.depthOffset) / view.depthScale;
+    const vtkIdType first = points->GetNumberOfPoints();
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const glm::dvec3 world = centreWorld +
+        cornerOf(
+          view, corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? farthest : nearest);
+      points->InsertNextPoint(world.x, world.y, world.z);
+    }
+    const glm::dvec3 colour = 255.0 * colourOfView(i);
+    for (int from = 0; from < 8; ++from)
+    {
+      for (const int axis : { 1, 2, 4 })
+      {
+        if (!(from & axis)) // each edge once
+        {
+          const vtkIdType ends[2] = { first + from, first + (from | axis) };
+          lines->InsertNextCell(2, ends);
+          colours->InsertNextTuple3(colour.x, colour.y, colour.z);
+        }
+      }
+    }
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  result->SetLines(lines);
+  result->GetCellData()->SetScalars(colours);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+double texelSide(const LightViews& views, int sizeTexels, const glm::dvec3& positionCentred)
+{
+  const LightView* const view = viewOf(views, positionCentred);
+  if (!view)
+  {
+    return 0.0;
+  }
+  // The determinant of a homography's derivative at a point is its own over w^3; a step across a
+  // positional light at a distance z is a step of 1/z in slopes.
+  const glm::dvec3 seen(view->rays.viewFromCentred * glm::dvec4(positionCentred, 1.0));
+  const glm::dmat3 matrix = texelFromAcross(*view, sizeTexels);
+  const glm::dvec3 image = matrix * glm::dvec3(view->rays.across(seen), 1.0);
+  const double texelsPerArea = std::abs(glm::determinant(matrix) / (image.z * image.z * image.z)) /
+    (view->rays.positional ? seen.z * seen.z : 1.0);
+  return texelsPerArea > 0.0 ? 1.0 / std::sqrt(texelsPerArea) : 0.0;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 colourOfView(std::size_t view)
+{
+  static constexpr std::array<std::array<double, 3>, 8> colours = { { { 1.0, 0.55, 0.1 },
+    { 0.2, 0.75, 1.0 }, { 0.45, 0.85, 0.25 }, { 0.95, 0.3, 0.6 }, { 0.95, 0.9, 0.2 },
+    { 0.6, 0.45, 1.0 }, { 0.2, 0.9, 0.75 }, { 0.8, 0.8, 0.8 } } };
+  const auto& colour = colours[view % colours.size()];
+  return { colour[0], colour[1], colour[2] };
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "Scene.h"
+
+#include <string>
+
+namespace gnomon::tool
+{
+
+/// A date, a time with its zone, and a place on earth.
+struct SunTime
+{
+  int year = 2000;
+  int month = 1;
+  int day = 1;
+  int minutes = 0;     ///< since midnight, in [0, 1440)
+  int zoneMinutes = 0; ///< east of UTC
+  double latitude = 0.0;
+  double longitude = 0.0;
+
+  /// Goes on, or back, over the ends of days, months and years.
+  void addMinutes(int count);
+  /// "2024-06-21T12:00+02:00"
+  std::string time() const;
+};
+
+/// Reads "2024-06-21T12:00+02:00,48.1,11.6": the time, north latitude and east longitude in
+/// degrees.
+/// @param source for errors
+/// @throws BadInput
+SunTime parseSunTime(const std::string& text, const std::string& source);
+/// The same text.
+std::string textOf(const SunTime& sun);
+
+/// Where the sun is, in a scene with y up and north along -z.
+struct SunPlace
+{
+  Vec3 towards; ///< unit vector
+  double elevationDegrees = 0.0;
+};
+SunPlace placeOf(const SunTime& sun);
+
+} // namespace gnomon::tool

@@ -1,0 +1,201 @@
+#include "view/ViewPass.h"
+
+#include "ComparisonRun.h"
+#include "Text.h"
+#include "view/TexelPicture.h"
+
+#include "lights/LightManager.h"
+#include "plugin/scene/ShownView.h"
+#include "shadowtech/Registry.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
+
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkRenderState.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+/// Draws a picture into the framebuffer that is bound, and leaves depths alone.
+void drawPicture(const Picture& picture, vtkRenderWindow* window)
+{
+  const std::size_t rowBytes = 3 * static_cast<std::size_t>(picture.width);
+  std::vector<unsigned char> bottomUp;
+  bottomUp.reserve(picture.rgb.size());
+  for (int y = picture.height - 1; y >= 0; --y)
+  {
+    const auto row = picture.rgb.begin() + static_cast<std::ptrdiff_t>(y * rowBytes);
+    bottomUp.insert(bottomUp.end(), row, row + static_cast<std::ptrdiff_t>(rowBytes));
+  }
+  static_cast<vtkOpenGLRenderWindow*>(window)->DrawPixels(
+    picture.width, picture.height, 3, VTK_UNSIGNED_CHAR, bottomUp.data());
+}
+
+/// Sets a pass up unless that is what it was set up for.
+void setUpOnce(vtkGnomonShadowPass* pass, const VariantSpec& spec, std::string& setUpFor)
+{
+  const std::string name = spec.name() + (spec.settings.count("bake") ? " baked" : "");
+  if (name != setUpFor)
+  {
+    setUp(pass, spec);
+    setUpFor = name;
+  }
+}
+
+/// Whether any light's technique has a setting.
+bool anyHas(vtkRenderer* renderer, const ShadowSettings& settings, const char* name)
+{
+  const std::vector<ShadowLight> lights = LightManager().collect(renderer, settings).lights;
+  return std::any_of(lights.begin(), lights.end(),
+    [name](const ShadowLight& light) { return has(estimatorOfLight(light).info, name); });
+}
+
+/// A seed that a technique does not have.
+std::string otherSeed(const ShadowSettings& settings)
+{
+  return findSetting("light_seed")->get(settings) == "1" ? "2" : "1";
+}
+
+} // namespace
+
+vtkStandardNewMacro(ViewPass);
+
+//------------------------------------------------------------------------------
+void ViewPass::setUp(
+  const ViewState& state, const std::vector<SceneLight>& lights, vtkRenderer* renderer)
+{
+  this->state_ = state;
+  this->lights_ = lights;
+  VariantSpec technique = variantOf(state);
+  // Pixels' classes are to depend on no frame but the one that is shown (ComparisonRun.cpp). The
+  // technique `auto` is to be as it is for users, but in pictures that are kept.
+  if ((this->still_ || technique.technique != automaticTechnique) &&
+    anyHas(renderer, settingsOf(technique), "bake"))
+  {
+    technique.settings.emplace("bake", "always");
+  }
+  setUpOnce(this->technique_, technique, this->techniqueSetUp_);
+  this->settings_ = settingsOf(technique);
+  this->settings_.mapSizeTexels = state.mapSizeTexels;
+  VariantSpec truth{ truthTechnique };
+  truth.settings = truthSettings(state.truthSamples, otherSeed(this->settings_));
+  setUpOnce(this->truth_, truth, this->truthSetUp_);
+
+  // Reading visibility back has its price.
+  const bool probed = state.probe.has_value();
+  this->technique_->SetKeepVisibility(probed || state.show > Show::Truth);
+  this->truth_->SetKeepVisibility(probed || state.show == Show::Error);
+  for (vtkGnomonShadowPass* const pass : { this->technique_.Get(), this->truth_.Get() })
+  {
+    pass->SetInteractive(
+      this->still_ ? vtkGnomonShadowPass::INTERACTIVE_OFF : vtkGnomonShadowPass::INTERACTIVE_AUTO);
+  }
+}
+
+//------------------------------------------------------------------------------
+void ViewPass::Render(const vtkRenderState* s)
+{
+  vtkRenderer* const renderer = s->GetRenderer();
+  vtkRenderWindow* const window = renderer->GetRenderWindow();
+  this->error_.reset();
+  this->complaint_.clear();
+  if (renderer->GetSelector())
+  {
+    this->technique_->Render(s); // steps aside
+    return;
+  }
+  this->sighted_ = this->state_.frusta || this->state_.probe || this->state_.show == Show::Texels;
+  if (this->sighted_)
+  {
+    this->sights_.update(renderer, this->settings_);
+  }
+  const bool paints = this->state_.show > Show::Truth;
+  if (!paints)
+  {
+    this->shown()->Render(s);
+  }
+  else
+  {
+    this->drawAll(this->technique_, s);
+    const Picture picture = capture(window);
+    drawPicture(this->state_.show == Show::Error ? this->errors(picture, s)
+        : this->state_.show == Show::Texels      ? this->texels(picture, renderer)
+                                                 : this->classes(picture),
+      window);
+  }
+  this->NumberOfRenderedProps = this->shown()->GetNumberOfRenderedProps();
+}
+
+//------------------------------------------------------------------------------
+/// What is said of pixels is to be of the whole light.
+void ViewPass::drawAll(vtkGnomonShadowPass* pass, const vtkRenderState* s)
+{
+  do
+  {
+    pass->Render(s);
+  } while (pass->GetProgress() < 1.0);
+}
+
+//------------------------------------------------------------------------------
+Picture ViewPass::errors(const Picture& picture, const vtkRenderState* s)
+{
+  this->drawAll(this->truth_, s);
+  const VisibilityImages& found = this->technique_->GetVisibility();
+  try
+  {
+    std::vector<PixelVerdict> verdicts;
+    this->error_ = measureError(found, this->truth_->GetVisibility(), this->lights_, &verdicts);
+    const std::vector<unsigned char> traced = tracedMask(found);
+    return errorPicture(picture, verdicts, &traced);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    this->complaint_ = error.what();
+    return picture;
+  }
+}
+
+//------------------------------------------------------------------------------
+Picture ViewPass::classes(const Picture& picture)
+{
+  const VisibilityImages& found = this->technique_->GetVisibility();
+  for (std::size_t i = 0; i < found.classes.size(); ++i)
+  {
+    if (found.sceneIndices[i] == static_cast<int>(this->state_.light) &&
+      !found.classes[i].classes.empty())
+    {
+      return classPicture(found, i);
+    }
+  }
+  this->complaint_ = "this technique tells no classes";
+  return picture;
+}
+
+//------------------------------------------------------------------------------
+Picture ViewPass::texels(const Picture& picture, vtkRenderer* renderer)
+{
+  const LightSight* const sight = this->sights_.find(static_cast<int>(this->state_.light));
+  if (!sight || sight->views.views.empty())
+  {
+    this->complaint_ = "this technique has no map here";
+    return picture;
+  }
+  const glm::dvec3 centre = this->sights_.snapshot().occluders().centreWorld;
+  return texelPicture(
+    picture, this->technique_->GetVisibility(), *sight, centre, cameraOf(renderer, centre));
+}
+
+//------------------------------------------------------------------------------
+void ViewPass::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->technique_->ReleaseGraphicsResources(window);
+  this->truth_->ReleaseGraphicsResources(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,161 @@
+#include "view/Viewer.h"
+
+#include "Errors.h"
+#include "Files.h"
+
+#include <vtkCommand.h>
+#include <vtkInteractorStyle.h>
+
+#include <filesystem>
+#include <iostream>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+/// Before VTK's interactor styles, whose priority is 0, and its widgets, whose is 0.5.
+constexpr float beforeAll = 1.0f;
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Viewer::Viewer(Scene scene, const ViewState& state, ViewChoices choices, std::string saveTo)
+  : view_(window_, std::move(scene), state)
+  , choices_(std::move(choices))
+  , saveTo_(std::move(saveTo))
+{
+  this->window_->SetWindowName(("gnomon view " + state.scene).c_str());
+  this->interactor_->SetRenderWindow(this->window_);
+  this->style_->SetCurrentStyleToTrackballCamera();
+  this->interactor_->SetInteractorStyle(this->style_);
+  this->interactor_->AddObserver(vtkCommand::CharEvent, this, &Viewer::onChar, beforeAll);
+  this->interactor_->AddObserver(vtkCommand::MouseMoveEvent, this, &Viewer::onMove, beforeAll);
+  this->interactor_->AddObserver(
+    vtkCommand::MouseWheelForwardEvent, this, &Viewer::onWheelForward, beforeAll);
+  this->interactor_->AddObserver(
+    vtkCommand::MouseWheelBackwardEvent, this, &Viewer::onWheelBackward, beforeAll);
+
+  this->widget_->SetInteractor(this->interactor_);
+  this->widget_->SetDefaultRenderer(this->view_.front());
+  this->widget_->SetRepresentation(this->view_.handle().ball());
+  this->widget_->AllowHandleResizeOff();
+  this->widget_->KeyPressActivationOff(); // by `i`, which is the probe's
+  this->widget_->AddObserver(vtkCommand::InteractionEvent, this, &Viewer::onDrag);
+}
+
+//------------------------------------------------------------------------------
+void Viewer::open()
+{
+  this->window_->Render();
+  this->interactor_->Initialize();
+  this->widget_->SetEnabled(this->view_.selectedLight() && this->view_.state().handle);
+}
+
+//------------------------------------------------------------------------------
+void Viewer::press(const std::string& keys)
+{
+  for (const char key : keys)
+  {
+    this->interactor_->SetKeyEventInformation(0, 0, key, 1, nullptr);
+    this->interactor_->InvokeEvent(vtkCommand::KeyPressEvent);
+    this->interactor_->InvokeEvent(vtkCommand::CharEvent);
+    this->interactor_->InvokeEvent(vtkCommand::KeyReleaseEvent);
+  }
+}
+
+//------------------------------------------------------------------------------
+void Viewer::change(const std::function<void(ViewState&)>& change)
+{
+  ViewState state = this->view_.state();
+  change(state);
+  this->view_.apply(state);
+  this->window_->Render();
+}
+
+//------------------------------------------------------------------------------
+void Viewer::onChar()
+{
+  const char code = this->interactor_->GetKeyCode();
+  if (code == saveKey)
+  {
+    std::cout << this->save() << ".png" << std::endl;
+    return;
+  }
+  const ViewKey* const key = findKey(code);
+  if (!key || !key->change)
+  {
+    return;
+  }
+  this->change([&](ViewState& state) { key->change(state, this->view_.scene(), this->choices_); });
+  this->widget_->SetEnabled(this->view_.selectedLight() && this->view_.state().handle);
+}
+
+//------------------------------------------------------------------------------
+void Viewer::onMove()
+{
+  auto* const style = vtkInteractorStyle::SafeDownCast(this->style_->GetCurrentStyle());
+  if (this->view_.state().probe && style && style->GetState() == VTKIS_NONE)
+  {
+    const int* const position = this->interactor_->GetEventPosition();
+    this->change([position](ViewState& state) { state.probe = { { position[0], position[1] } }; });
+  }
+}
+
+//------------------------------------------------------------------------------
+/// The wheel over the handle makes the light larger or smaller; elsewhere it is VTK's.
+bool Viewer::resize(int steps)
+{
+  const int* const position = this->interactor_->GetEventPosition();
+  vtkSphereHandleRepresentation* const ball = this->view_.handle().ball();
+  const bool over = this->widget_->GetEnabled() &&
+    ball->ComputeInteractionState(position[0], position[1]) != vtkHandleRepresentation::Outside;
+  if (over)
+  {
+    this->change([&](ViewState& state) { resizeLight(state, this->view_.scene(), steps); });
+  }
+  return over;
+}
+bool Viewer::onWheelForward(vtkObject*, unsigned long, void*)
+{
+  return this->resize(1);
+}
+bool Viewer::onWheelBackward(vtkObject*, unsigned long, void*)
+{
+  return this->resize(-1);
+}
+
+//------------------------------------------------------------------------------
+/// The widget draws the frame that follows.
+void Viewer::onDrag()
+{
+  ViewState state = this->view_.state();
+  state.lights[state.light] = this->view_.handle().placeOfBall(*this->view_.selectedLight());
+  state.sun.reset();
+  this->view_.apply(state);
+}
+
+//------------------------------------------------------------------------------
+std::string Viewer::save()
+{
+  std::string path;
+  for (int number = 1; path.empty() || std::filesystem::exists(path + ".png") ||
+       std::filesystem::exists(path + ".json");
+       ++number)
+  {
+    path = this->saveTo_ + "-" + std::to_string(number);
+  }
+  if (auto* const style = vtkInteractorStyle::SafeDownCast(this->style_->GetCurrentStyle()))
+  {
+    style->HighlightProp(nullptr); // no state knows of it
+  }
+  // What is drawn is what the file says, to the last bit.
+  const std::string text = textOf(this->view_.state());
+  this->view_.apply(parseState(text, path + ".json", this->view_.scene()));
+  writePicture(this->view_.still(), path + ".png");
+  writeText(path + ".json", text);
+  this->window_->Render();
+  return path;
+}
+
+} // namespace gnomon::tool

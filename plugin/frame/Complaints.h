@@ -1,0 +1,54 @@
+#pragma once
+
+#include "lights/vtkGnomonVersions.h"
+
+#include <vtkWeakPointer.h>
+
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkRenderer;
+VTK_ABI_NAMESPACE_END
+
+namespace gnomon
+{
+
+/// What errors and warnings of a frame are about. Each is looked at by itself, so that a frame that
+/// ends early mends nothing that it did not reach.
+enum class Topic
+{
+  Context,
+  Lights,
+  Headlight,
+  LeftOut,
+  Route,
+  Resolution,
+  Frame
+};
+
+/// What an object says of its frames: each text once, until it is no longer true of any renderer.
+class Complaints
+{
+public:
+  /// @param renderer whose frame it is; null for objects without
+  /// @param texts all that is true of the topic in this frame
+  /// @return those to be said now
+  std::vector<std::string> news(
+    vtkRenderer* renderer, Topic topic, const std::vector<std::string>& texts);
+
+  /// The same for one text at most; empty for none.
+  std::string news(vtkRenderer* renderer, Topic topic, const std::string& text);
+
+private:
+  struct Complaint
+  {
+    vtkWeakPointer<vtkRenderer> renderer;
+    bool hasRenderer;
+    Topic topic;
+    std::string text;
+  };
+  std::vector<Complaint> standing_;
+};
+
+} // namespace gnomon

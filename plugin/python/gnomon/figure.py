@@ -1,0 +1,77 @@
+"""Pictures of arrays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+
+from .data import _array, _polydata
+from .GnomonPlugin import vtkGnomonEGLRenderWindow
+from .images import _pixels, _write
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Iterable
+
+    from numpy.typing import ArrayLike
+
+
+def draw(
+    surfaces: Iterable[tuple[ArrayLike, ArrayLike]],
+    direction: ArrayLike,
+    path: str | os.PathLike[str],
+    seen_from: ArrayLike = (0.8, -1.0, 0.6),
+    size: tuple[int, int] = (640, 480),
+    **settings: str | float | bool,
+) -> None:
+    """Draw triangles under one sun with their shadows, as a PNG file. It needs no display.
+
+    Parameters
+    ----------
+    surfaces : list of (points, triangles)
+        Arrays of n x 3 world coordinates, and of m x 3 numbers of points.
+    direction : array of 3
+        Towards the sun, in world coordinates, of any length: one of `sun_path`, say.
+    path : str
+        Where the picture is written.
+    seen_from : array of 3
+        Towards the camera, in world coordinates. z is up; y, if it looks along z.
+    size : (int, int)
+        Width and height in pixels.
+    **settings
+        Those of `add_shadows`, `technique` included.
+
+    Raises
+    ------
+    ValueError
+        For arrays of other shapes, settings that do not exist, and a picture that cannot be
+        written.
+    """
+    from . import add_shadows
+
+    technique = settings.pop("technique", None)
+    renderer = vtkRenderer()
+    renderer.SetBackground(0.6, 0.75, 0.9)
+    for surface in surfaces:
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputData(_polydata("surfaces", surface))
+        actor = vtkActor()
+        actor.SetMapper(mapper)
+        actor.GetProperty().SetAmbient(0.25)
+        actor.GetProperty().SetDiffuse(0.75)
+        renderer.AddActor(actor)
+    sun = vtkLight()
+    sun.SetPosition(_array("direction", direction, (3,), float))
+    renderer.AddLight(sun)
+
+    camera = renderer.GetActiveCamera()
+    place = _array("seen_from", seen_from, (3,), float)
+    camera.SetPosition(place)
+    camera.SetViewUp(*((0, 0, 1) if place[:2].any() else (0, 1, 0)))
+    renderer.ResetCamera()
+    window = vtkGnomonEGLRenderWindow()
+    window.SetSize(*size)
+    window.AddRenderer(renderer)
+    add_shadows(renderer, None if technique is None else str(technique), **settings)
+    _write(_pixels(window), str(path))
