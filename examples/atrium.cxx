@@ -61,7 +61,7 @@ void addLamp(vtkRenderer* renderer, double x, double y, double z, double coneAng
   lamp->SetConeAngle(coneAngle); // half of the cone
   lamp->SetExponent(7.0);        // dimmer towards its rim
   lamp->SetColor(1.0, 0.84, 0.62);
-  lamp->SetIntensity(0.34);
+  lamp->SetIntensity(0.30);
   renderer->AddLight(lamp);
 }
 

@@ -95,8 +95,8 @@ def main():
     gnomon.add_shadows(renderer, light_radius=2)  # its disc, in degrees
 
     camera = renderer.GetActiveCamera()
-    camera.SetPosition(7, -17, 10.5)
-    camera.SetFocalPoint(0.4, -0.6, 1.0)
+    camera.SetPosition(7.6, -18, 11)
+    camera.SetFocalPoint(0.8, -0.6, 1.0)
     camera.SetViewUp(0, 0, 1)
     renderer.ResetCameraClippingRange()
 
