@@ -33,7 +33,7 @@
 #include <cstdlib>
 #include <string>
 
-// Writes the figure's red, green and blue, V: the sun's visibility, Z: the height.
+// Writes red, green and blue, V: the sun's visibility, A: 1 on the hills, Z: the height on them.
 void writeExr(const std::string& path, vtkRenderWindow* window, vtkGnomonShadowPass* shadows)
 {
   vtkNew<vtkImageData> image;
@@ -56,6 +56,7 @@ void writeExr(const std::string& path, vtkRenderWindow* window, vtkGnomonShadowP
   add("G", colours, 1);
   add("B", colours, 2);
   add("V", image->GetPointData()->GetArray("light 0"), 0);
+  add("A", image->GetPointData()->GetArray("coverage"), 0);
   add("Z", image->GetPointData()->GetArray("position"), 2);
   Imf::OutputFile file(path.c_str(), header);
   file.setFrameBuffer(frame);
@@ -83,7 +84,6 @@ int main(int argc, char* argv[])
   vtkNew<vtkActor> surface;
   surface->SetMapper(mapper);
   surface->GetProperty()->SetAmbient(0.4); // ambient light is never shadowed
-
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->SetSize(argc > 3 ? std::atoi(argv[2]) : 1200, argc > 3 ? std::atoi(argv[3]) : 900);
   vtkNew<vtkScalarBarActor> scale;
