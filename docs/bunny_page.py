@@ -14,7 +14,7 @@ BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
 CHOICES = [
     ("speed; edges are jagged at a texel's scale", "nsm", False),
     ("smooth edges", "pcf", False),
-    ("large scenes: finer shadows near the camera", "pssm", False),
+    ("large scenes under a map; slow if the camera moves", "pssm", False),
     ("hard shadows, exact", "silhouette", False),
     ("soft shadows of area lights, exact", "penumbra", True),
 ]
@@ -56,9 +56,10 @@ README = """| you want | technique | cost | error |
 |---|---|---|---|
 {rows}
 
-Cost: the time of a frame over plain VTK's, with nothing moving, the camera, the light. Error: wrong
-pixels, of those that face the light; of soft shadows, visibility's root mean square. VTK's
-`vtkShadowMapPass`: {peer}.
+Cost: a frame's time over plain VTK's, first with nothing moving, then with a moving camera, then
+with a moving light. Error: the share of wrong pixels among those that face the light. For soft
+shadows it is the root mean square error of visibility. VTK's `vtkShadowMapPass`:
+{peer}.
 
 Measured on: {machine}."""
 

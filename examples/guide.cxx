@@ -73,6 +73,12 @@ void addLights(vtkRenderer* renderer)
   spot->SetPosition(2.0, 3.0, 1.0);
   renderer->AddLight(spot);
 
+  vtkNew<vtkLight> bulb;
+  bulb->PositionalOn();
+  bulb->SetConeAngle(90.0); // VTK's default, 30, is a spot
+  bulb->SetPosition(0.0, 2.4, 0.0);
+  renderer->AddLight(bulb);
+
   vtkNew<vtkGnomonAreaLight> lamp;
   lamp->SetPosition(0.0, 0.0, 5.0);
   lamp->SetShapeToRectangle();
@@ -83,8 +89,8 @@ void addLights(vtkRenderer* renderer)
   vtkNew<vtkLight> fill;
   renderer->AddLight(fill);
 
-  vtkGnomonLightKeys::SetTechnique(sun, "pcf");
-  vtkGnomonLightKeys::SetSetting(sun, "light_radius", "0.53"); // the sun's disc, in degrees
+  vtkGnomonLightKeys::SetTechnique(sun, "penumbra");
+  vtkGnomonLightKeys::SetSetting(sun, "light_radius", "0.53"); // the disc's whole angle, in degrees
   vtkGnomonLightKeys::SetCasts(fill, false);
 
   sun->SetShadowAttenuation(0.7); // 1: full shadows, 0: none

@@ -17,24 +17,25 @@
  * closely as so many points tell (Heckbert and Herf 1997). A light's points come in opposite pairs,
  * from the middle outwards, an odd number of them beginning with the centre.
  *
- * <b>Lights.</b> Those without area stay as they are. An area light's points are as it is itself, but for
- * where they shine from: the cone of a spot moves along with its point, so that the edge of what it
- * lights is soft; a directional light turns about its position, and its box with it. What a light
- * says of its size counts (vtkGnomonLightKeys' "light_radius" included, but not that of a shadow
- * pass), and so do its "light_seed" and "light_sampling", "sobol" or "random"; Samples takes the
- * place of "light_samples". The points of a light with a texture have its colours, and their mean
- * is the texture's; at its centre the light has that. A light whose area or texture cannot be is an
- * error (vtkGnomonAreaLight). The renderer's lights are its own again after the frame, and have not
- * been modified.
+ * <b>Lights.</b> Those without area stay as they are. An area light's points are as it is itself,
+ * but for where they shine from: the cone of a spot moves along with its point, so that the edge of
+ * what it lights is soft; a directional light turns about its position, and its box with it. What a
+ * light says of its size counts (vtkGnomonLightKeys' "light_radius" included, but not that of a
+ * shadow pass), and so do its "light_seed" and "light_sampling", "sobol" or "random"; Samples takes
+ * the place of "light_samples". The points of a light with a texture have its colours, and their
+ * mean is the texture's; at its centre the light has that. A light whose area or texture cannot be
+ * is an error (vtkGnomonAreaLight). The renderer's lights are its own again after the frame, and
+ * have not been modified.
  *
- * <b>Pictures</b> are of 32-bit floats, so that they may be brighter than any display and are not rounded,
- * with the window's samples per pixel. Memory does not grow with their number. They are drawn in
- * front of what a renderer that is transparent (a layer) has below it. The mean's colours, alpha
- * and depths are the pass's result.
+ * <b>Pictures</b> are of 32-bit floats, so that they may be brighter than any display and are not
+ * rounded, with the window's samples per pixel. Memory does not grow with their number. They are
+ * drawn in front of what a renderer that is transparent (a layer) has below it. The mean's colours,
+ * alpha and depths are the pass's result.
  *
- * <b>Other passes.</b> The delegate may be any pass that draws into the framebuffer that its render state
- * names: vtkGnomonShadowPass, vtkRenderStepsPass. As around vtkGnomonShadowPass, the renderer's own
- * depth peeling, ambient occlusion and FXAA are the delegate's business (docs/guide/passes.md).
+ * <b>Other passes.</b> The delegate may be any pass that draws into the framebuffer that its render
+ * state names: vtkGnomonShadowPass, vtkRenderStepsPass. As around vtkGnomonShadowPass, the
+ * renderer's own depth peeling, ambient occlusion and FXAA are the delegate's business
+ * (docs/guide/passes.md).
  *
  * With one point the delegate draws, with each light at its centre, as if this pass were not there;
  * without area lights, and while something is selected (vtkHardwareSelector), just as it would. So
@@ -87,7 +88,7 @@ public:
    * with all of them shows; after it, nothing is drawn any more but the mean. 0, the default, draws
    * all in every frame. So do windows that show several views by one pass (stereo, tiles, several
    * renderers), and renderers that are transparent (a layer), since what is below them is a part of
-   * each picture, and nobody tells when it changes.
+   * each picture, and may change without notice.
    *
    * What counts as a change is what VTK and Gnomon have times for: the camera, lights, props with
    * their inputs, this pass and its delegate. Call this pass's Modified() where something else

@@ -236,11 +236,11 @@ public:
 
   ///@{
   /**
-   * The errors that "auto" allows while the picture moves. MaximumError is the share of wrong pixels
-   * of hard shadows, among pixels that face the light. MaximumSoftError is the root mean square
-   * error of the visibility of area lights. 0 is exact. Rays check maps at 4,096 to 16,384 pixels,
-   * so a MaximumError below 0.00025 cannot be proved and is exact, too. Numbers outside of [0, 1]
-   * are an error and change nothing. Default 0.005 and 0.03.
+   * The errors that "auto" allows while the picture moves. MaximumError is the share of wrong
+   * pixels of hard shadows, among pixels that face the light. MaximumSoftError is the root mean
+   * square error of the visibility of area lights. 0 is exact. Rays check maps at 4,096 to 16,384
+   * pixels, so a MaximumError below 0.00025 cannot be proved and is exact, too. Numbers outside of
+   * [0, 1] are an error and change nothing. Default 0.005 and 0.03.
    */
   virtual void SetMaximumError(double share);
   vtkGetMacro(MaximumError, double);
@@ -261,15 +261,15 @@ public:
 
   ///@{
   /**
-   * The most memory for lights' maps and images of visibility, in MiB. Lights get their share in the
-   * order of the light that they can give to what is visible. A map that does not fit is halved,
-   * down to 256 texels a side. A light whose map still does not fit, or whose map's size nobody
-   * knows beforehand (`selective`, `coherence`, `crsm`, `crsma`, `silhouette`), takes rays. A light
-   * whose image does not fit shows no shadow. GetReport() says so. The budget is each renderer's and
-   * view's. Not counted is what lights share (the snapshot, the rays' structure, the receivers), and
-   * the plain maps by which translucent surfaces show shadows of other techniques, of 256 texels
-   * where a light takes rays for the budget's sake. Negative numbers are an error and change nothing.
-   * 0, the default, is no budget.
+   * The most memory for lights' maps and images of visibility, in MiB. Lights get their share in
+   * the order of the light that they can give to what is visible. A map that does not fit is
+   * halved, down to 256 texels a side. A light whose map still does not fit, or whose map's size is
+   * not known beforehand (`selective`, `coherence`, `crsm`, `crsma`, `silhouette`), takes rays. A
+   * light whose image does not fit shows no shadow. GetReport() says so. The budget is each
+   * renderer's and view's. Not counted is what lights share (the snapshot, the rays' structure, the
+   * receivers), and the plain maps by which translucent surfaces show shadows of other techniques,
+   * of 256 texels where a light takes rays for the budget's sake. Negative numbers are an error and
+   * change nothing. 0, the default, is no budget.
    */
   virtual void SetMemoryBudget(double mebibytes);
   vtkGetMacro(MemoryBudget, double);
@@ -323,11 +323,9 @@ public:
 
   ///@{
   /**
-   * Whether the renderer's UseShadows is the switch for this pass's shadows: on, a renderer with
-   * UseShadows off is drawn without them, as OSPRay's pass does it; off, UseShadows says nothing.
-   * Default off: UseShadows is off in a new renderer, and nobody can tell that from one in which it
-   * was switched off, so that who sets this pass would see no shadows and not know why. Switch it
-   * on in programs whose own shadow switch is UseShadows.
+   * True to draw without shadows while the renderer's UseShadows is off, as OSPRay's pass does. Off
+   * by default: renderers start with UseShadows off, which would silently disable this pass. Switch
+   * it on in programs whose own shadow switch is UseShadows.
    *
    * In either case VTK's own shadow maps, which UseShadows brings into the frame, are left out, so
    * that no shadow falls twice.
@@ -366,8 +364,8 @@ public:
   double GetProgress() const;
 
   /**
-   * The last frame's visibility and receivers (vtkGnomonVisibilityImages.h); the receivers alone where no
-   * light casts. Empty unless KeepVisibility was on while it was drawn.
+   * The last frame's visibility and receivers (vtkGnomonVisibilityImages.h); the receivers alone
+   * where no light casts. Empty unless KeepVisibility was on while it was drawn.
    */
   const gnomon::VisibilityImages& GetVisibility() const;
 

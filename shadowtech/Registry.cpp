@@ -181,7 +181,7 @@ const std::vector<TechniqueEntry>& registry()
     { "penumbra",
       "soft, exact: the light is counted between the edges that casters show it, rays the rest",
       findEstimator("penumbra"), Projection::Uniform },
-    { "raytraced", "hard, exact: a shadow ray for every pixel; the truth",
+    { "raytraced", "hard, soft, exact: shadow rays wherever no proof replaces them; the truth",
       findEstimator("raytraced"), Projection::Uniform },
   };
   return entries;

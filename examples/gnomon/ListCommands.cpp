@@ -45,9 +45,10 @@ void printSettingsPage()
        "A light sets them by `vtkGnomonLightKeys::SetSetting`, the pass by `SetSetting` for "
        "lights that do\nnot, a scene file as members of a light, the program `gnomon` as "
        "options (`kernel_size` is\n`--kernel-size`). `vtkGnomonShadowSettings` has them with "
-       "types (`SetKernelSize()`), for passes and\nlights. A technique that lacks a setting "
-       "ignores it, with an error that says which techniques have\nit. `gnomon settings "
-       "--markdown` makes this page.\n";
+       "types (`SetKernelSize()`), for passes and\nlights. A light's setting that its technique "
+       "lacks is an error that names the techniques with it. A\npass's setting is an error if no "
+       "light's technique has it. Shadows stay in both cases.\n`gnomon settings --markdown` makes "
+       "this page.\n";
   for (const SettingsTable* table : settingsTables())
   {
     std::cout << "\n## " << headingOf(*table)

@@ -5,8 +5,8 @@
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/BannedPhrases.cmake")
 
-set(folders lights examples shadowtech
-  plugin/scene plugin/data plugin/window plugin/vtk_versions plugin/frame
+set(folders lights examples shadowtech plugin
+  plugin/python plugin/scene plugin/data plugin/window plugin/vtk_versions plugin/frame
   tests/benchmarks tests/check tests/fuzz tests/hard tests/main tests/unit/data tests/unit/lights
   tests/unit/occluders tests/unit/plugin tests/unit/truth tests/vtk_programs)
 set(endings h cpp cxx glsl py sh)
@@ -56,7 +56,11 @@ set(faults "")
 set(comments 0)
 foreach(folder IN LISTS folders)
   foreach(ending IN LISTS endings)
-    file(GLOB_RECURSE sources "${SOURCE_DIR}/${folder}/*.${ending}")
+    set(glob GLOB_RECURSE)
+    if(folder STREQUAL plugin) # its subfolders are listed
+      set(glob GLOB)
+    endif()
+    file(${glob} sources "${SOURCE_DIR}/${folder}/*.${ending}")
     foreach(source IN LISTS sources)
       file(RELATIVE_PATH name "${SOURCE_DIR}" "${source}")
       file(READ "${source}" text)
