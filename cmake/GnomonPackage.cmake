@@ -26,9 +26,11 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
   COMPONENT documentation
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.csv" PATTERN "*.svg")
-foreach(page README.md CHANGELOG.md LICENSE cmake/debian-packages.txt examples/shadows.cxx
-    examples/shadows.py examples/facade_hours.py examples/pyvista_shadows.py
-    examples/headless_figure.cxx)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+  COMPONENT documentation
+  FILES_MATCHING PATTERN "*.cxx" PATTERN "*.py" PATTERN "CMakeLists.txt" PATTERN "cone_*.png"
+  PATTERN gnomon EXCLUDE)
+foreach(page README.md CHANGELOG.md LICENSE cmake/debian-packages.txt)
   get_filename_component(folder "${page}" DIRECTORY)
   install(FILES "${PROJECT_SOURCE_DIR}/${page}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}"
     COMPONENT documentation)

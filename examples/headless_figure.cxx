@@ -1,167 +1,120 @@
-// A figure for a paper, rendered on a machine without a display: a terrain in the evening, coloured
-// by height, with a scale.
+// A figure for a paper, drawn on a machine without a display: hills under a low sun, coloured by
+// height, with a scale. The PNG is for the page. The EXR is for measurements: the figure's colours,
+// and for each pixel the sun's visibility and the height, as floats.
 //
-//   headless_figure figure.png
+//   headless_figure [figure.png [width height]]
 
 #include <vtkGnomonEGLRenderWindow.h>
-#include <vtkGnomonLightKeys.h>
 #include <vtkGnomonShadowPass.h>
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkFloatArray.h>
+#include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
-#include <vtkPerlinNoise.h>
-#include <vtkPlaneSource.h>
+#include <vtkParametricFunctionSource.h>
+#include <vtkParametricRandomHills.h>
 #include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <cmath>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
+
 #include <cstdlib>
-#include <iostream>
+#include <string>
 
-namespace
+// Writes red, green and blue, V: the sun's visibility, A: 1 on the hills, Z: the height on them.
+void writeExr(const std::string& path, vtkRenderWindow* window, vtkGnomonShadowPass* shadows)
 {
-
-constexpr double sideMetres = 4000.0;
-constexpr double highestMetres = 900.0;
-
-/// Return a square of mountains around a valley: ridges of gradient noise in six octaves. x is
-/// east, y north, z up, in metres.
-vtkSmartPointer<vtkPolyData> makeTerrain()
-{
-  vtkNew<vtkPlaneSource> square;
-  square->SetOrigin(0, 0, 0);
-  square->SetPoint1(sideMetres, 0, 0);
-  square->SetPoint2(0, sideMetres, 0);
-  square->SetResolution(300, 300);
-  square->Update();
-  vtkSmartPointer<vtkPolyData> terrain = square->GetOutput();
-
-  vtkNew<vtkFloatArray> elevation;
-  elevation->SetName("elevation");
-  elevation->SetNumberOfTuples(terrain->GetNumberOfPoints());
-  vtkNew<vtkPerlinNoise> noise;
-  for (vtkIdType i = 0; i < terrain->GetNumberOfPoints(); ++i)
+  vtkNew<vtkImageData> image;
+  shadows->GetVisibilityImage(image);
+  const int width = image->GetDimensions()[0];
+  const int height = image->GetDimensions()[1];
+  vtkNew<vtkFloatArray> colours;
+  window->GetRGBAPixelData(0, 0, width - 1, height - 1, 1, colours);
+  Imf::Header header(width, height);
+  Imf::FrameBuffer frame;
+  const auto add = [&](const char* name, vtkDataArray* array, int component)
   {
-    double point[3];
-    terrain->GetPoint(i, point);
-    double height = 0.0;
-    double amplitude = 0.5;
-    double frequency = 1.0 / 1500.0;
-    for (int octave = 0; octave < 6; ++octave)
-    {
-      noise->SetFrequency(frequency, frequency, 1.0);
-      const double ridge = 1.0 - std::abs(noise->EvaluateFunction(point[0], point[1], 0.5));
-      height += amplitude * ridge * ridge;
-      amplitude *= 0.45;
-      frequency *= 2.1;
-    }
-    point[2] = highestMetres * height;
-    terrain->GetPoints()->SetPoint(i, point);
-    elevation->SetValue(i, static_cast<float>(point[2]));
-  }
-  terrain->GetPointData()->SetScalars(elevation);
-  return terrain;
+    auto* values = static_cast<char*>(array->GetVoidPointer(0)) + component * sizeof(float);
+    const auto pixel = static_cast<std::ptrdiff_t>(array->GetNumberOfComponents() * sizeof(float));
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    frame.insert(name, // VTK's first row is the lowest
+      Imf::Slice(Imf::FLOAT, values + (height - 1) * width * pixel, pixel, -width * pixel));
+  };
+  add("R", colours, 0);
+  add("G", colours, 1);
+  add("B", colours, 2);
+  add("V", image->GetPointData()->GetArray("light 0"), 0);
+  add("A", image->GetPointData()->GetArray("coverage"), 0);
+  add("Z", image->GetPointData()->GetArray("position"), 2);
+  Imf::OutputFile file(path.c_str(), header);
+  file.setFrameBuffer(frame);
+  file.writePixels(height);
 }
-
-} // namespace
 
 int main(int argc, char* argv[])
 {
-  if (argc != 2)
-  {
-    std::cerr << "usage: headless_figure figure.png\n";
-    return EXIT_FAILURE;
-  }
-  vtkNew<vtkPolyDataNormals> terrain;
-  terrain->SetInputData(makeTerrain());
-  terrain->SplittingOff();
-  terrain->Update();
-  double range[2];
-  terrain->GetOutput()->GetScalarRange(range);
-
+  const std::string path = argc > 1 ? argv[1] : "headless_figure.png";
+  vtkNew<vtkParametricRandomHills> hills;
+  hills->SetHillAmplitude(1.4);
+  vtkNew<vtkParametricFunctionSource> terrain;
+  terrain->SetParametricFunction(hills);
+  terrain->SetUResolution(200);
+  terrain->SetVResolution(200);
+  terrain->SetScalarModeToZ();
   vtkNew<vtkColorTransferFunction> colours; // equal steps of lightness, readable in grey as well
-  const double span = range[1] - range[0];
-  colours->AddRGBPoint(range[0], 0.16, 0.36, 0.40);
-  colours->AddRGBPoint(range[0] + 0.35 * span, 0.42, 0.58, 0.40);
-  colours->AddRGBPoint(range[0] + 0.70 * span, 0.80, 0.72, 0.54);
-  colours->AddRGBPoint(range[1], 0.98, 0.97, 0.95);
-
+  colours->AddRGBPoint(0.0, 0.28, 0.52, 0.60);
+  colours->AddRGBPoint(2.0, 0.55, 0.74, 0.52);
+  colours->AddRGBPoint(4.0, 0.90, 0.82, 0.62);
+  colours->AddRGBPoint(6.0, 0.98, 0.97, 0.95);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(terrain->GetOutputPort());
   mapper->SetLookupTable(colours);
   vtkNew<vtkActor> surface;
   surface->SetMapper(mapper);
-  surface->GetProperty()->SetInterpolationToPhong();
-
+  surface->GetProperty()->SetAmbient(0.4); // ambient light is never shadowed
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(argc > 3 ? std::atoi(argv[2]) : 1200, argc > 3 ? std::atoi(argv[3]) : 900);
   vtkNew<vtkScalarBarActor> scale;
   scale->SetLookupTable(colours);
-  scale->SetTitle("Elevation (m)\n ");
-  scale->SetNumberOfLabels(5);
+  scale->SetTitle("Height\n ");
   scale->SetLabelFormat("%.0f");
-  scale->SetPosition(0.90, 0.15);
-  scale->SetWidth(0.08);
-  scale->SetHeight(0.7);
+  scale->SetPosition(0.84, 0.15);
   scale->UnconstrainedFontSizeOn();
-  for (vtkTextProperty* text : { scale->GetTitleTextProperty(), scale->GetLabelTextProperty() })
-  {
-    text->SetColor(0.1, 0.1, 0.1);
-    text->SetFontSize(18);
-    text->ItalicOff();
-    text->BoldOff();
-    text->ShadowOff();
-  }
+  scale->GetTitleTextProperty()->SetColor(0, 0, 0);
+  scale->GetLabelTextProperty()->SetColor(0, 0, 0);
 
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   renderer->AddActor(surface);
   renderer->AddViewProp(scale);
-
-  vtkNew<vtkLight> sun; // in the west, 20 degrees above the horizon
-  sun->SetFocalPoint(0, 0, 0);
-  sun->SetPosition(-0.94, 0.10, 0.34);
-  sun->SetIntensity(1.0);
+  vtkNew<vtkLight> sun; // directional: it shines towards the origin
+  sun->SetPosition(-0.85, -0.1, 0.45);
   renderer->AddLight(sun);
-  vtkNew<vtkLight> sky; // fills shadows, and casts none
-  sky->SetFocalPoint(0, 0, 0);
-  sky->SetPosition(0.2, -0.3, 1);
-  sky->SetColor(0.85, 0.92, 1.0);
-  sky->SetIntensity(0.5);
-  vtkGnomonLightKeys::SetCasts(sky, false);
-  renderer->AddLight(sky);
-
   vtkNew<vtkGnomonShadowPass> shadows;
-  shadows->SetMapSize(4096);
+  shadows->KeepVisibilityOn(); // for the EXR
   renderer->SetPass(shadows);
-
-  vtkCamera* camera = renderer->GetActiveCamera();
-  camera->SetFocalPoint(0.53 * sideMetres, 0.42 * sideMetres, 300);
-  camera->SetPosition(0.80 * sideMetres, -1.25 * sideMetres, 4000);
-  camera->SetViewUp(0, 0, 1);
-  camera->SetViewAngle(28);
-  renderer->ResetCameraClippingRange();
-
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetSize(1200, 800);
+  renderer->GetActiveCamera()->SetPosition(5, -24, 28);
+  renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
+  renderer->ResetCamera();
+  renderer->GetActiveCamera()->Zoom(1.2);
   window->AddRenderer(renderer);
-  window->Render();
-
   vtkNew<vtkWindowToImageFilter> picture;
   picture->SetInput(window);
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputConnection(picture->GetOutputPort());
-  writer->SetFileName(argv[1]);
+  writer->SetFileName(path.c_str());
   writer->Write();
-  return writer->GetErrorCode() == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+  writeExr(path.substr(0, path.rfind('.')) + ".exr", window, shadows);
 }
