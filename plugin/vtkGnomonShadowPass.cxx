@@ -295,10 +295,6 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     }
     manager.endFrame();
     this->Internal->tellError(this, renderer, gnomon::Topic::Frame, "");
-    this->Internal->tellError(this, renderer, gnomon::Topic::Numbers,
-      goesOn && manager.wrongNumbers() > 0
-        ? "The driver numbers triangles wrongly, even for geometry shaders: shadows may be wrong."
-        : "");
     this->Internal->shadowed = true;
     this->Internal->progress = leastProgress(manager.report());
     if (goesOn)

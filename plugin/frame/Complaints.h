@@ -23,7 +23,6 @@ enum class Topic
   Headlight,
   LeftOut,
   Route,
-  Numbers,
   Resolution,
   Frame
 };

@@ -1,25 +1,31 @@
 #include "plugin/frame/ReceiverDrawing.h"
 
 #include "plugin/scene/Hash.h"
+#include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
+#include <vtkAlgorithm.h>
 #include <vtkAssemblyNode.h>
 #include <vtkAssemblyPath.h>
 #include <vtkCommand.h>
+#include <vtkDataSet.h>
 #include <vtkInformation.h>
 #include <vtkInformationObjectBaseVectorKey.h>
 #include <vtkMapper.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderPass.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtkProp.h>
 #include <vtkPropCollection.h>
+#include <vtkProperty.h>
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 #include <vtkShaderProperty.h>
 #include <vtkSmartPointer.h>
+#include <vtkTexture.h>
 #include <vtkVolume.h>
 
 #include <algorithm>
@@ -104,6 +110,65 @@ bool mayHaveOwnShaders(vtkMapper* mapper)
     [mapper](const char* name) { return std::strcmp(name, mapper->GetClassName()) == 0; });
 }
 
+/// Hash an actor's look and shape, without its own time.
+void hashActor(std::size_t& seed, vtkActor* actor)
+{
+  const auto hashObject = [&](vtkObject* object)
+  {
+    hashCombine(seed, object);
+    hashCombine(seed, object ? object->GetMTime() : 0);
+  };
+  hashObject(actor->GetProperty());
+  hashObject(actor->GetBackfaceProperty());
+  hashObject(actor->GetTexture());
+  hashCombine(seed, actor->GetForceOpaque());
+  hashCombine(seed, actor->GetForceTranslucent());
+  vtkMapper* const mapper = actor->GetMapper();
+  hashObject(mapper);
+  if (mapper && mapper->GetNumberOfInputPorts() > 0 && mapper->GetInput())
+  {
+    mapper->GetInputAlgorithm()->Update();
+    hashObject(mapper->GetInput());
+  }
+}
+
+/// Hash the parts of an assembly. It gives each part a matrix while it draws it, which sets the
+/// part's time, and so its own, in every frame.
+void hashParts(std::size_t& seed, vtkProp* assembly)
+{
+  assembly->InitPathTraversal();
+  while (vtkAssemblyPath* const path = assembly->GetNextPath())
+  {
+    vtkCollectionSimpleIterator iterator;
+    path->InitTraversal(iterator);
+    while (vtkAssemblyNode* const node = path->GetNextNode(iterator))
+    {
+      hashCombine(seed, node->GetViewProp());
+      hashCombine(seed, node->GetViewProp()->GetVisibility());
+      hashCombine(seed, vtkGnomonPropKeys::GetReceives(node->GetViewProp()));
+    }
+    vtkAssemblyNode* const last = path->GetLastNode();
+    if (vtkMatrix4x4* const matrix = last->GetMatrix())
+    {
+      std::for_each(matrix->GetData(), matrix->GetData() + 16,
+        [&](double element) { hashCombine(seed, element); });
+    }
+    if (auto* const actor = vtkActor::SafeDownCast(last->GetViewProp()))
+    {
+      hashActor(seed, actor);
+    }
+    else
+    {
+      hashCombine(seed, last->GetViewProp()->GetRedrawMTime());
+    }
+  }
+}
+
+bool isAssembly(vtkProp* prop)
+{
+  return prop->IsA("vtkAssembly") || prop->IsA("vtkPropAssembly");
+}
+
 /// True if render passes can add to the shaders of a prop without parts.
 bool isLeafDrawnByPasses(vtkProp* leaf)
 {
@@ -147,7 +212,14 @@ std::size_t hashOfShownProps(const vtkRenderState* s)
     if (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop))
     {
       hashCombine(seed, prop);
-      hashCombine(seed, prop->GetRedrawMTime());
+      if (isAssembly(prop))
+      {
+        hashParts(seed, prop);
+      }
+      else
+      {
+        hashCombine(seed, prop->GetRedrawMTime());
+      }
       if (hasOwnShaders(prop))
       {
         static std::atomic<std::size_t> different{ 0 };
@@ -175,7 +247,7 @@ bool anyPropHasOwnShaders(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 ByPasses drawnByPasses(vtkProp* prop)
 {
-  if (!prop->IsA("vtkAssembly") && !prop->IsA("vtkPropAssembly"))
+  if (!isAssembly(prop))
   {
     return isLeafDrawnByPasses(prop) ? ByPasses::All : ByPasses::Nothing;
   }

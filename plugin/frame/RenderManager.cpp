@@ -37,8 +37,7 @@ RenderManager::RenderManager(PassPrograms& programs)
 void RenderManager::beginFrame(const FrameWishes& wishes)
 {
   this->frame_.report = FrameReport{};
-  std::tie(this->frame_.report.numbersChecked, this->frame_.report.numbersWrong) =
-    std::exchange(this->numbersBefore_, {});
+  this->frame_.report.numbersChecked = std::exchange(this->checkedBefore_, 0);
   this->frame_.wishes = wishes;
   if (!wishes.keepVisibility)
   {
@@ -359,28 +358,35 @@ NumberCheck RenderManager::checkNumbers(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-/// Check the numbers of receivers that were just drawn. The first wrong one has geometry shaders
-/// number the triangles in all programs of the pass.
+/// Check the numbers of receivers that were just drawn. If any is wrong, they are drawn again with
+/// numbers by geometry shaders, which stay if fewer are wrong then. Else the snapshot does not hold
+/// what was drawn, and the driver is right.
 /// @return false if the receivers must be drawn again
 bool RenderManager::numbersAreRight(const vtkRenderState* s)
 {
-  FrameReport& report = this->frame_.report;
-  ReceiversValue& receivers = this->frame_.view->receivers;
-  receivers.wrongNumbers = 0;
+  const std::int64_t wrongByDriver = std::exchange(this->wrongByDriver_, 0);
   if (!this->programs_.numbers.isDue())
   {
     return true;
   }
+  FrameReport& report = this->frame_.report;
+  ShaderManager& shaders = this->programs_.shaders;
   const NumberCheck check = this->checkNumbers(s);
   this->frame_.endStage("receivers: check numbers");
   report.numbersChecked += check.allPixels();
-  report.numbersWrong += check.allWrong();
-  if (check.allWrong() > 0 && !this->programs_.shaders.numbersByGeometryShaders())
+  if (wrongByDriver > 0)
   {
-    this->programs_.shaders.numberByGeometryShaders();
+    const bool isBetter = check.allWrong() < wrongByDriver;
+    report.numbersWrong = isBetter ? wrongByDriver : 0;
+    shaders.numberByGeometryShaders(isBetter);
+    return isBetter;
+  }
+  if (check.allWrong() > 0 && !shaders.numbersByGeometryShaders())
+  {
+    this->wrongByDriver_ = check.allWrong();
+    shaders.numberByGeometryShaders(true);
     return false;
   }
-  receivers.wrongNumbers = check.allWrong();
   return true;
 }
 
@@ -400,10 +406,9 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
     };
     draw();
     this->frame_.endStage("receivers");
-    if (!this->numbersAreRight(s))
+    while (!this->numbersAreRight(s))
     {
       draw();
-      this->numbersAreRight(s);
     }
   }
   this->takeReceivers();
@@ -466,8 +471,7 @@ void RenderManager::endOpaque(const vtkRenderState* s)
   this->frame_.endStage("shading: lit and in shadow");
   if (this->receiversDue_ && !this->numbersAreRight(s))
   {
-    // The report of the frame that follows says so.
-    this->numbersBefore_ = { this->frame_.report.numbersChecked, this->frame_.report.numbersWrong };
+    this->checkedBefore_ = this->frame_.report.numbersChecked;
     throw FrameMustBeDrawnAgain();
   }
   this->takeReceivers();
@@ -501,12 +505,6 @@ void RenderManager::endFrame()
   FrameReport& report = this->frame_.report;
   const PassPrograms& programs = this->programs_;
   report.numbersByGeometryShaders = programs.shaders.numbersByGeometryShaders();
-  if (const std::int64_t wrong = this->frame_.view->receivers.wrongNumbers; wrong > 0)
-  {
-    report.notes.push_back(std::to_string(wrong) +
-      " pixels show other triangles than the driver's numbers say, even by geometry shaders: their "
-      "shadows may be wrong.");
-  }
   report.programCompiles =
     programs.library.compiles() + programs.shaders.rebuilds() - this->compilesBefore_;
   report.newPrograms =
@@ -547,8 +545,11 @@ void RenderManager::setShaderParameters(
     const DrawnSurface::Block& last =
       this->collector_.drawnSurfaces()[static_cast<std::size_t>(drawn.index)].blocks.back();
     const std::uint32_t primitives = last.firstPrimitive + last.primitiveCount;
-    // The snapshot need not hold what shaders of a user's own draw.
-    if (numbers.isNew(program, primitives) && !hasOwnShaders(prop))
+    // The snapshot need not hold what shaders of a user's own draw. Of triangles that clipping
+    // planes cut it holds pieces.
+    const bool isCut = mapper->GetClippingPlanes() && mapper->GetNumberOfClippingPlanes() > 0;
+    if (numbers.isNew(program, primitives) && !isCut && !prop->IsA("vtkSkybox") &&
+      !hasOwnShaders(prop))
     {
       numbers.add(program, primitives, drawn.index);
     }

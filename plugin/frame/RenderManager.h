@@ -18,7 +18,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -116,8 +115,6 @@ public:
   /// For the hook: sets a program's parameters for the prop that is about to be drawn.
   void setShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop);
   const FrameReport& report() const { return this->frame_.report; }
-  /// Pixels of the last frame whose triangle numbers are wrong, even by geometry shaders.
-  std::int64_t wrongNumbers() const { return this->frame_.view->receivers.wrongNumbers; }
   const VisibilityImages& visibility() const { return this->visibility_.images(); }
 
 private:
@@ -145,9 +142,9 @@ private:
   bool shadesTranslucent_ = false;    ///< whether translucent surfaces show shadows in this frame
   std::size_t receiversNumbered_ = 0; ///< how many images of receivers were drawn
   std::optional<ValueKey> receiversDue_; ///< the key of receivers that this frame draws
-  /// Checked and wrong ones of a frame that is drawn again.
-  std::pair<std::int64_t, std::int64_t> numbersBefore_{ 0, 0 };
-  int restingFrames_ = 0; ///< deferred route: in a row that kept their receivers
+  std::int64_t wrongByDriver_ = 0;       ///< numbers, while receivers are drawn by geometry shaders
+  std::int64_t checkedBefore_ = 0;       ///< numbers, in a frame that is drawn again
+  int restingFrames_ = 0;                ///< deferred route: in a row that kept their receivers
   ///@{
   /// Before the frame.
   int compilesBefore_ = 0;

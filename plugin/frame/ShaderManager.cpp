@@ -296,10 +296,13 @@ void ShaderManager::markShader(
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::numberByGeometryShaders()
+void ShaderManager::numberByGeometryShaders(bool number)
 {
-  this->numbersByGeometryShaders_ = true;
-  this->stageTime_.Modified();
+  if (number != this->numbersByGeometryShaders_)
+  {
+    this->numbersByGeometryShaders_ = number;
+    this->stageTime_.Modified();
+  }
 }
 
 //------------------------------------------------------------------------------

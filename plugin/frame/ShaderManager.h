@@ -75,9 +75,9 @@ public:
   void fillShader(const std::string& vertexShader, std::string& geometryShader,
     std::string& fragmentShader, bool drawsReceivers, int corners);
 
-  /// Number primitives by geometry shaders from here on (TriangleNumbers.h). VTK's mappers rebuild
-  /// their shaders.
-  void numberByGeometryShaders();
+  /// Number primitives by geometry shaders or not, from here on (TriangleNumbers.h). VTK's mappers
+  /// rebuild their shaders.
+  void numberByGeometryShaders(bool number);
   bool numbersByGeometryShaders() const { return this->numbersByGeometryShaders_; }
 
   /// The values that are constant for all props of a stage.

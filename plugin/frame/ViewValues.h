@@ -49,7 +49,6 @@ struct ReceiversValue
   std::optional<Receivers> onCpu;          ///< made with `images`
   std::optional<ReceiverBoxes> boxes;      ///< of `onCpu`, if it stores them
   int framesTraced = 0;                    ///< frames that traced lights from them
-  std::int64_t wrongNumbers = 0; ///< pixels whose numbers are wrong, even by geometry shaders
 };
 
 /// The visibility stage's value for one light. The image itself is in the view's layers.

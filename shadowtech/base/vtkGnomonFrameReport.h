@@ -98,8 +98,8 @@ struct FrameReport
   std::string tracerReason; ///< why this tracer, as a clause
   ///@{
   /// Pixels whose driver-given triangle number was compared with the drawn depths, and the pixels
-  /// where they disagree. Shaders are checked in the first frame in which they draw. If any pixel
-  /// disagrees, geometry shaders number the triangles.
+  /// where they disagree and geometry shaders do better. Shaders are checked in the first frame
+  /// that shows what they draw. From then on geometry shaders number the triangles.
   std::int64_t numbersChecked = 0, numbersWrong = 0;
   ///@}
   /// True if geometry shaders number the triangles.

@@ -353,7 +353,7 @@ TEST_P(CastingLights, unknownTechniqueOfALightIsAnErrorAndChangesNothing)
   const Picture shadowed = this->scene.render();
   EXPECT_GT(differingPixels(plain, shadowed), 100u);
   vtkGnomonLightKeys::SetTechnique(sun, "magic");
-  EXPECT_THAT(this->takeErrors(), HasSubstr("'magic', expected one of: auto, nsm"));
+  EXPECT_THAT(this->takeErrors(), HasSubstr("'technique', expected one of: auto, nsm"));
   EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
 }
 

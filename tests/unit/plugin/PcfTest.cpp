@@ -315,7 +315,7 @@ TEST_F(KernelSettings, unknownKernelIsAnErrorThatNamesTheOthers)
 {
   vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "magic");
   EXPECT_THAT(
-    this->takeErrors(), HasSubstr("'magic', expected one of: bilinear, box, poisson, castano"));
+    this->takeErrors(), HasSubstr("'kernel', expected one of: bilinear, box, poisson, castano"));
   this->scene.render();
   EXPECT_EQ(this->takeErrors(), "");
   // Bypass the function that refuses it.

@@ -187,6 +187,48 @@ TEST_P(Props, partsOfAssembliesCastWhereTheyStandAndAsTheAssemblySays)
 }
 
 //------------------------------------------------------------------------------
+TEST_P(Props, assembliesRestUntilSomethingChanges)
+{
+  const vtkSmartPointer<vtkActor> square = this->addSquare(true);
+  this->scene.renderer->RemoveActor(square);
+  vtkNew<vtkAssembly> inner;
+  inner->AddPart(square);
+  vtkNew<vtkAssembly> assembly;
+  assembly->AddPart(inner);
+  this->scene.renderer->AddActor(assembly);
+  const auto drawnAgain = [&]
+  {
+    this->scene.render();
+    return this->scene.report().receiversDrawn;
+  };
+  const bool draws = drawnAgain() > 0; // not inline
+  drawnAgain();                        // VTK's mappers settle
+  EXPECT_EQ(drawnAgain(), 0);
+  const auto expectDrawn = [&](const char* change)
+  {
+    EXPECT_EQ(drawnAgain(), draws ? 1 : 0) << change;
+    EXPECT_EQ(drawnAgain(), 0) << change;
+  };
+  square->AddPosition(0.0, 0.5, 0.0);
+  expectDrawn("a part moves");
+  inner->AddPosition(0.0, 0.5, 0.0);
+  expectDrawn("an assembly in it moves");
+  assembly->AddPosition(0.0, 0.5, 0.0);
+  expectDrawn("it moves");
+  square->GetProperty()->SetInterpolationToFlat();
+  expectDrawn("a part's property");
+  vtkPolyData* const data = vtkPolyDataMapper::SafeDownCast(square->GetMapper())->GetInput();
+  data->GetPoints()->SetPoint(0, 0.1, 0.1, 0.0);
+  data->GetPoints()->Modified();
+  data->Modified();
+  expectDrawn("a part's points");
+  vtkGnomonPropKeys::SetReceives(assembly, false);
+  expectDrawn("it receives no more");
+  assembly->VisibilityOff();
+  expectDrawn("it is hidden");
+}
+
+//------------------------------------------------------------------------------
 /// An assembly copies its property keys to its parts, so two props of the renderer share them.
 TEST_P(Props, partsOfAssembliesMayBeInTheRendererToo)
 {

@@ -671,7 +671,7 @@ TEST_F(Sampled, refinesOnAcrossSelectionsAndTexts)
 TEST_F(Sampled, takesAllPointsAtOnceWhereThePassDrawsSeveralViews)
 {
   set(this->scene, "progressive", 16);
-  const auto saysWhy = Contains(HasSubstr("draws several"));
+  const auto saysWhy = Contains(HasSubstr("renders several"));
   this->scene.render();
   EXPECT_EQ(this->scene.pass->GetProgress(), 0.0);
   EXPECT_THAT(this->scene.report().notes, Not(saysWhy));

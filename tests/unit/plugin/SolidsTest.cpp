@@ -585,7 +585,7 @@ TEST_F(SolidsTest, theTracerOnTheGpuSaysNo)
   scene.addSun({ 0.5, 0.3, -1.0 });
   scene.choose(gpuTracedWay);
   scene.window->Render();
-  EXPECT_THAT(this->takeErrors(), testing::HasSubstr("does not know spheres and cylinders"));
+  EXPECT_THAT(this->takeErrors(), testing::HasSubstr("does not support spheres and cylinders"));
 }
 
 //------------------------------------------------------------------------------
