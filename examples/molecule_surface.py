@@ -1,8 +1,8 @@
 """A molecule's surface, cut open, and its atoms inside as impostors.
 
 The surface is a contour of the sum of Gaussian densities around the atoms. vtkMoleculeMapper draws
-an atom as an impostor: a few triangles of which its shader makes a sphere. The pass traces the
-sphere, not the triangles, so atoms have round shadows on the surface and on each other.
+an atom as an impostor: its shader turns a few triangles into a sphere. The pass traces the sphere,
+not the triangles, so atoms have round shadows on the surface and on each other.
 
 python3 molecule_surface.py [picture.png [width height]]
 """

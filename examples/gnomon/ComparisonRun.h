@@ -37,8 +37,8 @@ struct ComparisonPlan
 /// The technique whose visibility is the truth. For area lights, the truth has
 /// ComparisonPlan::truthSamples; its times are those of the plan's samples.
 inline constexpr const char* truthTechnique = "raytraced";
-/// What the truth of area lights is set to.
-/// @param seed that no technique has which is compared with it
+/// Return the settings of the truth of area lights.
+/// @param seed differs from those of all compared techniques
 std::map<std::string, std::string> truthSettings(int samples, const std::string& seed);
 
 /// The callbacks of a running comparison. Each may be empty.

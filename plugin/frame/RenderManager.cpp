@@ -318,7 +318,7 @@ void RenderManager::takeReceivers()
 }
 
 //------------------------------------------------------------------------------
-/// Has the props' programs draw receivers, with or without the picture.
+/// Begin a stage in which the props' programs draw receivers, with or without the picture.
 void RenderManager::beginReceivers(const vtkRenderState* s)
 {
   this->stageValues_.receiversStage = true;
@@ -334,7 +334,7 @@ NumberCheck RenderManager::checkNumbers(const vtkRenderState* s)
   const Occluders& occluders = this->collector_.occluders();
   ReceiverImages images;
   NumberTruth truth;
-  // What numbers no triangles may be nearer, and VTK may offset depths.
+  // Parts without numbers may be nearer, and VTK may offset depths.
   const bool comparesDepths =
     !hasPartsOfBothKinds(s) && vtkMapper::GetResolveCoincidentTopology() == VTK_RESOLVE_OFF;
   const auto read = [&](const auto& from)
@@ -359,8 +359,8 @@ NumberCheck RenderManager::checkNumbers(const vtkRenderState* s)
 
 //------------------------------------------------------------------------------
 /// Check the numbers of receivers that were just drawn. If any is wrong, they are drawn again with
-/// numbers by geometry shaders, which stay if fewer are wrong then. Else the snapshot does not hold
-/// what was drawn, and the driver is right.
+/// numbers by geometry shaders, which stay if fewer are wrong then. Else the snapshot differs from
+/// the picture, and the driver is right.
 /// @return false if the receivers must be drawn again
 bool RenderManager::numbersAreRight(const vtkRenderState* s)
 {
@@ -404,16 +404,18 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
         s, pass, this->frame_.size, this->readsPoints(), this->frame_.view->receivers.target);
       this->programs_.shaders.endStage();
     };
-    draw();
-    this->frame_.endStage("receivers");
-    while (!this->numbersAreRight(s))
+    do
     {
       draw();
-    }
+      this->frame_.endStage("receivers");
+    } while (!this->numbersAreRight(s));
+  }
+  else
+  {
+    this->frame_.endStage("receivers"); // reused
   }
   this->takeReceivers();
   this->stageValues_.depths = { GL_TEXTURE_2D, this->frame_.view->receivers.target.depths() };
-  this->frame_.endStage("receivers");
 }
 
 //------------------------------------------------------------------------------

@@ -16,7 +16,7 @@
 namespace gnomon
 {
 
-/// What is known of whole receiving triangles. Either side of a triangle is turned away from the
+/// The decisions for whole receiving triangles. Either side of a triangle is turned away from the
 /// light, all lit, all in shadow, reached by the light without being decided, or uncertain.
 /// Triangles of instances stay uncertain.
 ///

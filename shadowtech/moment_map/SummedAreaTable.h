@@ -23,7 +23,7 @@ class ShaderLibrary;
 /// exact.
 ///
 /// **The unit loses no digits.** A texel's rounding remainder is added to the next one in its row.
-/// So the sum over any part of a row is off by less than one unit, whatever its length. Rows begin
+/// So the sum over a part of a row, of any length, is off by less than one unit. Rows begin
 /// with different remainders, which cancel over a rectangle.
 class SummedAreaTable
 {

@@ -44,8 +44,8 @@ struct BoxRay
   float far;
 };
 
-// A ray must never miss a box that holds a triangle it meets: only then is the answer that of all
-// triangles, whatever the tree. Boxes allow for these errors, with u = 2^-24:
+// A ray must never miss a box that holds a triangle it meets: only then does every tree give
+// the answer of all triangles. Boxes allow for these errors, with u = 2^-24:
 //
 // - triangleIsMet() (watertight.glsl) takes corners relative to the origin, shears and rounds them.
 //   Along one axis this costs u |A| for the first rounding, on that and on A_z; 5u |A_z| for a

@@ -23,7 +23,7 @@ bool isDirectional(const SceneLight& light)
   return light.type == SceneLight::Type::Directional;
 }
 
-/// Appends a line through these points.
+/// Append a line through these points.
 void appendLine(const std::vector<Vec3>& through, vtkPoints* points, vtkCellArray* lines)
 {
   lines->InsertNextCell(static_cast<int>(through.size()));
@@ -33,7 +33,7 @@ void appendLine(const std::vector<Vec3>& through, vtkPoints* points, vtkCellArra
   }
 }
 
-/// The outline of a light's area around a point.
+/// Return the outline of a light's area around a point.
 /// @param radius half of its width there
 std::vector<Vec3> outlineOf(
   const SceneLight& light, const Vec3& centre, const Vec3& axis, double radius)
@@ -98,7 +98,7 @@ Vec3 LightHandle::domeCentre() const
 }
 
 //------------------------------------------------------------------------------
-/// So large that it is in the picture.
+/// Return the dome's radius, a share of the picture's height.
 double LightHandle::domeRadius() const
 {
   constexpr double shareOfHeight = 0.3;
@@ -126,7 +126,7 @@ void LightHandle::follow(const SceneLight& light)
   {
     appendLine({ position, target }, points, lines);
   }
-  // Of a directional light the size is the whole angle that it fills.
+  // A directional light's size is a whole angle.
   const double size = placeOf(light).size;
   const double radius =
     directional ? this->domeRadius() * std::tan(0.5 * vtkMath::RadiansFromDegrees(size)) : size;
@@ -146,14 +146,14 @@ LightPlace LightHandle::placeOfBall(const SceneLight& light) const
   this->ball_->GetWorldPosition(ball.data());
   if (isDirectional(light))
   {
-    // The light keeps its distance, which is of no meaning but where it has a box.
+    // The light keeps its distance, which matters only if it has a box.
     const Vec3 towards = normalized(ball - this->domeCentre());
     const double distance = length(light.position - light.target);
     place.position = light.target + distance * towards;
   }
   else if (length(light.target - ball) > 0.0)
   {
-    // A point light shines at nothing: what it is turned to goes with it.
+    // A point light has no direction: its target moves with it.
     const bool aims = light.type == SceneLight::Type::Spot || light.area;
     place.target = aims ? light.target : light.target + (ball - light.position);
     place.position = ball;

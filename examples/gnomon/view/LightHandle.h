@@ -11,19 +11,19 @@
 namespace gnomon::tool
 {
 
-/// A ball where a light is, or from where it shines, with a line to what it shines at and the
-/// outline of its area. A directional light's ball is on a dome around what the camera looks at.
+/// A ball at a light's position, a line to its target, and the outline of its area. The ball of a
+/// directional light lies on a dome around the camera's focal point.
 class LightHandle
 {
 public:
-  /// @param renderer that draws it in front of the scene, and has the scene's camera
+  /// @param renderer draws the handle in front of the scene, with the scene's camera
   explicit LightHandle(vtkRenderer* renderer);
 
   void setVisible(bool visible);
-  /// Puts it where the light is.
+  /// Move the handle to the light.
   void follow(const SceneLight& light);
-  /// Where it was dragged to.
-  /// @param light that it followed last
+  /// Return the place to which the handle was dragged.
+  /// @param light the one passed to the last follow()
   LightPlace placeOfBall(const SceneLight& light) const;
 
   vtkSphereHandleRepresentation* ball() const { return this->ball_; }

@@ -19,7 +19,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// The view that shows a point, by the layout's own rule (LightViews.h); null where none does.
+/// Return the view of a point, by the rule of LightViews.h; null if there is none.
 const LightView* viewOf(const LightViews& views, const glm::dvec3& positionCentred)
 {
   if (views.layout == ViewLayout::Cube)
@@ -45,8 +45,7 @@ const LightView* viewOf(const LightViews& views, const glm::dvec3& positionCentr
   return nullptr;
 }
 
-/// Completes a light, and tells whether its technique has a map. One that refuses the light has
-/// none.
+/// Complete a light. Return true if its technique has a map; false if it refuses the light.
 bool bakesMap(ShadowLight& light)
 {
   try
@@ -59,7 +58,7 @@ bool bakesMap(ShadowLight& light)
   }
 }
 
-/// A corner of what a view holds, in centred coordinates.
+/// Return a corner of a view's volume, in centred coordinates.
 glm::dvec3 cornerOf(const LightView& view, double x, double y, double z)
 {
   const glm::dvec2 across = mapped(glm::inverse(view.mapFromAcross), { x, y });

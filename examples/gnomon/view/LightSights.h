@@ -13,25 +13,25 @@
 namespace gnomon::tool
 {
 
-/// A light that casts, as its technique takes it, and what its map shows.
+/// A casting light as its technique sees it, and the views of its map.
 struct LightSight
 {
   ShadowLight light;
   LightViews views; ///< none of a technique without a map
 };
 
-/// What a renderer's lights see: the same snapshot and views that the pass makes, for overlays.
+/// The views of a renderer's lights for overlays, from the same snapshot as the pass.
 ///
-/// Views that are fitted to receivers (the setting `fit`) are those of the camera's frustum here,
-/// which hold them: the last fit is made on the GPU and not read back.
+/// A view that the pass fits to receivers (the setting `fit`) is fitted to the camera's frustum
+/// here, which contains it: the pass fits on the GPU and does not read the fit back.
 class LightSights
 {
 public:
-  /// @param settings what the pass has lights do that say nothing themselves
+  /// @param settings the pass's, for settings that a light lacks
   void update(vtkRenderer* renderer, const ShadowSettings& settings);
 
   const std::vector<LightSight>& lights() const { return this->lights_; }
-  /// The light of that number in the renderer's collection; null if it does not cast.
+  /// Return the light of that number in the renderer's collection; null if it does not cast.
   const LightSight* find(int sceneIndex) const;
   const OccluderCollector& snapshot() const { return this->collector_; }
 
@@ -40,16 +40,17 @@ private:
   std::vector<LightSight> lights_;
 };
 
-/// The edges of what the views of a light's map hold, in world coordinates, a colour for each view.
+/// Return the edges of the view volumes of a light's map, in world coordinates, in a colour for
+/// each view.
 vtkSmartPointer<vtkPolyData> frustumLines(const LightViews& views, const glm::dvec3& centreWorld);
 
-/// The side of a texel at a point that a light's map shows, across the light.
+/// Return a texel's side at a point, across the light, in world units.
 /// @param positionCentred of the point
 /// @param sizeTexels of the map
-/// @return 0 where no view holds the point
+/// @return 0 if no view contains the point
 double texelSide(const LightViews& views, int sizeTexels, const glm::dvec3& positionCentred);
 
-/// The colour of the view of that number.
+/// Return a view's colour by its number.
 glm::dvec3 colourOfView(std::size_t view);
 
 } // namespace gnomon::tool

@@ -19,13 +19,13 @@ std::string fourDigits(double value)
   return text;
 }
 
-/// Why a light does not reach a point; empty if it does as far as its middle tells.
+/// Return why a light's middle does not reach a point; empty if it does.
 std::string whyDark(const LightSight& sight, const LightSights& sights, const EmbreeTracer& tracer,
   const NameOf& nameOf, const glm::vec3& position, const glm::vec3& normal)
 {
   const Occluders& occluders = sights.snapshot().occluders();
   const ShadowRayLight light(sight.light, occluders.centreWorld);
-  // Where rays may start: this is not the pixel's own triangle, whose bound would be tighter.
+  // The pixel's own triangle, which is unknown here, would allow a nearer start of the ray.
   const float offset = 1e-5f * static_cast<float>(occluders.allCentred.radius());
   return visitShadowRays(light,
     [&](const auto& make, float rayFar) -> std::string

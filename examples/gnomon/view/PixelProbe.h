@@ -13,13 +13,14 @@
 namespace gnomon::tool
 {
 
-/// Says of a pixel what reaches it of each light, and why: a ray to the light's middle tells.
+/// Explains a pixel: its visibility for each light, and the reason, found by a ray to the light's
+/// middle.
 class PixelProbe
 {
 public:
   /// @param images of the frame
   /// @param sights of the same frame
-  /// @param nameOf of a prop of the renderer
+  /// @param nameOf returns the name of a prop of the renderer
   /// @param pixel row 0 at the bottom
   /// @return a line for the pixel, and one for each light that casts
   std::vector<std::string> ask(const VisibilityImages& images, const LightSights& sights,

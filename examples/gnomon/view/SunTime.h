@@ -18,21 +18,21 @@ struct SunTime
   double latitude = 0.0;
   double longitude = 0.0;
 
-  /// Goes on, or back, over the ends of days, months and years.
+  /// Add minutes, which may be negative. Days, months and years roll over.
   void addMinutes(int count);
   /// "2024-06-21T12:00+02:00"
   std::string time() const;
 };
 
-/// Reads "2024-06-21T12:00+02:00,48.1,11.6": the time, north latitude and east longitude in
+/// Parse "2024-06-21T12:00+02:00,48.1,11.6": the time, north latitude and east longitude in
 /// degrees.
 /// @param source for errors
 /// @throws BadInput
 SunTime parseSunTime(const std::string& text, const std::string& source);
-/// The same text.
+/// Return the text that parseSunTime() reads.
 std::string textOf(const SunTime& sun);
 
-/// Where the sun is, in a scene with y up and north along -z.
+/// Return the sun's place in a scene with y up and north along -z.
 struct SunPlace
 {
   Vec3 towards; ///< unit vector

@@ -8,7 +8,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// @param steps how many times a texel is twice as large as a pixel
+/// @param steps log2 of a texel's side in pixels
 glm::dvec3 colourOf(double steps)
 {
   constexpr double mostSteps = 2.0;

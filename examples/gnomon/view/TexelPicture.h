@@ -6,11 +6,10 @@
 namespace gnomon::tool
 {
 
-/// How large the texels of a light's map look: over the picture in grey, blue where a texel is a
-/// quarter of a pixel or less, white where it is as large as one, red where it is four or more.
-/// Pixels that no view of the map holds stay grey.
-/// @param images of the picture's pixels
-/// @param camera that shows it, for the snapshot's centre
+/// Colour a grey picture by the size of the texels of a light's map: blue for a quarter of a pixel
+/// or less, white for one pixel, red for four or more. Pixels outside of all views stay grey.
+/// @param images the picture's receivers
+/// @param camera the picture's, for the snapshot's centre
 Picture texelPicture(const Picture& picture, const VisibilityImages& images,
   const LightSight& sight, const glm::dvec3& centreWorld, const CameraView& camera);
 

@@ -23,7 +23,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// A scene's renderer, whose lights leave their shadows to the state.
+/// Return a scene's renderer whose lights have no shadow settings of their own.
 vtkSmartPointer<vtkRenderer> rendererOf(const Scene& scene, const ViewState& state)
 {
   return makeRenderer(scene, state.size.aspect());
@@ -183,7 +183,7 @@ void View::beginFrame()
   const bool stereo = this->window_->GetStereoRender();
   if (stereo != this->stereoBefore_)
   {
-    // VTK would draw the first left eye with the matrices that it keeps of the picture before.
+    // VTK would draw the first left eye with cached matrices of a mono picture.
     this->renderer_->GetActiveCamera()->Modified();
     this->stereoBefore_ = stereo;
   }
@@ -206,7 +206,7 @@ void View::beforeLines()
 //------------------------------------------------------------------------------
 void View::beforeFront()
 {
-  // What has been drawn is the scene, and its time that of this frame.
+  // The scene is drawn; its time is the frame's.
   std::vector<std::string> lines = this->cornerLines();
   if (!this->still_)
   {
@@ -224,7 +224,7 @@ void View::beforeFront()
   this->handle_.setVisible(light && this->state_.handle);
   if (light)
   {
-    // Wide, and a function of the state alone, as is the size of the ball, which follows from it.
+    // Wide, and a function of the state alone, since the size of the ball follows from it.
     Vec3 eye;
     camera->GetPosition(eye.data());
     const double farthest = std::max(camera->GetDistance(), length(light->position - eye));

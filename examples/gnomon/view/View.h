@@ -21,8 +21,8 @@
 namespace gnomon::tool
 {
 
-/// A state's picture in a window: the scene, drawn by a ViewPass, and in layers in front of it the
-/// frusta, then the handle and the text. With or without an interactor.
+/// A state's picture in a window, with or without an interactor. A ViewPass draws the scene. Layers
+/// in front of it hold the frusta, then the handle and the text.
 class View
 {
 public:
@@ -32,13 +32,12 @@ public:
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
-  /// Has the next frames show this.
+  /// Show a state from the next frame on.
   void apply(const ViewState& state);
-  /// What the window shows: the last one applied, and what VTK's interaction did to it.
+  /// Return the state of the window: the last one applied, with the changes of VTK's interaction.
   ViewState state() const;
 
-  /// Draws the state as it stands, complete and without the frame's time, which no other drawing
-  /// repeats.
+  /// Draw the state with all samples, and without the frame's time, which differs between frames.
   Picture still();
 
   const Scene& scene() const { return this->scene_; }
@@ -46,12 +45,12 @@ public:
   vtkRenderer* front() const { return this->front_; }
   ViewPass* pass() const { return this->pass_; }
   LightHandle& handle() { return this->handle_; }
-  /// The selected light as it is placed; null in a scene without lights.
+  /// Return the selected light at its place in the state; null in a scene without lights.
   const SceneLight* selectedLight() const;
   ///@{
   /// Of the last frame.
   std::string cornerText() const { return this->text_.corner(); }
-  int framesDrawn() const { return this->framesDrawn_; } ///< and those before
+  int framesDrawn() const { return this->framesDrawn_; } ///< since the start
   ///@}
 
 private:
@@ -62,7 +61,7 @@ private:
   std::vector<std::string> cornerLines();
 
   vtkRenderWindow* window_;
-  const Scene scene_; ///< as it was loaded, without what its lights say of their shadows
+  const Scene scene_; ///< as loaded, without its lights' shadow settings
   ViewState state_;
   std::vector<SceneLight> lights_; ///< as the state places them
   vtkSmartPointer<vtkRenderer> renderer_;
@@ -80,7 +79,7 @@ private:
   int framesDrawn_ = 0;
 };
 
-/// A state's picture, drawn without a screen.
+/// Draw a state's picture without a screen.
 /// @throws BadInput, Failure
 Picture drawWithoutScreen(const ViewState& state, Scene scene);
 

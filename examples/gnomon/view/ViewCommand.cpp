@@ -27,7 +27,7 @@ struct ViewOptions
   bool keys = false;
 };
 
-/// VTK aborts where there is no X server to ask for.
+/// Refuse to start without an X server: VTK would abort.
 void requireScreen()
 {
   vtkNew<vtkRenderWindow> window;
@@ -38,7 +38,7 @@ void requireScreen()
   }
 }
 
-/// The state that a viewer begins with, and its scene.
+/// Return the viewer's first state and its scene.
 std::pair<ViewState, Scene> beginning(const ViewOptions& options)
 {
   if (options.scene.empty() == options.settings.empty())
@@ -75,7 +75,7 @@ std::pair<ViewState, Scene> beginning(const ViewOptions& options)
   return result;
 }
 
-/// What [ and ] choose among: those of --techniques, or auto and those that compare takes.
+/// Return the techniques of [ and ]: those of --techniques, or auto and those of compare.
 std::vector<std::string> techniquesOf(const ViewOptions& options, const Scene& scene)
 {
   if (!options.techniques.empty())

@@ -19,7 +19,7 @@ std::string onOff(bool on)
   return on ? "on" : "off";
 }
 
-/// The technique `steps` further in the list; the first one where the state's is not listed.
+/// Return the technique `steps` further in the list; the first one if the state's is not listed.
 Change takeTechnique(int steps)
 {
   return [steps](ViewState& state, const Scene&, const ViewChoices& choices)
@@ -32,7 +32,7 @@ Change takeTechnique(int steps)
   };
 }
 
-/// Shows this, or the technique again.
+/// Toggle between this and the technique.
 Change toggleShow(Show show)
 {
   return [show](ViewState& state, const Scene&, const ViewChoices&)
@@ -60,19 +60,16 @@ SunTime firstSun()
   return { 2024, 6, 21, 12 * 60, 120, 48.1, 11.6 };
 }
 
-/// A scene without a directional light has no sun to move.
+/// Move the sun. A scene without a sun stays as it is.
 Change moveSun(int minutes)
 {
   return [minutes](ViewState& state, const Scene& scene, const ViewChoices&)
   {
     SunTime sun = state.sun.value_or(firstSun());
     sun.addMinutes(state.sun ? minutes : 0);
-    try
+    if (sunOf(scene))
     {
       placeSun(state, scene, sun);
-    }
-    catch (const BadInput&)
-    {
     }
   };
 }
@@ -219,7 +216,7 @@ void resizeLight(ViewState& state, const Scene& scene, int steps)
   constexpr double factor = 1.25;
   const SceneLight& source = scene.lights[state.light];
   LightPlace& light = state.lights[state.light];
-  // A point grows from here on, and a smaller light is a point.
+  // A smaller light is a point, and a point grows to this size.
   const double smallest = source.type == SceneLight::Type::Directional && !source.area
     ? 0.25
     : 0.005 * length(light.target - light.position);

@@ -11,36 +11,36 @@
 namespace gnomon::tool
 {
 
-/// What keys choose among.
+/// The choices that keys step through.
 struct ViewChoices
 {
   std::vector<std::string> techniques; ///< as parseTechnique() takes them
 };
 
-/// A key of the viewer: a change of the state, or what VTK or the window does by itself.
+/// A key of the viewer. It changes the state, or VTK or the window handles it.
 struct ViewKey
 {
   char code;        ///< as vtkRenderWindowInteractor::GetKeyCode()
-  std::string name; ///< for people
-  std::string help; ///< what it does
-  bool ofVtk;       ///< whether VTK's interactor styles do it
-  /// Null: nothing in the state.
+  std::string name; ///< for users
+  std::string help; ///< its effect
+  bool ofVtk;       ///< true if VTK's interactor styles handle it
+  /// Changes the state; null if the state stays.
   std::function<void(ViewState&, const Scene&, const ViewChoices&)> change;
-  /// What the state says of it; null: nothing.
+  /// Returns its value in a state, for users; null if it has none.
   std::function<std::string(const ViewState&)> says;
 };
 
-/// All of them, in the order in which people see them.
+/// Return all keys, in the order of the help.
 const std::vector<ViewKey>& viewKeys();
-/// Null for a code that is no key's.
+/// Return the key of a code; null if there is none.
 const ViewKey* findKey(char code);
 
-/// Saves the picture and the state, which no key changes.
+/// The key that saves picture and state, and changes neither.
 inline constexpr char saveKey = 'g';
 
-/// The keys with what the state says of each, for the picture.
+/// Return the keys with their values in a state, for the picture.
 std::string helpText(const ViewState& state);
-/// The keys as a table for the documentation.
+/// Return the keys as a Markdown table for the documentation.
 std::string keysAsMarkdown();
 
 /// Return the number of the scene's sun, its first directional light without a box.
@@ -50,8 +50,8 @@ std::optional<std::size_t> sunOf(const Scene& scene);
 /// Changes that have no key: the wheel, and the sun.
 /// @param steps up or down
 void resizeLight(ViewState& state, const Scene& scene, int steps);
-/// Has the scene's first directional light shine from the sun.
-/// @throws BadInput where it has none
+/// Place the scene's sun by date and place.
+/// @throws BadInput if the scene has no sun
 void placeSun(ViewState& state, const Scene& scene, const SunTime& sun);
 ///@}
 

@@ -21,7 +21,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// Draws a picture into the framebuffer that is bound, and leaves depths alone.
+/// Draw a picture into the bound framebuffer, without depths.
 void drawPicture(const Picture& picture, vtkRenderWindow* window)
 {
   const std::size_t rowBytes = 3 * static_cast<std::size_t>(picture.width);
@@ -36,7 +36,7 @@ void drawPicture(const Picture& picture, vtkRenderWindow* window)
     picture.width, picture.height, 3, VTK_UNSIGNED_CHAR, bottomUp.data());
 }
 
-/// Sets a pass up unless that is what it was set up for.
+/// Set a pass up unless it has this set-up already.
 void setUpOnce(vtkGnomonShadowPass* pass, const VariantSpec& spec, std::string& setUpFor)
 {
   const std::string name = spec.name() + (spec.settings.count("bake") ? " baked" : "");
@@ -47,7 +47,7 @@ void setUpOnce(vtkGnomonShadowPass* pass, const VariantSpec& spec, std::string& 
   }
 }
 
-/// Whether any light's technique has a setting.
+/// True if the technique of any light has the setting.
 bool anyHas(vtkRenderer* renderer, const ShadowSettings& settings, const char* name)
 {
   const std::vector<ShadowLight> lights = LightManager().collect(renderer, settings).lights;
@@ -55,7 +55,7 @@ bool anyHas(vtkRenderer* renderer, const ShadowSettings& settings, const char* n
     [name](const ShadowLight& light) { return has(estimatorOfLight(light).info, name); });
 }
 
-/// A seed that a technique does not have.
+/// Return a seed that differs from the technique's.
 std::string otherSeed(const ShadowSettings& settings)
 {
   return findSetting("light_seed")->get(settings) == "1" ? "2" : "1";
@@ -72,8 +72,8 @@ void ViewPass::setUp(
   this->state_ = state;
   this->lights_ = lights;
   VariantSpec technique = variantOf(state);
-  // Pixels' classes are to depend on no frame but the one that is shown (ComparisonRun.cpp). The
-  // technique `auto` is to be as it is for users, but in pictures that are kept.
+  // Pixels' classes must depend on this frame alone, so maps are baked at once. `auto` keeps its
+  // usual behaviour, except in saved pictures.
   if ((this->still_ || technique.technique != automaticTechnique) &&
     anyHas(renderer, settingsOf(technique), "bake"))
   {
@@ -86,7 +86,7 @@ void ViewPass::setUp(
   truth.settings = truthSettings(state.truthSamples, otherSeed(this->settings_));
   setUpOnce(this->truth_, truth, this->truthSetUp_);
 
-  // Reading visibility back has its price.
+  // Reading visibility back takes time.
   const bool probed = state.probe.has_value();
   this->technique_->SetKeepVisibility(probed || state.show > Show::Truth);
   this->truth_->SetKeepVisibility(probed || state.show == Show::Error);
@@ -132,7 +132,7 @@ void ViewPass::Render(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-/// What is said of pixels is to be of the whole light.
+/// Render until area lights have all samples, which descriptions of pixels need.
 void ViewPass::drawAll(vtkGnomonShadowPass* pass, const vtkRenderState* s)
 {
   do

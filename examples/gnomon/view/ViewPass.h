@@ -17,38 +17,38 @@
 namespace gnomon::tool
 {
 
-/// Draws what a view shows: the scene by the technique, by the truth, or a picture of what both
-/// say of its pixels. In every frame, so that it stays true while camera and lights move.
+/// Draws the scene by the technique or by the truth, or a picture that compares both. It computes
+/// the picture in every frame, so it follows camera and lights.
 class ViewPass : public vtkRenderPass
 {
 public:
   static ViewPass* New();
   vtkTypeMacro(ViewPass, vtkRenderPass);
 
-  /// @param lights the scene's, as the state places them
-  /// @param renderer that has them already
+  /// @param lights the scene's, at their places in the state
+  /// @param renderer has these lights already
   void setUp(const ViewState& state, const std::vector<SceneLight>& lights, vtkRenderer* renderer);
-  /// For the next setUp(): whether pictures are to be complete and to depend on nothing but the
-  /// state, with all samples of area lights at once, and maps baked.
+  /// Set whether pictures of the next setUp() depend on the state alone: all samples of area lights
+  /// at once, and baked maps.
   void setStill(bool still) { this->still_ = still; }
 
   void Render(const vtkRenderState* s) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
-  /// The pass whose picture is shown.
+  /// Return the pass whose picture is shown.
   vtkGnomonShadowPass* shown()
   {
     return this->state_.show == Show::Truth ? this->truth_ : this->technique_;
   }
-  /// What lights get from the technique's pass.
+  /// Return the settings of the technique's pass.
   const ShadowSettings& settings() const { return this->settings_; }
-  /// What lights of the last frame saw; null unless frusta, texels or a probe asked for it.
+  /// Return the light views of the last frame; null unless frusta, texels or a probe use them.
   const LightSights* sights() const { return this->sighted_ ? &this->sights_ : nullptr; }
 
   ///@{
   /// Of the last frame.
   const std::optional<VisibilityError>& error() const { return this->error_; } ///< Show::Error
-  /// Why the picture is not the one that was asked for; empty if it is.
+  /// Return why the picture is not the requested one; empty if it is.
   const std::string& complaint() const { return this->complaint_; }
   ///@}
 

@@ -22,7 +22,7 @@ constexpr std::array<const char*, 5> showNames = { "technique", "truth", "error"
 constexpr NumberRange lightSize{ 0.0, 1e12 };
 constexpr std::size_t largestFileBytes = 1 << 20;
 
-/// The size that the setting `light_radius` says.
+/// Return the value of the setting `light_radius`.
 double radiusSetting(const SceneLight& light)
 {
   const auto said = light.settings.find("light_radius");
@@ -179,7 +179,7 @@ ViewState parseState(const std::string& text, const std::string& source, const S
   root.requireObject({ "scene", "size", "camera", "lights", "light", "technique", "map_size",
     "truth_samples", "show", "handle", "frusta", "help", "probe", "sun", "surfaces", "stereo" });
   ViewState state = initialState(root.member("scene").text(), scene);
-  // Each member may be left out; the default is what a new viewer shows.
+  // A missing member takes a new viewer's default.
   const auto read = [&root](const char* name, const auto& take)
   {
     if (const JsonValue value = root.member(name); value.present())

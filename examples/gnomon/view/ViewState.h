@@ -14,19 +14,19 @@
 namespace gnomon::tool
 {
 
-/// What the pixels of a view show.
+/// The contents of a view's pixels.
 enum class Show
 {
   Technique, ///< the scene, shaded with the technique's shadows
   Truth,     ///< the same with ray-traced shadows
   Error,     ///< where the technique differs from the truth (errorPicture())
-  Classes,   ///< how each pixel's visibility came about, for the selected light (classPicture())
-  Texels     ///< how large the texels of the selected light's map look (texelPicture())
+  Classes,   ///< each pixel's class for the selected light (classPicture())
+  Texels     ///< the texel size of the selected light's map (texelPicture())
 };
 /// "technique", "truth", "error", "classes", "texels".
 std::string nameOf(Show show);
 
-/// Where a light of the scene is, and how large.
+/// The place and size of a light of the scene.
 struct LightPlace
 {
   Vec3 position;
@@ -38,7 +38,8 @@ struct LightPlace
 LightPlace placeOf(const SceneLight& light);
 void place(SceneLight& light, const LightPlace& place);
 
-/// All that a picture of the viewer depends on. Same state, same bytes, with or without a screen.
+/// The state of the viewer's picture, but for props that the user moves. Same state, same bytes,
+/// with or without a screen.
 struct ViewState
 {
   std::string scene; ///< as loadScene() takes it
@@ -49,39 +50,40 @@ struct ViewState
 
   std::string technique = "auto"; ///< as parseTechnique() takes it
   int mapSizeTexels = 1024;
-  int truthSamples = 64; ///< of each area light for every pixel, by which the truth is traced
+  int truthSamples = 64; ///< of the truth, for each area light and pixel
 
   Show show = Show::Technique;
   bool handle = true; ///< of the selected light
   bool frusta = false;
   bool help = false;
   std::optional<std::array<int, 2>> probe; ///< a pixel, row 0 at the bottom
-  std::optional<SunTime> sun;              ///< that the directional light was last placed by
+  std::optional<SunTime> sun;              ///< the last one that placed the directional light
 
   ///@{
-  /// What VTK's own keys change.
-  std::string surfaces; ///< "wireframe" or "surface"; empty: as the scene has them
+  /// Changed by VTK's own keys.
+  std::string surfaces; ///< "wireframe" or "surface"; empty: the scene's own
   bool stereo = false;
   ///@}
 };
 
-/// A scene as its file has it.
+/// Return the state of a scene as loaded.
 /// @param name as loadScene() takes it
 ViewState initialState(const std::string& name, const Scene& scene);
 
-/// The state's technique, with the map size if it has a map.
+/// Return the state's technique, with the map size if it has a map.
 /// @throws BadInput
 VariantSpec variantOf(const ViewState& state);
 
-/// As JSON, each number with all of its digits.
+/// Return the state as JSON, each number with all of its digits.
 std::string textOf(const ViewState& state);
 
-/// @param scene that the state names
-/// @param source of the text, for errors
+/// Parse a state.
+/// @param source name of the text, for errors
+/// @param scene the one that the state names
 /// @throws BadInput
 ViewState parseState(const std::string& text, const std::string& source, const Scene& scene);
 
-/// Reads a settings file and the scene that it names.
+/// Read a settings file and its scene.
 /// @throws BadInput
 std::pair<ViewState, Scene> readView(const std::string& path);
 

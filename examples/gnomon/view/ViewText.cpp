@@ -17,7 +17,7 @@ namespace
 
 constexpr int marginPixels = 6;
 
-/// Light letters on a dark ground, which can be read before all scenes.
+/// Make light letters on a dark ground, which are legible over all scenes.
 void styleText(vtkTextActor* text, bool inColumns)
 {
   vtkTextProperty* const look = text->GetTextProperty();
@@ -48,7 +48,7 @@ std::string countAndShare(std::int64_t pixels, const VisibilityError& error)
   return text;
 }
 
-/// What the picture is of, where that is not the technique's.
+/// Return the caption of a picture that does not show the technique alone; else no lines.
 std::vector<std::string> captionOf(const ViewState& state, ViewPass* pass)
 {
   if (!pass->complaint().empty())
@@ -70,7 +70,7 @@ std::vector<std::string> captionOf(const ViewState& state, ViewPass* pass)
   }
 }
 
-/// The classes that pixels of a light have, with how many have each.
+/// Return the classes of a light's pixels, with their counts.
 std::vector<LegendLine> classesOf(const VisibilityImages& images, std::size_t light)
 {
   const auto found =
@@ -98,7 +98,7 @@ std::vector<LegendLine> classesOf(const VisibilityImages& images, std::size_t li
   return legend;
 }
 
-/// Breaks a sentence into lines.
+/// Break a sentence into lines.
 std::vector<std::string> brokenIntoLines(const std::string& sentence)
 {
   constexpr std::size_t mostLetters = 60;
@@ -114,8 +114,8 @@ std::vector<std::string> brokenIntoLines(const std::string& sentence)
   return lines;
 }
 
-/// Where the picture is not what was asked for: lights that refuse the technique, and maps that are
-/// smaller than the overlays say.
+/// Return how the picture differs from the request: lights that refuse the technique, and maps
+/// that are smaller than their overlays.
 std::vector<std::string> reservations(const ViewState& state, const FrameReport& report)
 {
   std::vector<std::string> lines;

@@ -16,16 +16,16 @@
 namespace gnomon::tool
 {
 
-/// What a frame shows, a line each: its technique, its wrong pixels, its sun.
+/// Return lines that describe a frame: technique, wrong pixels, sun.
 std::vector<std::string> linesOf(const ViewState& state, ViewPass* pass);
 
-/// A line of a legend, on the colour that it is about.
+/// A line of a legend, on the colour that it explains.
 struct LegendLine
 {
   std::string text;
   std::array<std::uint8_t, 3> colour;
 };
-/// What the colours of pixels mean; empty where they are the scene's.
+/// Return the legend of the pixels' colours; empty if they are the scene's.
 std::vector<LegendLine> legendOf(const ViewState& state, ViewPass* pass);
 
 /// The text over a view: lines in the upper left corner, a legend below them, or the keys if asked
@@ -33,10 +33,10 @@ std::vector<LegendLine> legendOf(const ViewState& state, ViewPass* pass);
 class ViewText
 {
 public:
-  /// @param renderer that draws it
+  /// @param renderer draws the text
   explicit ViewText(vtkRenderer* renderer);
 
-  /// As large as the picture lets it be.
+  /// Fit the text to the picture's size.
   void show(const std::vector<std::string>& lines, const std::vector<LegendLine>& legend,
     const ViewState& state, const int size[2]);
 

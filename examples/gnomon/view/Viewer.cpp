@@ -111,7 +111,7 @@ void Viewer::onMove()
 }
 
 //------------------------------------------------------------------------------
-/// The wheel over the handle makes the light larger or smaller; elsewhere it is VTK's.
+/// Resize the light by the wheel over the handle; elsewhere the wheel is VTK's.
 bool Viewer::resize(int steps)
 {
   const int* const position = this->interactor_->GetEventPosition();
@@ -160,7 +160,7 @@ std::string Viewer::save()
   {
     style->HighlightProp(nullptr); // no state knows of it
   }
-  // What is drawn is what the file says, to the last bit.
+  // Draw the state of the file, to the last bit.
   const std::string text = textOf(this->view_.state());
   this->view_.apply(parseState(text, path + ".json", this->view_.scene()));
   writePicture(this->view_.still(), path + ".png");

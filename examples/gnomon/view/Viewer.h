@@ -14,26 +14,25 @@
 namespace gnomon::tool
 {
 
-/// A window with a view, whose keys, mouse and handle change its state. It draws only on
-/// events.
+/// A window with a view. Keys, mouse and handle change its state. It draws only on events.
 class Viewer
 {
 public:
-  /// @param saveTo where pictures and settings are saved: "PREFIX-1.png", "PREFIX-1.json"
+  /// @param saveTo the prefix of saved files: "PREFIX-1.png", "PREFIX-1.json"
   Viewer(Scene scene, const ViewState& state, ViewChoices choices, std::string saveTo);
 
-  /// Opens the window.
+  /// Open the window.
   void open();
-  /// Lets the user act until the end.
+  /// Run the event loop until the user ends it.
   void run() { this->interactor_->Start(); }
-  /// Presses keys one after the other, as the window would tell of them.
+  /// Press keys in turn, by the events that a window sends.
   void press(const std::string& keys);
 
   View& view() { return this->view_; }
   vtkRenderWindowInteractor* interactor() const { return this->interactor_; }
   vtkRenderWindow* window() const { return this->window_; }
 
-  /// Writes the picture and the state under the first free number.
+  /// Save the picture and the state under the first free number.
   /// @return their path without the ending
   /// @throws Failure
   std::string save();

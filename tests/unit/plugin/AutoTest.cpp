@@ -593,7 +593,7 @@ TEST_F(Auto, whatATimeBudgetChoseCanBeNamed)
 }
 
 //------------------------------------------------------------------------------
-// A light that names a technique uses it, whatever the pass's technique is.
+// A light that names a technique uses it with any technique of the pass.
 TEST_F(Auto, lightsThatNameATechniqueKeepIt)
 {
   vtkLight* const other = this->addSun({ 0.0, 1.0, -1.0 });

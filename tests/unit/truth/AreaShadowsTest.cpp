@@ -314,7 +314,7 @@ TEST(AreaShadows, ofALightInTheFloorsPlaneAreCleanOnTheFloor)
       {
         const ShadowLight light = withArea(pointLight(place), area, 16);
         const std::vector<float> soft = traceArea(light, occluders, receivers);
-        // The floor does not shadow itself, whatever part of the light it sees.
+        // The floor does not shadow itself from any part of the light.
         EXPECT_EQ(countDifferent(soft, trace(light, occluders, receivers)), 0u)
           << height << " " << size;
       }

@@ -166,7 +166,7 @@ std::vector<std::uint32_t> adjacentTo(
   return found;
 }
 
-/// Brute force: triangles are adjacent by the number of places they share, whatever their vertices.
+/// Brute force: triangles are adjacent by the number of places, not vertices, that they share.
 TEST(TriangleFans, haveAllTrianglesThatShareAnEdgeOrAVertex)
 {
   Mesh manyAtAnEdge;
