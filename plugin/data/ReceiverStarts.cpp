@@ -94,7 +94,7 @@ std::uint32_t hashOf(std::uint32_t key)
 } // namespace
 
 //------------------------------------------------------------------------------
-void RayStarts::clear()
+void SampleStarts::clear()
 {
   this->position.clear();
   this->normal.clear();
@@ -154,7 +154,7 @@ std::vector<std::uint32_t> ReceiverStarts::order() const
 }
 
 //------------------------------------------------------------------------------
-void ReceiverStarts::append(std::size_t element, RayStarts& starts, bool middle) const
+void ReceiverStarts::append(std::size_t element, SampleStarts& starts, bool middle) const
 {
   if (this->ofPoints_)
   {
@@ -193,7 +193,7 @@ float ReceiverStarts::offsetOf(std::uint32_t triangle) const
 
 //------------------------------------------------------------------------------
 void ReceiverStarts::appendStart(
-  std::uint32_t triangle, const glm::dvec3& at, float leastOffset, RayStarts& starts) const
+  std::uint32_t triangle, const glm::dvec3& at, float leastOffset, SampleStarts& starts) const
 {
   const glm::dvec3 normal = glm::normalize(areaVector(this->scene_.corners(triangle)));
   starts.position.emplace_back(at);
@@ -221,7 +221,7 @@ glm::dvec3 ReceiverStarts::middleOf(std::size_t element) const
 //------------------------------------------------------------------------------
 /// Append a cell's start on the triangle closest to its middle. That may be an edge between two
 /// triangles, so that the start is off both.
-void ReceiverStarts::appendMiddle(std::size_t element, RayStarts& starts) const
+void ReceiverStarts::appendMiddle(std::size_t element, SampleStarts& starts) const
 {
   const std::uint32_t begin = this->elements_.first[element];
   const std::uint32_t end = this->elements_.first[element + 1];
@@ -254,7 +254,7 @@ void ReceiverStarts::appendMiddle(std::size_t element, RayStarts& starts) const
 /// Append starts spread over a cell. The unit square is cut into columns, one for each triangle,
 /// with a width in proportion to its area. Each column maps to its triangle such that areas keep
 /// their shares (Turk 1990).
-void ReceiverStarts::appendSpread(std::size_t element, RayStarts& starts) const
+void ReceiverStarts::appendSpread(std::size_t element, SampleStarts& starts) const
 {
   const std::uint32_t begin = this->elements_.first[element];
   const std::uint32_t end = this->elements_.first[element + 1];
@@ -288,7 +288,7 @@ void ReceiverStarts::appendSpread(std::size_t element, RayStarts& starts) const
 }
 
 //------------------------------------------------------------------------------
-void ReceiverStarts::appendCorners(std::size_t element, RayStarts& starts) const
+void ReceiverStarts::appendCorners(std::size_t element, SampleStarts& starts) const
 {
   const std::optional<glm::dvec3> point = this->scene_.pointCentred(element);
   for (std::uint32_t i = this->elements_.first[element]; i < this->elements_.first[element + 1];
@@ -304,7 +304,7 @@ void ReceiverStarts::appendCorners(std::size_t element, RayStarts& starts) const
 
 //------------------------------------------------------------------------------
 /// Append disc points in random order, since both they and the starts come from one sequence.
-void ReceiverStarts::appendDisc(std::size_t element, RayStarts& starts) const
+void ReceiverStarts::appendDisc(std::size_t element, SampleStarts& starts) const
 {
   const SamplePixel pixel = this->discPoints_.pixel(
     static_cast<std::uint32_t>(element % columns), static_cast<std::uint32_t>(element / columns));

@@ -21,7 +21,7 @@ enum class ReceivingSide
 };
 
 /// Starts of the shadow rays of some elements, as one array for each quantity.
-struct RayStarts
+struct SampleStarts
 {
   std::vector<glm::vec3> position; ///< on the triangle, centred
   std::vector<glm::vec3> normal;   ///< of the triangle, unit, on the receiving side
@@ -67,15 +67,15 @@ public:
 
   /// Append an element's samples.
   /// @param middle append only one sample, in the middle and seeing the light's middle
-  void append(std::size_t element, RayStarts& starts, bool middle = false) const;
+  void append(std::size_t element, SampleStarts& starts, bool middle = false) const;
 
 private:
   void appendStart(
-    std::uint32_t triangle, const glm::dvec3& at, float leastOffset, RayStarts& starts) const;
-  void appendMiddle(std::size_t element, RayStarts& starts) const;
-  void appendSpread(std::size_t element, RayStarts& starts) const;
-  void appendCorners(std::size_t element, RayStarts& starts) const;
-  void appendDisc(std::size_t element, RayStarts& starts) const;
+    std::uint32_t triangle, const glm::dvec3& at, float leastOffset, SampleStarts& starts) const;
+  void appendMiddle(std::size_t element, SampleStarts& starts) const;
+  void appendSpread(std::size_t element, SampleStarts& starts) const;
+  void appendCorners(std::size_t element, SampleStarts& starts) const;
+  void appendDisc(std::size_t element, SampleStarts& starts) const;
   glm::dvec3 middleOf(std::size_t element) const;
   float offsetOf(std::uint32_t triangle) const;
 

@@ -93,7 +93,7 @@ struct RayStart
   glm::vec3 normal;
   float offset;
 
-  RayStart(const RayStarts& starts, std::size_t i)
+  RayStart(const SampleStarts& starts, std::size_t i)
     : position(starts.position[i])
     , normal(starts.normal[i])
     , offset(starts.offset[i])
@@ -286,7 +286,7 @@ class VisibilityRun::Tile
 public:
   /// @param starts of the samples
   /// @param lit receives the answers of `samples` samples to each light, one light after the other
-  Tile(const VisibilityRun& run, const RayStarts& starts, std::uint8_t* lit)
+  Tile(const VisibilityRun& run, const SampleStarts& starts, std::uint8_t* lit)
     : plan_(run.plan_)
     , starts_(starts)
     , samples_(starts.samples())
@@ -398,7 +398,7 @@ private:
   }
 
   const Plan& plan_;
-  const RayStarts& starts_;
+  const SampleStarts& starts_;
   std::size_t samples_;
   WaitingRays batch_;
   const std::uint8_t* lit_;
@@ -412,7 +412,7 @@ private:
 std::uint64_t VisibilityRun::traceTile(
   std::size_t firstElement, std::size_t lastElement, std::size_t firstLight, std::size_t lastLight)
 {
-  RayStarts starts;
+  SampleStarts starts;
   starts.clear();
   for (std::size_t e = firstElement; e < lastElement; ++e)
   {
@@ -475,7 +475,7 @@ void VisibilityRun::explain()
   tbb::parallel_for(tbb::blocked_range<std::size_t>(this->chunkBegin_, this->chunkEnd_, 64),
     [this](const tbb::blocked_range<std::size_t>& range)
     {
-      RayStarts starts; // their memory is shared
+      SampleStarts starts; // their memory is shared
       for (std::size_t i = range.begin(); i != range.end(); ++i)
       {
         this->explainOne(this->order_[i], starts);
@@ -486,7 +486,7 @@ void VisibilityRun::explain()
 //------------------------------------------------------------------------------
 /// Explain the fate of the element's middle. A point has the fate of its start that is nearest to
 /// being lit. A start that faces the light precedes one that does not.
-void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
+void VisibilityRun::explainOne(std::size_t element, SampleStarts& starts) const
 {
   starts.clear();
   this->receivers_.append(element, starts, true);

@@ -92,7 +92,7 @@ private:
   std::uint64_t traceTile(std::size_t firstElement, std::size_t lastElement, std::size_t firstLight,
     std::size_t lastLight);
   void explain();
-  void explainOne(std::size_t element, RayStarts& starts) const;
+  void explainOne(std::size_t element, SampleStarts& starts) const;
   void finishChunk();
   std::size_t chunkSize() const;
   double shareDone() const;
