@@ -60,7 +60,22 @@ class ViewerTest : public testing::Test
 {
 protected:
   void SetUp() override { ASSERT_NE(std::getenv("DISPLAY"), nullptr) << "run under xvfb-run"; }
-  void TearDown() override { this->expectSilence(); }
+  void TearDown() override
+  {
+    this->expectSilence();
+    this->close();
+  }
+  /// VTK 9.3 visits interactors until they are done, also those that are gone.
+  void close()
+  {
+    if (this->viewer)
+    {
+      const vtkSmartPointer<vtkRenderWindowInteractor> interactor = this->viewer->interactor();
+      this->viewer.reset();
+      interactor->SetDone(true);
+      interactor->ProcessEvents();
+    }
+  }
 
   void view(const std::string& name, std::vector<std::string> techniques)
   {
@@ -94,7 +109,7 @@ protected:
   int drawAgain()
   {
     const Scene scene = loadScene(this->state().scene);
-    this->viewer.reset(); // one thread holds a GLX or an EGL context, not both
+    this->close(); // one thread holds a GLX or an EGL context, not both
     int count = 0;
     for (int i = 1; std::filesystem::exists(this->shot(i) + ".json"); ++i)
     {
