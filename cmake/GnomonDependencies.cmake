@@ -22,6 +22,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   ImagingCore
   InteractionStyle
   InteractionWidgets
+  ParallelCore
   RenderingAnnotation
   RenderingCore
   RenderingLOD
@@ -35,14 +36,9 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   RenderingVolumeOpenGL2
   ViewsContext2D
   OPTIONAL_COMPONENTS
+  ParallelMPI
   glew
   glad)
-# What loads OpenGL's functions, which lights/vtkGnomonVersions.h includes.
-if(VTK_VERSION VERSION_LESS 9.4)
-  set(GNOMON_VTK_GL VTK::glew)
-else()
-  set(GNOMON_VTK_GL VTK::glad)
-endif()
 if(GNOMON_WRAP_PYTHON AND NOT VTK_WRAP_PYTHON)
   message(STATUS "No Python package: this VTK is built without Python")
   set(GNOMON_WRAP_PYTHON OFF)
@@ -55,14 +51,7 @@ if(GNOMON_WRAP_PYTHON)
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
   find_package(VTK 9.1 REQUIRED COMPONENTS Python WrappingPythonCore)
 endif()
-find_package(glm REQUIRED)
-find_package(embree 4 QUIET)
-if(NOT embree_FOUND)
-  find_package(embree 3 REQUIRED)
-endif()
-find_package(nlohmann_json REQUIRED)
-find_package(TBB REQUIRED)
-find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
+include(GnomonLibraries)
 if(GNOMON_BUILD_EXAMPLES)
   find_package(CLI11 REQUIRED)
   find_package(OpenEXR 3 REQUIRED)

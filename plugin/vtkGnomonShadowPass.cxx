@@ -8,6 +8,7 @@
 #include "plugin/frame/RenderManager.h"
 #include "plugin/frame/ReportText.h"
 #include "plugin/frame/VisibilityData.h"
+#include "plugin/ranks/Ranks.h"
 #include "plugin/scene/DrawnLookup.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
@@ -20,6 +21,7 @@
 #include "vtkGnomonShadowSettings.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
@@ -37,6 +39,7 @@
 #include <list>
 #include <optional>
 #include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkGnomonShadowPass);
 
@@ -110,9 +113,12 @@ struct vtkGnomonShadowPass::Internals
   std::optional<gnomon::CostFactors> factors; ///< none: the default ones
   gnomon::RestingFrame restingFrame;          ///< that follows those that move
 
+  std::unique_ptr<gnomon::Ranks> ranks; ///< null: this process draws alone
+
   gnomon::PassContext context; ///< which holds the managers' GL objects
 
   gnomon::RenderManager& managerOf(vtkRenderer* renderer);
+  gnomon::Ranks* updateRanks(vtkMultiProcessController* controller);
   gnomon::RenderManager& manager() { return *this->renderers.front().manager; }
 
   /// @param error empty: there is none
@@ -147,8 +153,60 @@ gnomon::RenderManager& vtkGnomonShadowPass::Internals::managerOf(vtkRenderer* re
   return this->manager();
 }
 
+//------------------------------------------------------------------------------
+/// The processes of a controller; null if there is one at most. Collective where they change.
+gnomon::Ranks* vtkGnomonShadowPass::Internals::updateRanks(vtkMultiProcessController* controller)
+{
+  if (!controller || controller->GetNumberOfProcesses() < 2)
+  {
+    this->ranks.reset();
+  }
+  else if (!this->ranks || this->ranks->controller() != controller)
+  {
+    this->ranks = std::make_unique<gnomon::Ranks>(controller);
+  }
+  return this->ranks.get();
+}
+
 namespace
 {
+
+/// Has a renderer draw into the lower left part of its viewport, for as long as this lives.
+class ReducedPicture
+{
+public:
+  ReducedPicture(vtkRenderer* renderer, int factor)
+    : renderer_(renderer)
+  {
+    renderer->GetViewport(this->before_);
+    const int* const window = renderer->GetRenderWindow()->GetActualSize();
+    if (factor == 1 || window[0] < 1 || window[1] < 1)
+    {
+      return;
+    }
+    int size[2];
+    int origin[2];
+    renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+    double viewport[4];
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const int last = origin[axis] + std::max(size[axis] / factor, 1);
+      viewport[axis] = this->before_[axis];
+      viewport[axis + 2] = static_cast<double>(last) / window[axis];
+    }
+    renderer->SetViewport(viewport);
+  }
+  ~ReducedPicture()
+  {
+    this->renderer_->SetViewport(this->before_); // which tells observers of changes alone
+  }
+  ReducedPicture(const ReducedPicture&) = delete;
+  ReducedPicture& operator=(const ReducedPicture&) = delete;
+
+private:
+  vtkRenderer* renderer_;
+  double before_[4];
+};
 
 struct RendererAccess : vtkRenderer
 {
@@ -208,10 +266,12 @@ vtkGnomonShadowPass::~vtkGnomonShadowPass()
 {
   this->ReleaseGraphicsResources(this->Internal->context.window());
   this->SetDelegatePass(nullptr);
+  this->SetController(nullptr);
 }
 
 //------------------------------------------------------------------------------
 vtkCxxSetObjectMacro(vtkGnomonShadowPass, DelegatePass, vtkRenderPass);
+vtkCxxSetObjectMacro(vtkGnomonShadowPass, Controller, vtkMultiProcessController);
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::Render(const vtkRenderState* s)
@@ -230,7 +290,12 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->RenderPlain(s, "the renderer's UseShadows is off");
     return;
   }
-  const std::string whyNot = this->Internal->context.enter(this, renderer, { 3, 2 });
+  std::string whyNot = this->Internal->context.enter(this, renderer, { 3, 2 });
+  gnomon::Ranks* const ranks = this->Internal->updateRanks(this->Controller);
+  if (ranks)
+  {
+    whyNot = ranks->beginFrame(whyNot);
+  }
   this->Internal->tellError(this, renderer, gnomon::Topic::Context, whyNot);
   if (!whyNot.empty())
   {
@@ -252,9 +317,12 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     wishes.moves = moves;
     wishes.mayRefine =
       this->Interactive == INTERACTIVE_AUTO && this->Internal->restingFrame.mayRefine(window);
-    manager.beginFrame(wishes);
+    wishes.isShared = ranks != nullptr;
+    wishes.smoothTerminators = wishes.smoothTerminators && !ranks;
+    manager.beginFrame(wishes, ranks);
 
     // lights
+    std::optional<ReducedPicture> reduced(std::in_place, renderer, this->ImageReductionFactor);
     this->BeginView(s);
     const bool goesOn = manager.collectLights(renderer, this->Internal->settings->GetValues(),
       this->Internal->viewCount.areSeveral(renderer));
@@ -286,6 +354,11 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       {
         this->ComputeShadows(s);
       }
+      if (ranks)
+      {
+        ranks->endFrame();
+      }
+      reduced.reset();
       drawn = true;
       this->DrawScene(s);
     }
@@ -311,6 +384,10 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   }
   catch (const std::exception& error)
   {
+    if (ranks)
+    {
+      ranks->fail(error.what());
+    }
     this->Internal->tellError(this, renderer, gnomon::Topic::Frame,
       std::string("The scene is drawn without shadows: ") + error.what());
     manager.abandonFrame();
@@ -502,6 +579,7 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
   wishes.maximumSoftError = this->MaximumSoftError;
   wishes.timeBudget = this->TimeBudget;
   wishes.memoryBudget = this->MemoryBudget * 1024.0 * 1024.0;
+  wishes.reductionFactor = this->ImageReductionFactor;
   wishes.factors = this->Internal->factors;
   return wishes;
 }
@@ -839,6 +917,9 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent
      << "DelegatePass: " << (this->DelegatePass ? this->DelegatePass->GetClassName() : "(none)")
      << "\n";
+  os << indent << "Controller: " << (this->Controller ? this->Controller->GetClassName() : "(none)")
+     << "\n";
+  os << indent << "ImageReductionFactor: " << this->ImageReductionFactor << "\n";
   os << indent << "ObeyUseShadows: " << (this->ObeyUseShadows ? "on" : "off") << "\n";
   os << indent << "Progress: " << this->GetProgress() << "\n";
   os << indent << "Last frame's route: " << this->GetReport().route << "\n";

@@ -43,6 +43,7 @@
 class vtkGnomonShadowSettings;
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
+class vtkMultiProcessController;
 class vtkRenderWindow;
 class vtkTable;
 VTK_ABI_NAMESPACE_END
@@ -323,6 +324,35 @@ public:
 
   ///@{
   /**
+   * The processes that draw one picture together, each its own part of the scene, and composite it
+   * by depth (sort-last rendering). A point is lit if no process's casters block its ray.
+   *
+   * All must have the same lights, cameras (clipping ranges included) and picture sizes, and must
+   * render equally often, also those without data or out of view. The pass calls the controller
+   * before the delegate draws, never while it draws. Each process takes its share of the cores of
+   * its machine. If one meets an error, all draw without shadows, and all say why.
+   *
+   * Lights have the technique `raytraced` with one ray for a pixel of an edge, and no textures;
+   * another technique is an error, "auto" is not. Receivers are on their triangles
+   * (SmoothTerminators), Embree traces, MemoryBudget has no effect, and translucent surfaces show no
+   * shadows. Null, the default, or a controller of one process: this process has the whole scene.
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  ///@{
+  /**
+   * The delegate draws the picture in the lower left part of its viewport, smaller by this factor
+   * in width and height, as vtkIceTCompositePass does for an image reduction factor. In [1, 50];
+   * default 1.
+   */
+  vtkSetClampMacro(ImageReductionFactor, int, 1, 50);
+  vtkGetMacro(ImageReductionFactor, int);
+  ///@}
+
+  ///@{
+  /**
    * True to draw without shadows while the renderer's UseShadows is off, as OSPRay's pass does. Off
    * by default: renderers start with UseShadows off, which would silently disable this pass. Switch
    * it on in programs whose own shadow switch is UseShadows.
@@ -413,6 +443,8 @@ protected:
   bool MeasureStages = false;
   bool KeepVisibility = false;
   vtkRenderPass* DelegatePass = nullptr;
+  vtkMultiProcessController* Controller = nullptr;
+  int ImageReductionFactor = 1;
   bool ObeyUseShadows = false;
 
 private:

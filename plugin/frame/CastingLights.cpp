@@ -125,6 +125,32 @@ std::vector<std::string> findMisfits(
   return misfits;
 }
 
+/// Have a light's rays traced where several processes draw the picture: maps and edges of one
+/// process know its own casters alone.
+void shareRays(ShadowLight& light, std::vector<std::string>& misfits)
+{
+  if (!isAutomatic(light) && light.technique != "raytraced")
+  {
+    misfits.push_back(nameOf(light) + ": '" + light.technique +
+      "' sees the casters of one process, and several draw this picture. It uses 'raytraced' "
+      "instead");
+  }
+  light.technique = "raytraced";
+  light.estimator.clear();
+  if (light.of<EdgeSettings>().samples > 1)
+  {
+    misfits.push_back(nameOf(light) +
+      ": several processes draw this picture, and share one ray a pixel of an edge");
+    light.of<EdgeSettings>().samples = 1;
+  }
+  if (light.texture)
+  {
+    misfits.push_back(
+      nameOf(light) + ": several processes draw this picture, in which it has no texture");
+    light.texture.reset();
+  }
+}
+
 /// A light with its estimator.
 struct ComposedLight
 {
@@ -275,6 +301,13 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   LightSet set = this->manager_.collect(renderer, defaults);
   report.headlightIsAlone = set.headlightIsAlone;
   report.misfits = findMisfits(set.lights, defaults);
+  if (wishes.isShared)
+  {
+    for (ShadowLight& light : set.lights)
+    {
+      shareRays(light, report.misfits);
+    }
+  }
 
   std::vector<ComposedLight> composed;
   for (ShadowLight& light : set.lights)
@@ -284,7 +317,7 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
     of.estimator = &composeIn(light, report.misfits);
     of.light = std::move(light);
   }
-  if (wishes.memoryBudget > 0.0)
+  if (wishes.memoryBudget > 0.0 && !wishes.isShared) // what each process sees differs
   {
     keepBudget(composed, renderer, wishes, set.skipped, report);
   }

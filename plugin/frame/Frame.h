@@ -6,6 +6,7 @@
 #include "plugin/frame/FrameWishes.h"
 #include "plugin/frame/Route.h"
 #include "plugin/frame/ViewValues.h"
+#include "plugin/ranks/Ranks.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
@@ -20,6 +21,7 @@ namespace gnomon
 struct Frame
 {
   FrameWishes wishes;
+  Ranks* ranks = nullptr; ///< the processes that draw the picture; null: this one alone
   FrameReport report;
   CastingLights lights;
   glm::ivec2 size{ 0 }; ///< of the picture, in pixels

@@ -2,6 +2,7 @@
 
 #include "shadowtech/tracing/EmbreeTracer.h"
 #include "shadowtech/tracing/GpuShadowTracer.h"
+#include "shadowtech/tracing/SharedTracer.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -11,8 +12,17 @@ namespace gnomon
 
 //------------------------------------------------------------------------------
 TracerChoice chooseTracer(
-  TracerWish wished, const std::string& gpuLacks, const std::string& renderer)
+  TracerWish wished, const std::string& gpuLacks, const std::string& renderer, Ranks* ranks)
 {
+  if (ranks)
+  {
+    if (wished == TracerWish::Gpu)
+    {
+      throw std::runtime_error(
+        "the tracer on the GPU was asked for, but it does not share rays with other processes");
+    }
+    return { false, true, "several processes draw the picture", ranks };
+  }
   if (wished == TracerWish::Embree)
   {
     return { false, true, "asked for" };
@@ -87,12 +97,17 @@ ShadowTracer::Update FrameTracer::update(const TracerChoice& choice, const Occlu
 ShadowTracer::Update FrameTracer::updateTaken(
   const TracerChoice& choice, const Occluders& occluders)
 {
-  if (!this->tracer_ || this->taken_.gpu != choice.gpu)
+  if (!this->tracer_ || this->taken_.gpu != choice.gpu || this->taken_.ranks != choice.ranks)
   {
     this->tracer_.reset(); // frees its memory first
     if (choice.gpu)
     {
       this->tracer_ = std::make_unique<GpuShadowTracer>(this->buffers_, this->shaders_);
+    }
+    else if (choice.ranks)
+    {
+      this->tracer_ = std::make_unique<SharedTracer>(
+        [ranks = choice.ranks](std::vector<std::uint64_t>& bits) { ranks->uniteBits(bits); });
     }
     else
     {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plugin/frame/FrameWishes.h"
+#include "plugin/ranks/Ranks.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/tracing/ShadowTracer.h"
@@ -19,14 +20,17 @@ struct TracerChoice
   bool gpu = false;   ///< GpuShadowTracer; else EmbreeTracer
   bool asked = false; ///< the user asked for it, so there is no fallback
   std::string reason; ///< as a clause
+  /// The processes whose casters block rays, too (SharedTracer); null: this one's alone.
+  Ranks* ranks = nullptr;
 };
 
 /// Return the tracer of a frame.
 /// @param gpuLacks GpuTracer::whyUnsupported()
 /// @param renderer GL_RENDERER
+/// @param ranks the processes that draw the picture; null: this one alone
 /// @throws std::runtime_error if the GPU is asked for and lacks a feature
-TracerChoice chooseTracer(
-  TracerWish wished, const std::string& gpuLacks, const std::string& renderer);
+TracerChoice chooseTracer(TracerWish wished, const std::string& gpuLacks,
+  const std::string& renderer, Ranks* ranks = nullptr);
 
 /// The tracer of all techniques of a frame. It is made for the first trace and cached while the
 /// choice stays the same, so only one has an acceleration structure. All calls, the destructor

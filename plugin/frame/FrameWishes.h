@@ -40,7 +40,9 @@ struct FrameWishes
   RasterizerWish rasterizer = RasterizerWish::Auto;
   bool keepVisibility = false; ///< true if visibility is asked for as data
   bool measureStages = false;
-  double memoryBudget = 0.0;     ///< bytes of lights' maps and images of visibility; 0: none
+  bool isShared = false;     ///< true if several processes draw the picture
+  int reductionFactor = 1;   ///< of the delegate's viewport, whose lower left part is the picture
+  double memoryBudget = 0.0; ///< bytes of lights' maps and images of visibility; 0: none
   bool smoothTerminators = true; ///< true if receivers may lie on the surface that normals imply
   ///@{
   /// For lights that leave their technique to the pass.

@@ -1,6 +1,7 @@
 #include "plugin/frame/RenderManager.h"
 
 #include "plugin/frame/ReceiverDrawing.h"
+#include "plugin/scene/Hash.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/exact/CellTarget.h"
@@ -25,6 +26,47 @@ vtkOpenGLRenderWindow* windowOf(const vtkRenderState* s)
   return vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
 }
 
+void hashPoint(std::size_t& seed, const glm::dvec3& point)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    hashCombine(seed, point[axis]);
+  }
+}
+
+/// Return a number that differs where lights differ in what decides their rays.
+std::uint64_t hashOf(const CastingLights& lights)
+{
+  std::size_t seed = lights.size();
+  for (const CastingLight& casting : lights)
+  {
+    const ShadowLight& light = casting.light;
+    hashCombine(seed, static_cast<int>(light.kind));
+    hashCombine(seed, light.sceneIndex);
+    hashPoint(seed, light.positionWorld);
+    hashPoint(seed, light.directionWorld);
+    hashCombine(seed, light.coneAngleDegrees);
+    if (light.box)
+    {
+      hashPoint(seed, { light.box->width, light.box->height, light.box->depth });
+      hashPoint(seed, light.box->upWorld);
+    }
+    if (light.area)
+    {
+      hashCombine(seed, static_cast<int>(light.area->shape));
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        hashPoint(seed, light.area->worldFromUnit[axis]);
+      }
+    }
+    for (const std::string& value : valuesOf(casting.own.info(), SettingsOf::Estimator, light))
+    {
+      hashCombine(seed, value);
+    }
+  }
+  return seed;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -34,11 +76,12 @@ RenderManager::RenderManager(PassPrograms& programs)
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::beginFrame(const FrameWishes& wishes)
+void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
 {
   this->frame_.report = FrameReport{};
   this->frame_.report.numbersChecked = std::exchange(this->checkedBefore_, 0);
   this->frame_.wishes = wishes;
+  this->frame_.ranks = ranks;
   if (!wishes.keepVisibility)
   {
     this->visibility_.dropImages();
@@ -57,10 +100,15 @@ void RenderManager::beginFrame(const FrameWishes& wishes)
 bool RenderManager::collectLights(
   vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews)
 {
+  Ranks* const ranks = this->frame_.ranks;
   this->frame_.view = &this->views_.of(renderer);
   this->frame_.severalViews = severalViews;
   this->frame_.lights.collect(
     renderer, defaults, this->frame_.wishes, this->frame_.view->techniques, this->frame_.report);
+  if (ranks)
+  {
+    ranks->requireSame(hashOf(this->frame_.lights), "lights");
+  }
   this->frame_.endStage("lights");
   if (this->frame_.lights.empty())
   {
@@ -74,8 +122,13 @@ bool RenderManager::collectLights(
 //------------------------------------------------------------------------------
 void RenderManager::collectOccluders(const vtkRenderState* s)
 {
+  UniteBounds boundsOfAll;
+  if (this->frame_.ranks)
+  {
+    boundsOfAll = [this](const Bounds& own) { return this->frame_.ranks->united(own); };
+  }
   const SnapshotChange change =
-    this->collector_.collect(s->GetRenderer(), this->frame_.wishes.smoothTerminators);
+    this->collector_.collect(s->GetRenderer(), this->frame_.wishes.smoothTerminators, boundsOfAll);
   const Occluders& occluders = this->collector_.occluders();
   FrameReport& report = this->frame_.report;
   report.surfacesExtracted = change.extracted;
@@ -101,12 +154,23 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
   this->frame_.space = { centredFromView(s->GetRenderer(), occluders.centreWorld),
     this->frame_.camera.pixelSide(this->frame_.size) };
   this->stageValues_.space = this->frame_.space;
+  this->stageValues_.reductionFactor = this->frame_.wishes.reductionFactor;
+  if (this->frame_.ranks)
+  {
+    std::size_t hash = 0;
+    hashView(hash, this->frame_.camera, this->frame_.size);
+    this->frame_.ranks->requireSame(hash, "cameras or sizes of the picture");
+  }
   this->frame_.endStage("occluders");
 }
 
 //------------------------------------------------------------------------------
 void RenderManager::chooseTechniques()
 {
+  if (this->frame_.ranks)
+  {
+    return; // all lights have rays
+  }
   this->choice_.choose(
     [this](CastingLight& casting)
     {
@@ -120,6 +184,10 @@ void RenderManager::chooseTechniques()
 /// Why a frame cannot be drawn before its visibility is known, as a clause; empty if it can.
 std::string RenderManager::whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const
 {
+  if (this->frame_.ranks)
+  {
+    return "several processes draw the picture";
+  }
   if (this->frame_.lights.size() != 1)
   {
     return "the picture is drawn without one light's shadows, and " +
@@ -180,9 +248,15 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
   const bool askTranslucent = this->collector_.translucentReceivers() > 0;
   const bool fewLights =
     this->frame_.route == Route::Inline || this->frame_.lights.size() <= mostInlineLights;
-  const bool translucentReceivers = askTranslucent && fewLights && canDrawMaps();
+  const bool translucentReceivers =
+    askTranslucent && fewLights && canDrawMaps() && !this->frame_.ranks;
   this->shadesTranslucent_ = translucentReceivers;
-  if (askTranslucent && !translucentReceivers)
+  if (askTranslucent && this->frame_.ranks)
+  {
+    report.notes.push_back(
+      "translucent surfaces show no shadows: their maps have the casters of one process");
+  }
+  else if (askTranslucent && !translucentReceivers)
   {
     report.notes.push_back(!fewLights
         ? "translucent surfaces show no shadows of " + std::to_string(this->frame_.lights.size()) +
@@ -295,6 +369,7 @@ void RenderManager::findStaleReceivers(const vtkRenderState* s)
   this->receiversDue_ = std::move(key);
   value.key.reset(); // in case of an error
   value.onCpu.reset();
+  value.shared.reset();
   value.framesTraced = 0;
 }
 
@@ -395,6 +470,10 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
 {
   this->makeRoomForLayers();
   this->findStaleReceivers(s);
+  if (this->frame_.ranks && this->frame_.ranks->isAny(this->receiversDue_.has_value()))
+  {
+    this->frame_.view->receivers.shared.reset();
+  }
   if (this->receiversDue_)
   {
     const auto draw = [&]
@@ -524,6 +603,16 @@ void RenderManager::endFrame()
   if (this->frame_.wishes.moves && this->frame_.wishes.timeBudget > 0.0)
   {
     glFinish(); // so that the frame's time is known
+  }
+  if (const Ranks* const ranks = this->frame_.ranks)
+  {
+    report.processes = ranks->count();
+    report.bytesShared = static_cast<std::int64_t>(ranks->bytesShared());
+    if (const std::optional<SharedReceivers>& shared = this->frame_.view->receivers.shared)
+    {
+      report.ownReceivers = static_cast<std::int64_t>(shared->own());
+      report.depthTies = static_cast<std::int64_t>(shared->ties());
+    }
   }
   report.wallMilliseconds = steadyMilliseconds() - this->frame_.start;
   this->choice_.endFrame(report.wallMilliseconds);

@@ -52,7 +52,8 @@ public:
   explicit RenderManager(PassPrograms& programs);
 
   /// Starts a frame's report and clock.
-  void beginFrame(const FrameWishes& wishes);
+  /// @param ranks the processes that draw the picture; null: this one alone
+  void beginFrame(const FrameWishes& wishes, Ranks* ranks);
 
   /// lights: which of the renderer's lights cast, with which technique.
   /// @param severalViews whether the pass draws others beside this one

@@ -60,6 +60,10 @@ Json jsonOf(const FrameReport& report)
   json["numbers_checked"] = report.numbersChecked;
   json["numbers_wrong"] = report.numbersWrong;
   json["numbers_by_geometry_shaders"] = report.numbersByGeometryShaders;
+  json["processes"] = report.processes;
+  json["own_receivers"] = report.ownReceivers;
+  json["depth_ties"] = report.depthTies;
+  json["bytes_shared"] = report.bytesShared;
   json["lights"] = Json::array();
   for (const LightReport& light : report.lights)
   {

@@ -418,6 +418,7 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
 {
   this->window_ = window;
   this->layersSize_ = values.layersSize;
+  this->reductionFactor_ = values.receiversStage ? 1 : values.reductionFactor;
   this->layersFit_ = true;
   this->upToDate_.clear();
   this->stageUniforms_.clear();
@@ -523,7 +524,9 @@ bool ShaderManager::setLayersOrigin(GLuint program)
   GLint viewport[4];
   this->window_->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   ShaderLibrary::setUniform(program, { "gnomonOrigin", glm::ivec2(viewport[0], viewport[1]) });
-  const bool fits = viewport[2] == this->layersSize_.x && viewport[3] == this->layersSize_.y;
+  const glm::ivec2 shown(
+    viewport[2] / this->reductionFactor_, viewport[3] / this->reductionFactor_);
+  const bool fits = glm::max(shown, 1) == this->layersSize_;
   this->layersFit_ = this->layersFit_ && fits;
   return fits;
 }

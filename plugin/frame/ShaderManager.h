@@ -88,6 +88,7 @@ public:
     TextureBinding layers;      ///< image route: the visibility layers
     TextureBinding bits;        ///< image route: the image of bits
     glm::ivec2 layersSize{ 0 }; ///< size of both in pixels
+    int reductionFactor = 1;    ///< FrameWishes::reductionFactor
     TextureBinding depths;      ///< of the layers' receivers
   };
   /// Bind textures to units of their own while VTK draws between beginStage and endStage. endStage
@@ -127,6 +128,7 @@ private:
   std::vector<ShadedLight> lights_;
   vtkOpenGLRenderWindow* window_ = nullptr;
   glm::ivec2 layersSize_{ 0 };
+  int reductionFactor_ = 1;
   bool layersFit_ = true;
   std::vector<Uniform> stageUniforms_; ///< with units instead of textures
   struct BoundTexture

@@ -3,6 +3,7 @@
 #include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/CastingLights.h"
 #include "plugin/frame/ValueKey.h"
+#include "plugin/ranks/SharedReceivers.h"
 
 #include "shadowtech/base/DeferredPicture.h"
 #include "shadowtech/base/ReceiverBoxes.h"
@@ -47,6 +48,7 @@ struct ReceiversValue
   std::size_t numberBefore = 0;            ///< their `number`
   ReceiverPixels pixels;                   ///< storage of `onCpu`, if it is used
   std::optional<Receivers> onCpu;          ///< made with `images`
+  std::optional<SharedReceivers> shared;   ///< of all processes, if several draw the picture
   std::optional<ReceiverBoxes> boxes;      ///< of `onCpu`, if it stores them
   int framesTraced = 0;                    ///< frames that traced lights from them
 };

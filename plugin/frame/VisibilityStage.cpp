@@ -145,6 +145,15 @@ void VisibilityStage::findStale()
     }
     this->frame_.tellReuse("visibility of " + nameOf(casting.light), changes);
     casting.isStale = !changes.empty();
+    ++value;
+  }
+  if (this->frame_.ranks)
+  {
+    this->agreeOnStale();
+  }
+  value = values.begin();
+  for (CastingLight& casting : this->frame_.lights)
+  {
     if (!casting.isStale)
     {
       LightReport& report = reportOf(this->frame_.report, casting.light);
@@ -160,9 +169,31 @@ void VisibilityStage::findStale()
 }
 
 //------------------------------------------------------------------------------
+/// Have all processes compute the visibility of lights that is stale in one of them.
+void VisibilityStage::agreeOnStale()
+{
+  constexpr std::size_t bitsOfWord = 64;
+  std::vector<std::uint64_t> stale((this->frame_.lights.size() + bitsOfWord - 1) / bitsOfWord, 0);
+  std::size_t number = 0;
+  for (const CastingLight& casting : this->frame_.lights)
+  {
+    stale[number / bitsOfWord] |= std::uint64_t(casting.isStale) << number % bitsOfWord;
+    ++number;
+  }
+  this->frame_.ranks->uniteBits(stale);
+  number = 0;
+  for (CastingLight& casting : this->frame_.lights)
+  {
+    casting.isStale = (stale[number / bitsOfWord] >> number % bitsOfWord & 1u) != 0;
+    ++number;
+  }
+}
+
+//------------------------------------------------------------------------------
 TracerChoice VisibilityStage::tracerChoice() const
 {
-  return chooseTracer(this->frame_.wishes.tracer, GpuTracer::whyUnsupported(), rendererName());
+  return chooseTracer(
+    this->frame_.wishes.tracer, GpuTracer::whyUnsupported(), rendererName(), this->frame_.ranks);
 }
 
 //------------------------------------------------------------------------------
@@ -196,8 +227,39 @@ bool VisibilityStage::tracesOnCpu() const
 }
 
 //------------------------------------------------------------------------------
-/// The view's receivers on the CPU, read back once.
+/// The view's receivers on the CPU.
 Receivers& VisibilityStage::receiversOnCpu()
+{
+  return this->frame_.ranks ? this->sharedReceivers().receivers() : this->ownReceivers();
+}
+
+//------------------------------------------------------------------------------
+/// The snapshot that names the surfaces of these receivers.
+const Occluders& VisibilityStage::surfacesOfReceivers()
+{
+  return this->frame_.ranks ? this->sharedReceivers().surfaces() : this->occluders_;
+}
+
+//------------------------------------------------------------------------------
+/// The receivers of all processes that draw the picture, shared once.
+SharedReceivers& VisibilityStage::sharedReceivers()
+{
+  ReceiversValue& value = this->frame_.view->receivers;
+  if (!value.shared)
+  {
+    const ReceiverPixels& own = this->ownReceivers().all();
+    std::vector<float> depths;
+    value.target.readDepths(depths);
+    this->frame_.endStage("visibility: own receivers");
+    value.shared.emplace(*this->frame_.ranks, own, this->occluders_, std::move(depths));
+    this->frame_.endStage("visibility: share receivers");
+  }
+  return *value.shared;
+}
+
+//------------------------------------------------------------------------------
+/// The receivers that this process drew, read back once.
+Receivers& VisibilityStage::ownReceivers()
 {
   ReceiversValue& value = this->frame_.view->receivers;
   // Where no technique traces, the tracer is not updated, and may hold an older snapshot.
@@ -288,8 +350,11 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
         [](const CastingLight& casting) { return casting.isStale && isOnCpu(casting); }))
   {
     this->updateTracer();
-    this->storeReceivers();
-    this->judge();
+    if (!this->frame_.ranks) // whose tiles have other casters, too
+    {
+      this->storeReceivers();
+      this->judge();
+    }
   }
   if (this->tracesOnCpu())
   {
@@ -324,12 +389,18 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
     view.layers.darkenBits(this->darkBits_, view.receivers.boxes->receives());
   }
   view.layers.uploadBits();
-  const bool isKept = frameReport.visibilityComputed == 0 && this->imagesOf_ == &view &&
-    !this->images_.visibility.empty() && this->imageNames_ == names;
-  if (this->frame_.wishes.keepVisibility && !isKept)
+  bool keeps = this->frame_.wishes.keepVisibility &&
+    (frameReport.visibilityComputed > 0 || this->imagesOf_ != &view ||
+      this->images_.visibility.empty() || this->imageNames_ != names);
+  if (this->frame_.ranks)
+  {
+    keeps = this->frame_.ranks->isAny(keeps);
+  }
+  if (keeps)
   {
     const ReceiverPixels& receivers = this->receiversOnCpu().all();
-    this->images_ = keepVisibility(this->frame_.lights, view, receivers, this->occluders_, names);
+    this->images_ =
+      keepVisibility(this->frame_.lights, view, receivers, this->surfacesOfReceivers(), names);
     this->imagesOf_ = &view;
     this->imageNames_ = names;
   }
@@ -355,7 +426,7 @@ TracedTiles* VisibilityStage::beginTiles(
   const bool isDecidedByMap = info.conservativeMap && casting.own.usesMap();
   // Of a single surface nothing stays where it was.
   if (!info.exact || isDecidedByMap || edgeSamplesOf(casting) > 1 || this->tracer_.taken().gpu ||
-    occluders.surfaces.size() < 2)
+    this->frame_.ranks || occluders.surfaces.size() < 2)
   {
     value.dropTiles();
     return nullptr;
@@ -458,7 +529,7 @@ void VisibilityStage::trace(
   {
     layers.readBit(casting.bit, visibility);
   }
-  const ScreenInput input{ traced, casting.own.fitting(), this->occluders_, onCpu,
+  const ScreenInput input{ traced, casting.own.fitting(), this->surfacesOfReceivers(), onCpu,
     this->tracer_.tracer(), casting.own.usesMap(),
     classes || edgeSamples == 1 ? classes : &classesForEdges, tiles, verdicts,
     this->frame_.report.mapBakes };

@@ -57,9 +57,13 @@ public:
 private:
   ValueKey keyOf(const CastingLight& casting) const;
   bool classifies() const;
+  void agreeOnStale();
   void tellTracer();
   bool tracesOnCpu() const;
   Receivers& receiversOnCpu();
+  Receivers& ownReceivers();
+  SharedReceivers& sharedReceivers();
+  const Occluders& surfacesOfReceivers();
   void storeReceivers();
   void judge();
   TracedTiles* beginTiles(

@@ -2,17 +2,13 @@
 
 #include "vtkActor.h"
 #include "vtkFollower.h"
-#include "vtkLODActor.h"
 #include "vtkLODProp3D.h"
-#include "vtkMapperCollection.h"
 #include "vtkPolyDataMapper.h"
-#include "vtkQuadricLODActor.h"
-#include "vtkRenderWindow.h"
-#include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace gnomon
 {
@@ -26,20 +22,6 @@ struct FollowerAccess : vtkFollower
   static vtkActor* device(vtkFollower* follower) { return follower->*(&FollowerAccess::Device); }
 };
 
-struct LodActorAccess : vtkLODActor
-{
-  static vtkActor* device(vtkLODActor* actor) { return actor->*(&LodActorAccess::Device); }
-};
-
-struct QuadricAccess : vtkQuadricLODActor
-{
-  static vtkActor* device(vtkQuadricLODActor* actor) { return actor->*(&QuadricAccess::LODActor); }
-  static vtkMapper* coarse(vtkQuadricLODActor* actor)
-  {
-    return actor->*(&QuadricAccess::LODMapper);
-  }
-};
-
 struct LodPropAccess : vtkLODProp3D
 {
   static const vtkLODProp3DEntry* entries(vtkLODProp3D* prop)
@@ -49,56 +31,6 @@ struct LodPropAccess : vtkLODProp3D
   static int entryCount(vtkLODProp3D* prop) { return prop->*(&LodPropAccess::NumberOfEntries); }
   static int selected(vtkLODProp3D* prop) { return prop->*(&LodPropAccess::SelectedLODIndex); }
 };
-
-/// Return the mapper that a vtkLODActor chooses: a level that was never timed, else the slowest
-/// that keeps the time, else the fastest.
-vtkMapper* chosenLevel(vtkLODActor* actor)
-{
-  const auto allowed = static_cast<float>(actor->GetAllocatedRenderTime()); // a float in VTK, too
-  vtkMapper* best = actor->GetMapper();
-  auto bestTime = static_cast<float>(best->GetTimeToDraw());
-  if (bestTime <= allowed)
-  {
-    return best;
-  }
-  vtkMapperCollection* levels = actor->GetLODMappers();
-  vtkCollectionSimpleIterator cookie;
-  levels->InitTraversal(cookie);
-  while (vtkMapper* level = levels->GetNextMapper(cookie))
-  {
-    const auto time = static_cast<float>(level->GetTimeToDraw());
-    if (time == 0.0f)
-    {
-      return level;
-    }
-    if ((bestTime > allowed && time < bestTime) || (time > bestTime && time < allowed))
-    {
-      best = level;
-      bestTime = time;
-    }
-  }
-  return best;
-}
-
-/// Return a vtkQuadricLODActor's drawing. Frames that must be as fast as interaction asks have the
-/// coarse level. VTK makes that level in the first of them, which still has the full one.
-ActorDrawing quadricDrawing(vtkQuadricLODActor* actor, vtkMatrix4x4* matrix, vtkRenderer* renderer)
-{
-  vtkActor* device = QuadricAccess::device(actor);
-  vtkRenderWindow* window = renderer->GetRenderWindow();
-  vtkRenderWindowInteractor* interactor = window ? window->GetInteractor() : nullptr;
-  if (!interactor || device->IsA("vtkFollower"))
-  {
-    return {}; // VTK needs an interactor here, and treats a follower as a plain actor
-  }
-  const double rate = std::clamp(interactor->GetDesiredUpdateRate(), 1.0, 75.0);
-  vtkMapper* coarse = QuadricAccess::coarse(actor);
-  if (actor->GetAllocatedRenderTime() <= 1.1 / rate && coarse->GetNumberOfInputConnections(0) > 0)
-  {
-    return { device, coarse, device->GetMatrix() }; // VTK does not move the device
-  }
-  return { device, actor->GetMapper(), matrix };
-}
 
 } // namespace
 
@@ -117,13 +49,9 @@ ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* re
     return served ? ActorDrawing{ FollowerAccess::device(follower), actor->GetMapper(), matrix }
                   : ActorDrawing{};
   }
-  if (auto* lodActor = vtkLODActor::SafeDownCast(actor))
+  if (const std::optional<ActorDrawing> levels = drawingOfLevels(actor, matrix, renderer))
   {
-    return { LodActorAccess::device(lodActor), chosenLevel(lodActor), matrix };
-  }
-  if (auto* quadric = vtkQuadricLODActor::SafeDownCast(actor))
-  {
-    return quadricDrawing(quadric, matrix, renderer);
+    return *levels;
   }
   return { actor, actor->GetMapper(), matrix };
 }

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "lights/vtkGnomonVersions.h"
+#include "plugin/vtk_versions/ActorLevels.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkActor;
 class vtkLODProp3D;
-class vtkMapper;
 class vtkMatrix4x4;
 class vtkProp3D;
 class vtkRenderer;
@@ -13,14 +13,6 @@ VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {
-
-/// The actor, mapper and matrix of an actor's drawing in this frame.
-struct ActorDrawing
-{
-  vtkActor* actor = nullptr; ///< as VTK hands it to a render pass; null if not supported
-  vtkMapper* mapper = nullptr;
-  vtkMatrix4x4* matrix = nullptr;
-};
 
 /// Return an actor's drawing, also for actors that draw by inner actors: followers and actors with
 /// levels of detail. The level is the one that VTK will choose in this frame, from the time that

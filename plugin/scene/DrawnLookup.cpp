@@ -100,11 +100,9 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
 {
   const std::size_t number = this->held_.size();
   this->heldAt_.emplace(Place{ actor, worldFromModel }, number);
-  if (held.front().isGlyph)
-  {
-    this->heldAt_.emplace(Place{ mapper, worldFromModel }, number);
-  }
-  else
+  // For glyphs and levels of detail, VTK may draw by other actors, which have the mapper.
+  this->heldAt_.emplace(Place{ mapper, worldFromModel }, number);
+  if (!held.front().isGlyph)
   {
     std::sort(held.begin(), held.end(), isBefore);
   }
@@ -151,7 +149,8 @@ const DrawnLookup::HeldSurfaces* DrawnLookup::heldBy(vtkProp* prop) const
   auto found = this->heldAt_.find({ actor, worldFromModel });
   if (found == this->heldAt_.end())
   {
-    // For a composite data set, a glyph mapper draws the blocks with a temporary actor.
+    // A glyph mapper draws blocks of a composite data set with a temporary actor, ParaView's actors
+    // their levels of detail with an inner one.
     found = this->heldAt_.find({ actor->GetMapper(), worldFromModel });
   }
   return found != this->heldAt_.end() ? &this->held_[found->second] : nullptr;

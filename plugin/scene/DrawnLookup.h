@@ -75,8 +75,8 @@ public:
   std::size_t bytes() const;
 
 private:
-  /// The drawer and its matrix. The drawer is an actor, or the mapper of actors that VTK makes
-  /// while it draws.
+  /// The drawer and its matrix. The drawer is an actor, or the mapper of an inner actor, or of one
+  /// that VTK makes while it draws.
   struct Place
   {
     const void* drawer;

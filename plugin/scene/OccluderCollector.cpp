@@ -10,7 +10,8 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-SnapshotChange OccluderCollector::collect(vtkRenderer* renderer, bool readsNormals)
+SnapshotChange OccluderCollector::collect(
+  vtkRenderer* renderer, bool readsNormals, const UniteBounds& boundsOfAll)
 {
   DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
   this->lookup_.beginFrame(drawn.translucentReceivers);
@@ -22,7 +23,7 @@ SnapshotChange OccluderCollector::collect(vtkRenderer* renderer, bool readsNorma
   {
     surface.block.normals = readsNormals ? surface.block.normals : nullptr;
   }
-  const SnapshotChange change = this->surfaces_.update(wanted);
+  const SnapshotChange change = this->surfaces_.update(wanted, boundsOfAll);
   if (change.any)
   {
     this->indexProps(wanted);

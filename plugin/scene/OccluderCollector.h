@@ -40,7 +40,9 @@ public:
   /// Brings the snapshot up to date with the renderer's props. Updates the mappers' inputs first,
   /// as VTK would when drawing.
   /// @param readsNormals whether surfaces get the normals that VTK shades them with
-  SnapshotChange collect(vtkRenderer* renderer, bool readsNormals = false);
+  /// @param boundsOfAll from which the snapshot's centre follows
+  SnapshotChange collect(
+    vtkRenderer* renderer, bool readsNormals = false, const UniteBounds& boundsOfAll = {});
 
   const Occluders& occluders() const { return this->surfaces_.occluders(); }
   /// One for each of the snapshot's surfaces.

@@ -32,7 +32,8 @@ void takeFacets(const SurfaceRecord& record, Surface& surface)
 } // namespace
 
 //------------------------------------------------------------------------------
-SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted)
+SnapshotChange SnapshotSurfaces::update(
+  std::vector<WantedSurface>& wanted, const UniteBounds& boundsOfAll)
 {
   SnapshotChange change;
   bool otherList = wanted.size() != this->records_.size();
@@ -57,9 +58,14 @@ SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted)
   bool positionsChanged = false;
   bool trianglesChanged = otherList;
   change.any = otherList || moved || change.extracted > 0;
+  bool recentred = false;
+  if (change.any || boundsOfAll)
+  {
+    recentred = this->updateCentre(wanted, boundsOfAll);
+    change.any = change.any || recentred;
+  }
   if (change.any)
   {
-    const bool recentred = this->updateCentre(wanted);
     for (WantedSurface& surface : wanted)
     {
       const Outcome outcome = this->updateSurface(surface, recentred, change);
@@ -89,7 +95,8 @@ SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted)
 
 //------------------------------------------------------------------------------
 /// Set the centre to that of the present box; true if it moved.
-bool SnapshotSurfaces::updateCentre(const std::vector<WantedSurface>& wanted)
+bool SnapshotSurfaces::updateCentre(
+  const std::vector<WantedSurface>& wanted, const UniteBounds& boundsOfAll)
 {
   Bounds boundsWorld;
   for (const WantedSurface& surface : wanted)
@@ -97,6 +104,10 @@ bool SnapshotSurfaces::updateCentre(const std::vector<WantedSurface>& wanted)
     const SurfaceRecord& record =
       surface.fresh ? surface.fresh->record : this->records_[surface.old];
     boundsWorld.add(transformed(record.boundsModel, surface.prop->worldFromModel));
+  }
+  if (boundsOfAll)
+  {
+    boundsWorld = boundsOfAll(boundsWorld);
   }
   const glm::dvec3 old = std::exchange(this->occluders_.centreWorld, snapshotCentre(boundsWorld));
   return this->occluders_.centreWorld != old;

@@ -6,10 +6,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace gnomon
 {
+
+/// Returns the box around a snapshot's surfaces and those that other processes hold of the scene,
+/// from the box around the snapshot's. Empty: there are no others.
+using UniteBounds = std::function<Bounds(const Bounds&)>;
 
 /// The result of one update of the snapshot.
 struct SnapshotChange
@@ -25,7 +30,8 @@ class SnapshotSurfaces
 {
 public:
   /// Make the snapshot hold these surfaces, in this order.
-  SnapshotChange update(std::vector<WantedSurface>& wanted);
+  /// @param boundsOfAll returns the box that sets the centre, from that of these surfaces
+  SnapshotChange update(std::vector<WantedSurface>& wanted, const UniteBounds& boundsOfAll);
 
   const Occluders& occluders() const { return this->occluders_; }
   /// Return the records, one for each of the snapshot's surfaces.
@@ -41,7 +47,7 @@ private:
     OtherTriangles ///< waits in WantedSurface::fresh
   };
 
-  bool updateCentre(const std::vector<WantedSurface>& wanted);
+  bool updateCentre(const std::vector<WantedSurface>& wanted, const UniteBounds& boundsOfAll);
   void read(WantedSurface& wanted, vtkMTimeType time);
   Outcome updateSurface(WantedSurface& wanted, bool recentred, SnapshotChange& change);
   bool transformAgain(const WantedSurface& wanted);

@@ -121,6 +121,14 @@ struct FrameReport
   /// Kinds of props that are visible and lit, but neither cast nor receive.
   std::vector<std::string> leftOut;
 
+  ///@{
+  /// The processes that draw the picture (vtkGnomonShadowPass::SetController); the pixels whose
+  /// receiver is this one's; those in which several drew different surfaces at the same depth; and
+  /// the bytes that this one sent and received for receivers and visibility.
+  int processes = 1;
+  std::int64_t ownReceivers = 0, depthTies = 0, bytesShared = 0;
+  ///@}
+
   /// Filled if stages are measured. Each stage then ends with glFinish, which costs time itself.
   /// Otherwise `stages` is empty and only wallMilliseconds counts.
   std::vector<StageTime> stages;

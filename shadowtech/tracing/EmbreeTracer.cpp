@@ -704,6 +704,12 @@ std::size_t EmbreeTracer::tracePicture(const TracedPicture& picture)
 }
 
 //------------------------------------------------------------------------------
+bool EmbreeTracer::hasCasters() const
+{
+  return !this->impl_->casters.empty();
+}
+
+//------------------------------------------------------------------------------
 void EmbreeTracer::areFree(
   std::size_t count, const PointArrays& from, const PointArrays& to, std::uint8_t* free) const
 {

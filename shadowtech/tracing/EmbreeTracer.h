@@ -44,6 +44,9 @@ public:
   std::size_t bytes() const override;
   std::size_t bytesOfTable() const override;
 
+protected:
+  bool hasCasters() const;
+
 private:
   std::size_t tracePicture(const TracedPicture& picture) override;
 

@@ -96,8 +96,9 @@ public:
     std::vector<std::uint8_t>* classes, TracedTiles* tiles, const TileVerdicts* verdicts,
     const LightSamples* samples, const SampleChooser* chooser = nullptr);
 
-  /// Return the number of tiles.
+  /// Return the number of tiles, and of the picture's columns of pixels.
   std::size_t tiles() const;
+  std::size_t columns() const { return this->receivers_.width(); }
   /// Return the far end of the rays, in lengths of their direction.
   float rayFar() const;
 

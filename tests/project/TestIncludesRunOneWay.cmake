@@ -41,8 +41,10 @@ folder(plugin/window lights shadowtech/base)
 folder(plugin/vtk_versions lights shadowtech/base plugin/window)
 folder(plugin/scene lights shadowtech/base plugin/vtk_versions plugin/window)
 folder(plugin/data lights shadowtech/base shadowtech/tracing plugin/scene)
-folder(plugin/frame ${shared} shadowtech plugin/scene plugin/window)
-folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/scene plugin/vtk_versions plugin/window)
+folder(plugin/ranks lights shadowtech/base)
+folder(plugin/frame ${shared} shadowtech plugin/ranks plugin/scene plugin/window)
+folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/ranks plugin/scene plugin/vtk_versions plugin/window)
+folder(plugin/paraview/GnomonShadows/views plugin)
 
 # Public headers of plugin/ that its folders may include: they include nothing of it.
 set(plain_headers plugin/vtkGnomonVisibilityImages.h plugin/vtkGnomonPropKeys.h)

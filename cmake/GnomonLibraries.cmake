@@ -1,0 +1,16 @@
+# What the libraries stand on beside VTK, or the VTK in ParaView, which is found before.
+get_filename_component(GNOMON_SOURCE_DIR "${CMAKE_CURRENT_LIST_DIR}" DIRECTORY)
+# What loads OpenGL's functions, which lights/vtkGnomonVersions.h includes.
+if(VTK_VERSION VERSION_LESS 9.4)
+  set(GNOMON_VTK_GL VTK::glew)
+else()
+  set(GNOMON_VTK_GL VTK::glad)
+endif()
+find_package(glm REQUIRED)
+find_package(embree 4 QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3 REQUIRED)
+endif()
+find_package(nlohmann_json REQUIRED)
+find_package(TBB REQUIRED)
+find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)

@@ -1,0 +1,173 @@
+#include "vtkPVGnomonShadowView.h"
+
+#include "vtkCameraPass.h"
+#include "vtkGnomonShadowPass.h"
+#include "vtkImageData.h"
+#include "vtkImageProcessingPass.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVSynchronizedRenderer.h"
+#include "vtkProcessModule.h"
+#include "vtkRenderer.h"
+#include "vtkXMLImageDataWriter.h"
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkPVGnomonShadowView);
+
+namespace
+{
+
+/// Return the camera's pass in a chain of passes; null if there is none.
+vtkCameraPass* findCameraPass(vtkRenderPass* pass)
+{
+  while (auto* image = vtkImageProcessingPass::SafeDownCast(pass)) // FXAA, tone mapping
+  {
+    pass = image->GetDelegatePass();
+  }
+  return vtkCameraPass::SafeDownCast(pass);
+}
+
+/// Return the processes that draw a distributed view; null if this one draws alone.
+vtkMultiProcessController* processesOf(vtkPVSynchronizedRenderer* renderers)
+{
+  const bool isClient =
+    vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
+  return renderers->GetEnabled() && !isClient ? vtkMultiProcessController::GetGlobalController()
+                                              : nullptr;
+}
+
+/// Set a setting that differs. Setting one that the technique lacks is an error, also to its
+/// default, which ParaView sets.
+template <typename Value>
+void setSetting(vtkGnomonShadowPass* pass, const char* name, Value value)
+{
+  std::ostringstream text;
+  text << value;
+  if (pass->GetSetting(name) != text.str())
+  {
+    pass->SetSetting(name, text.str().c_str());
+  }
+}
+
+} // namespace
+
+//----------------------------------------------------------------------------
+vtkPVGnomonShadowView::vtkPVGnomonShadowView()
+{
+  this->Pass->SetTechnique("raytraced");
+}
+
+//----------------------------------------------------------------------------
+vtkPVGnomonShadowView::~vtkPVGnomonShadowView() = default;
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
+{
+  this->Superclass::AboutToRenderOnLocalProcess(interactive);
+  vtkCameraPass* const camera = findCameraPass(this->GetRenderer()->GetPass());
+  if (!camera)
+  {
+    vtkErrorMacro("The view has no pass of its camera, so it has no shadows.");
+    return;
+  }
+  const bool isTiled = this->InTileDisplayMode();
+  if (isTiled && this->ShowShadows)
+  {
+    vtkWarningMacro("Tile displays have no shadows.");
+  }
+  const bool isIn = camera->GetDelegatePass() == this->Pass.Get();
+  if (!this->ShowShadows || isTiled)
+  {
+    if (isIn)
+    {
+      camera->SetDelegatePass(this->Pass->GetDelegatePass());
+    }
+    return;
+  }
+  if (!isIn)
+  {
+    this->Pass->SetDelegatePass(camera->GetDelegatePass());
+    camera->SetDelegatePass(this->Pass);
+  }
+  this->Pass->SetController(processesOf(this->SynchronizedRenderers));
+  const bool isComposited = this->Pass->GetController() &&
+    this->Pass->GetDelegatePass()->IsA("vtkIceTCompositePass");
+  this->Pass->SetImageReductionFactor(
+    isComposited ? this->SynchronizedRenderers->GetImageReductionFactor() : 1);
+  this->Pass->SetInteractive(interactive ? vtkGnomonShadowPass::INTERACTIVE_ON
+                                         : vtkGnomonShadowPass::INTERACTIVE_OFF);
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::Render(bool interactive, bool skipRendering)
+{
+  this->Superclass::Render(interactive, skipRendering);
+  const int process = vtkMultiProcessController::GetGlobalController()->GetLocalProcessId();
+  if (!skipRendering && !this->GetMakingSelection() && !this->VisibilityFile.empty() && process == 0)
+  {
+    vtkNew<vtkImageData> image;
+    this->Pass->GetVisibilityImage(image);
+    if (image->GetNumberOfPoints() > 0)
+    {
+      vtkNew<vtkXMLImageDataWriter> writer;
+      writer->SetFileName(this->VisibilityFile.c_str());
+      writer->SetInputData(image);
+      writer->Write();
+    }
+  }
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::SetTechnique(const char* name)
+{
+  this->Pass->SetTechnique(name);
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::SetEdgeSamples(int samples)
+{
+  setSetting(this->Pass, "edge_samples", samples);
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::SetLightSize(double radius)
+{
+  setSetting(this->Pass, "light_radius", radius);
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::SetLightSamples(int samples)
+{
+  setSetting(this->Pass, "light_samples", samples);
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::SetMeasureStages(bool measure)
+{
+  this->Pass->SetMeasureStages(measure);
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::SetVisibilityFile(const char* path)
+{
+  this->VisibilityFile = path ? path : "";
+  this->Pass->SetKeepVisibility(!this->VisibilityFile.empty());
+}
+
+//----------------------------------------------------------------------------
+const char* vtkPVGnomonShadowView::GetReportText()
+{
+  this->ReportText = this->Pass->GetReportText();
+  return this->ReportText.c_str();
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ShowShadows: " << this->ShowShadows << "\n";
+  os << indent << "VisibilityFile: " << this->VisibilityFile << "\n";
+  os << indent << "Pass:\n";
+  this->Pass->PrintSelf(os, indent.GetNextIndent());
+}

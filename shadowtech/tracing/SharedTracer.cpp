@@ -1,0 +1,117 @@
+#include "shadowtech/tracing/SharedTracer.h"
+
+#include "shadowtech/base/Bytes.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+constexpr std::size_t bitsOfWord = 64;
+constexpr std::size_t wordsOfTile = TracedTile::pixels / bitsOfWord;
+
+/// The most samples whose bits are sent at once: at 1920 x 1080 pixels, 8 MB.
+constexpr int samplesAtOnce = 32;
+
+} // namespace
+
+//------------------------------------------------------------------------------
+SharedTracer::SharedTracer(UniteBits unite)
+  : unite_(std::move(unite))
+{
+}
+
+//------------------------------------------------------------------------------
+std::size_t SharedTracer::bytesOfRays() const
+{
+  return bytesOf(this->blocked_);
+}
+
+//------------------------------------------------------------------------------
+/// Fill the picture without its rays, and find which of these this process's casters block.
+/// @return the number of rays
+std::size_t SharedTracer::traceOwn(
+  const TracedPicture& picture, const TracedPicture::SampleRange& samples)
+{
+  const std::size_t wordsOfTileSamples =
+    wordsOfTile * static_cast<std::size_t>(samples.end - samples.first);
+  this->blocked_.assign(picture.tiles() * wordsOfTileSamples, 0);
+  std::vector<std::size_t> asked(picture.tiles(), 0); // samples, by tile
+  const float rayFar = picture.rayFar();
+  return picture.visitTiles(samples,
+    [&](const TracedTile& tile)
+    {
+      TracedTile::Plane<float> rays[6]; // the needed ones, closed up
+      TracedTile::Plane<std::uint16_t> pixels;
+      TracedTile::Plane<std::uint8_t> isBlocked;
+      std::size_t count = 0;
+      for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
+      {
+        if (tile.needed[pixel] != 0)
+        {
+          pixels[count] = static_cast<std::uint16_t>(pixel);
+          rays[0][count] = tile.originX[pixel];
+          rays[1][count] = tile.originY[pixel];
+          rays[2][count] = tile.originZ[pixel];
+          rays[3][count] = tile.directionX[pixel];
+          rays[4][count] = tile.directionY[pixel];
+          rays[5][count] = tile.directionZ[pixel];
+          ++count;
+        }
+      }
+      std::uint64_t* const bits =
+        &this->blocked_[tile.number * wordsOfTileSamples + wordsOfTile * asked[tile.number]++];
+      if (this->hasCasters())
+      {
+        this->areBlocked(count, { rays[0].data(), rays[1].data(), rays[2].data() },
+          { rays[3].data(), rays[4].data(), rays[5].data() }, rayFar, isBlocked.data());
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          bits[pixels[i] / bitsOfWord] |= std::uint64_t(isBlocked[i]) << pixels[i] % bitsOfWord;
+        }
+      }
+      return count;
+    });
+}
+
+//------------------------------------------------------------------------------
+std::size_t SharedTracer::tracePicture(const TracedPicture& picture)
+{
+  if (picture.channels() > 1)
+  {
+    throw std::runtime_error("processes that share a picture have no lights with textures");
+  }
+  const std::size_t tilesAcross =
+    (picture.columns() + TracedTile::columns - 1) / TracedTile::columns;
+  std::size_t rays = 0;
+  for (int first = 0; first < picture.samples(); first += samplesAtOnce)
+  {
+    const TracedPicture::SampleRange range{ first,
+      std::min(first + samplesAtOnce, picture.samples()) };
+    rays += this->traceOwn(picture, range);
+    this->unite_(this->blocked_);
+    const float one = 1.0f;
+    const auto samples = static_cast<std::size_t>(range.end - range.first);
+    for (std::size_t word = 0; word < this->blocked_.size(); ++word)
+    {
+      const std::size_t tile = word / (wordsOfTile * samples);
+      const std::size_t firstPixel = word % wordsOfTile * bitsOfWord;
+      for (std::uint64_t bits = this->blocked_[word]; bits != 0; bits &= bits - 1)
+      {
+        const std::size_t pixel = firstPixel + static_cast<std::size_t>(__builtin_ctzll(bits));
+        const std::size_t x =
+          tile % tilesAcross * TracedTile::columns + pixel % TracedTile::columns;
+        const std::size_t y = tile / tilesAcross * TracedTile::rows + pixel / TracedTile::columns;
+        picture.darken(y * picture.columns() + x, &one);
+      }
+    }
+  }
+  return rays;
+}
+
+} // namespace gnomon
