@@ -365,6 +365,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     if (goesOn)
     {
       this->TellOfResolution(s, manager.endShading());
+      manager.compareSurfaces();
     }
     manager.endFrame();
     this->Internal->tellError(this, renderer, gnomon::Topic::Frame, "");

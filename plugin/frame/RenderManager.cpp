@@ -4,6 +4,7 @@
 #include "plugin/scene/Hash.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
+#include "shadowtech/base/GlState.h"
 #include "shadowtech/exact/CellTarget.h"
 
 #include <vtkMapper.h>
@@ -137,7 +138,7 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
     report.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
   report.leftOut = this->collector_.leftOut();
   this->names_.clear();
-  if (this->frame_.wishes.keepVisibility)
+  if (this->frame_.wishes.keepVisibility && !this->frame_.ranks) // which have names of their own
   {
     this->names_ = surfaceNames(s->GetRenderer(), this->collector_.records());
   }
@@ -159,7 +160,9 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
   {
     std::size_t hash = 0;
     hashView(hash, this->frame_.camera, this->frame_.size);
-    this->frame_.ranks->requireSame(hash, "cameras or sizes of the picture");
+    hashCombine(hash, this->frame_.wishes.measureStages);
+    hashCombine(hash, this->frame_.wishes.keepVisibility);
+    this->frame_.ranks->requireSame(hash, "cameras, sizes of the picture, or wishes");
   }
   this->frame_.endStage("occluders");
 }
@@ -331,6 +334,7 @@ ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
   key.add(propsPart, hashOfShownProps(s));
   key.add(snapshotPart, std::pair(occluders.topologyVersion, occluders.positionsVersion));
   key.add("what is read of receivers", this->readsPoints());
+  key.add("the processes", this->frame_.ranks);
   key.add("where they are drawn", std::tuple(this->frame_.route, originOf(s)));
   return key;
 }
@@ -578,6 +582,30 @@ bool RenderManager::endShading()
   const bool fitted = this->programs_.shaders.endStage();
   this->frame_.endStage(this->frame_.route == Route::Deferred ? "shading: the rest" : "shading");
   return fitted;
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::compareSurfaces()
+{
+  const std::optional<SharedReceivers>& shared = this->frame_.view->receivers.shared;
+  if (!this->frame_.ranks || !this->frame_.wishes.measureStages || !shared)
+  {
+    return;
+  }
+  GLint framebuffer = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+  std::vector<float> drawn;
+  readDepths(static_cast<GLuint>(framebuffer), glm::ivec2(0), this->frame_.size, drawn);
+  std::vector<float> nearest = drawn;
+  this->frame_.ranks->takeLeast(nearest);
+  std::int64_t others = 0;
+  for (std::size_t pixel = 0; pixel < drawn.size(); ++pixel)
+  {
+    const bool isReceiver = shared->pixels().surface[pixel] != ReceiverPixels::notCovered;
+    const bool isShown = drawn[pixel] == nearest[pixel] && drawn[pixel] < 1.0f;
+    others += isReceiver && isShown && !shared->isOwn(pixel) ? 1 : 0;
+  }
+  this->frame_.report.otherSurfaces = this->frame_.ranks->sum(others);
 }
 
 //------------------------------------------------------------------------------

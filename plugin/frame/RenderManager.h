@@ -107,6 +107,10 @@ public:
   /// show no shadows then
   bool endShading();
 
+  /// Counts where the picture shows another process's surface than its receivers, if stages are
+  /// measured; collective, after the picture was drawn.
+  void compareSurfaces();
+
   /// Completes the report.
   void endFrame();
 

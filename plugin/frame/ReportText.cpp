@@ -64,6 +64,7 @@ Json jsonOf(const FrameReport& report)
   json["own_receivers"] = report.ownReceivers;
   json["depth_ties"] = report.depthTies;
   json["bytes_shared"] = report.bytesShared;
+  json["other_surfaces"] = report.otherSurfaces;
   json["lights"] = Json::array();
   for (const LightReport& light : report.lights)
   {

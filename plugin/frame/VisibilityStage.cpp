@@ -247,11 +247,17 @@ SharedReceivers& VisibilityStage::sharedReceivers()
   ReceiversValue& value = this->frame_.view->receivers;
   if (!value.shared)
   {
-    const ReceiverPixels& own = this->ownReceivers().all();
+    Ranks& ranks = *this->frame_.ranks;
+    this->readImages();
     std::vector<float> depths;
     value.target.readDepths(depths);
+    this->frame_.endStage("visibility: read receivers");
+    keepNearest(ranks, depths, value.images.fragments);
+    this->frame_.endStage("visibility: nearest");
+    Receivers own(value.images, value.drawnSurfaces, this->occluders_, value.pixels);
+    const ReceiverPixels& pixels = own.all();
     this->frame_.endStage("visibility: own receivers");
-    value.shared.emplace(*this->frame_.ranks, own, this->occluders_, std::move(depths));
+    value.shared.emplace(ranks, pixels, this->occluders_);
     this->frame_.endStage("visibility: share receivers");
   }
   return *value.shared;
@@ -272,22 +278,30 @@ Receivers& VisibilityStage::ownReceivers()
       value.fragmentsBefore.swap(value.images.fragments);
       value.numberBefore = std::exchange(value.numberOfImages, value.number);
     }
-    value.images.rays = pixelRays(this->frame_.camera.clipFromView,
-      this->frame_.space.centredFromView, this->frame_.size.x, this->frame_.size.y);
-    if (this->frame_.route == Route::Deferred)
-    {
-      value.deferred.read(value.images);
-    }
-    else
-    {
-      value.target.read(value.images);
-    }
+    this->readImages();
     value.boxes.reset();
     value.onCpu.emplace(
       value.images, value.drawnSurfaces, this->occluders_, value.pixels, freeSegments);
     this->frame_.endStage("visibility: read receivers");
   }
   return *value.onCpu;
+}
+
+//------------------------------------------------------------------------------
+/// Reads back what the receivers stage drew.
+void VisibilityStage::readImages()
+{
+  ReceiversValue& value = this->frame_.view->receivers;
+  value.images.rays = pixelRays(this->frame_.camera.clipFromView,
+    this->frame_.space.centredFromView, this->frame_.size.x, this->frame_.size.y);
+  if (this->frame_.route == Route::Deferred)
+  {
+    value.deferred.read(value.images);
+  }
+  else
+  {
+    value.target.read(value.images);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -62,6 +62,7 @@ private:
   bool tracesOnCpu() const;
   Receivers& receiversOnCpu();
   Receivers& ownReceivers();
+  void readImages();
   SharedReceivers& sharedReceivers();
   const Occluders& surfacesOfReceivers();
   void storeReceivers();

@@ -126,6 +126,15 @@ bool Ranks::isAny(bool mine)
 }
 
 //------------------------------------------------------------------------------
+std::int64_t Ranks::sum(std::int64_t mine)
+{
+  this->agree();
+  std::vector<long long> sum{ mine };
+  reduce(*this->controller_, sum, vtkCommunicator::SUM_OP);
+  return sum.front();
+}
+
+//------------------------------------------------------------------------------
 void Ranks::requireSame(std::uint64_t hash, const std::string& what)
 {
   this->agree();

@@ -68,6 +68,8 @@ public:
   /// Throw on all ranks unless a number is the same on all.
   /// @param what it is of, as a subject: "lights"
   void requireSame(std::uint64_t hash, const std::string& what);
+  /// Return the sum over all ranks.
+  std::int64_t sum(std::int64_t mine);
   /// Unite the boxes of all ranks.
   Bounds united(const Bounds& mine);
   /// Replace each number by the least of all ranks'.

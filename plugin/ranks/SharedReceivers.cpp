@@ -12,12 +12,6 @@ namespace
 
 constexpr std::size_t bitsOfWord = 64;
 
-/// True if a word of bits has the bit of a pixel.
-bool hasBit(const std::uint64_t* words, std::size_t pixel)
-{
-  return (words[pixel / bitsOfWord] >> pixel % bitsOfWord & 1u) != 0;
-}
-
 /// Give surfaces() its only surface.
 Surface receivingSurface()
 {
@@ -29,23 +23,33 @@ Surface receivingSurface()
 } // namespace
 
 //------------------------------------------------------------------------------
-SharedReceivers::SharedReceivers(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot,
-  std::vector<float> windowDepths)
+void keepNearest(
+  Ranks& ranks, const std::vector<float>& windowDepths, std::vector<glm::vec2>& fragments)
+{
+  std::vector<float> nearest = windowDepths;
+  ranks.takeLeast(nearest);
+  for (std::size_t pixel = 0; pixel < fragments.size(); ++pixel)
+  {
+    if (windowDepths[pixel] != nearest[pixel])
+    {
+      fragments[pixel] = glm::vec2(0.0f);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+SharedReceivers::SharedReceivers(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot)
 {
   this->surfaces_.centreWorld = snapshot.centreWorld;
   this->surfaces_.surfaces.push_back(receivingSurface());
 
-  // Which pixels show this rank's surface?
   const std::size_t pixels = own.size();
-  const std::vector<float> ownDepths = windowDepths;
-  ranks.takeLeast(windowDepths);
   std::vector<std::uint64_t> claims((pixels + bitsOfWord - 1) / bitsOfWord, 0);
   std::vector<Sent> sent;
   for (std::size_t pixel = 0; pixel < pixels; ++pixel)
   {
     const std::uint32_t surface = own.surface[pixel];
-    if (surface != ReceiverPixels::notCovered && ownDepths[pixel] == windowDepths[pixel] &&
-      snapshot.surfaces[surface].receives)
+    if (surface != ReceiverPixels::notCovered && snapshot.surfaces[surface].receives)
     {
       claims[pixel / bitsOfWord] |= std::uint64_t(1) << pixel % bitsOfWord;
       Sent& receiver = sent.emplace_back();
@@ -55,12 +59,9 @@ SharedReceivers::SharedReceivers(Ranks& ranks, const ReceiverPixels& own, const 
       }
     }
   }
-  this->own_ = sent.size();
   const Ranks::Gathered<std::uint64_t> allClaims = ranks.gather(claims);
   const Ranks::Gathered<Sent> all = ranks.gather(sent);
 
-  // Put them where they belong. Equal depths are decided by the receivers' numbers, so that it does
-  // not matter which rank has which triangle; a triangle that two ranks have is the same receiver.
   this->pixels_.resize(own.width, own.height);
   for (const auto plane : ReceiverPixels::planes)
   {
@@ -68,28 +69,37 @@ SharedReceivers::SharedReceivers(Ranks& ranks, const ReceiverPixels& own, const 
   }
   std::fill(this->pixels_.surface.begin(), this->pixels_.surface.end(), ReceiverPixels::notCovered);
   std::fill(this->pixels_.lifted.begin(), this->pixels_.lifted.end(), std::uint8_t(0));
-  for (int rank = 0; rank < ranks.count(); ++rank)
+  this->isOwn_.assign(pixels, false);
+  for (std::size_t rank = 0; rank + 1 < all.firsts.size(); ++rank)
   {
-    const auto number = static_cast<std::size_t>(rank);
-    const std::uint64_t* const claimed = &allClaims.elements[allClaims.firsts[number]];
-    const Sent* next = all.elements.data() + all.firsts[number];
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+    this->take(static_cast<int>(rank) == ranks.own(), &allClaims.elements[allClaims.firsts[rank]],
+      all.elements.data() + all.firsts[rank]);
+  }
+  this->own_ = static_cast<std::size_t>(std::count(this->isOwn_.begin(), this->isOwn_.end(), true));
+  this->receivers_.emplace(this->pixels_);
+}
+
+//------------------------------------------------------------------------------
+/// Put a rank's receivers where they belong. Where several ranks drew the same depth, the receivers'
+/// numbers decide, so that it does not matter which rank has which triangle. A triangle that two
+/// ranks have is the same receiver.
+/// @param isOwn true if it is this rank
+/// @param claims a bit for each pixel that has one of them
+/// @param next the first of them
+void SharedReceivers::take(bool isOwn, const std::uint64_t* claims, const Sent* next)
+{
+  for (std::size_t word = 0; word * bitsOfWord < this->pixels_.size(); ++word)
+  {
+    for (std::uint64_t bits = claims[word]; bits != 0; bits &= bits - 1)
     {
-      if (!hasBit(claimed, pixel))
-      {
-        continue;
-      }
+      const std::size_t pixel = word * bitsOfWord + static_cast<std::size_t>(__builtin_ctzll(bits));
       const Sent& receiver = *next++;
-      Sent before;
-      for (std::size_t i = 0; i < ReceiverPixels::planes.size(); ++i)
+      if (this->pixels_.surface[pixel] != ReceiverPixels::notCovered)
       {
-        before.numbers[i] = (this->pixels_.*ReceiverPixels::planes[i])[pixel];
-      }
-      const bool isTaken = this->pixels_.surface[pixel] != ReceiverPixels::notCovered;
-      if (isTaken)
-      {
+        const Sent before = this->at(pixel);
         if (std::memcmp(&before, &receiver, sizeof(Sent)) == 0)
         {
+          this->isOwn_[pixel] = this->isOwn_[pixel] || isOwn;
           continue;
         }
         ++this->ties_;
@@ -100,13 +110,24 @@ SharedReceivers::SharedReceivers(Ranks& ranks, const ReceiverPixels& own, const 
         }
       }
       this->pixels_.surface[pixel] = 0;
+      this->isOwn_[pixel] = isOwn;
       for (std::size_t i = 0; i < ReceiverPixels::planes.size(); ++i)
       {
         (this->pixels_.*ReceiverPixels::planes[i])[pixel] = receiver.numbers[i];
       }
     }
   }
-  this->receivers_.emplace(this->pixels_);
+}
+
+//------------------------------------------------------------------------------
+SharedReceivers::Sent SharedReceivers::at(std::size_t pixel) const
+{
+  Sent receiver;
+  for (std::size_t i = 0; i < ReceiverPixels::planes.size(); ++i)
+  {
+    receiver.numbers[i] = (this->pixels_.*ReceiverPixels::planes[i])[pixel];
+  }
+  return receiver;
 }
 
 } // namespace gnomon

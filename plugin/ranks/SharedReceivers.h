@@ -4,12 +4,22 @@
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Receivers.h"
 
+#include <glm/glm.hpp>
+
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace gnomon
 {
+
+/// Leave out of this rank's image what other ranks hide; collective.
+/// @param windowDepths of what the rank drew, 1 where it drew nothing
+/// @param fragments ReceiverImages::fragments
+/// @throws RankFailure
+void keepNearest(
+  Ranks& ranks, const std::vector<float>& windowDepths, std::vector<glm::vec2>& fragments);
 
 /// The receivers of a picture that several ranks draw: in each pixel that of the rank that drew the
 /// nearest surface. The rank computes it once, and all ranks hold all of them, bit for bit the
@@ -18,12 +28,10 @@ class SharedReceivers
 {
 public:
   /// Share what this rank drew; collective.
-  /// @param own receivers of the rank's own surfaces, on their triangles
+  /// @param own receivers on the rank's own triangles, where no other rank hides them
   /// @param snapshot of the rank
-  /// @param windowDepths of what the rank drew, 1 where it drew nothing
   /// @throws RankFailure
-  SharedReceivers(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot,
-    std::vector<float> windowDepths);
+  SharedReceivers(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot);
   SharedReceivers(const SharedReceivers&) = delete;
   SharedReceivers& operator=(const SharedReceivers&) = delete;
 
@@ -35,8 +43,9 @@ public:
   /// centre.
   const Occluders& surfaces() const { return this->surfaces_; }
 
-  /// Return how many of the receivers are this rank's.
+  /// Return how many of the receivers are this rank's, and which.
   std::size_t own() const { return this->own_; }
+  bool isOwn(std::size_t pixel) const { return this->isOwn_[pixel]; }
   /// Return in how many pixels several ranks drew different receivers at the same depth.
   std::size_t ties() const { return this->ties_; }
   std::size_t bytes() const { return this->pixels_.bytes(); }
@@ -48,10 +57,14 @@ private:
     float numbers[7]; ///< in the order of ReceiverPixels::planes
   };
 
+  void take(bool isOwn, const std::uint64_t* claims, const Sent* next);
+  Sent at(std::size_t pixel) const;
+
   ReceiverPixels pixels_;
   std::optional<Receivers> receivers_; ///< made with pixels_
   Occluders surfaces_;
   std::size_t own_ = 0;
+  std::vector<bool> isOwn_; ///< by pixel
   std::size_t ties_ = 0;
 };
 

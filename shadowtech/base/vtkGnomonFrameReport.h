@@ -128,6 +128,9 @@ struct FrameReport
   int processes = 1;
   std::int64_t ownReceivers = 0, depthTies = 0, bytesShared = 0;
   ///@}
+  /// Pixels, of all processes, that show another process's surface than the one whose receiver was
+  /// traced, as depths were rounded otherwise. Counted if stages are measured.
+  std::int64_t otherSurfaces = 0;
 
   /// Filled if stages are measured. Each stage then ends with glFinish, which costs time itself.
   /// Otherwise `stages` is empty and only wallMilliseconds counts.

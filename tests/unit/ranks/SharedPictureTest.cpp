@@ -3,16 +3,22 @@
 
 #include "SplitScene.h"
 
+#include "shadowtech/base/Gl.h"
+
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <random>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace gnomon::test
 {
@@ -57,6 +63,204 @@ TEST_P(SharedPicture, EqualsThatOfOneProcess)
     });
   EXPECT_GT(scene.expectSame(), 0u);
   EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
+}
+
+/// A scene over a floor, split in blocks.
+tool::Scene boxScene(const std::function<void(tool::SceneLight&)>& shape)
+{
+  tool::Scene scene = tool::loadScene("posts");
+  scene.lights.resize(1);
+  shape(scene.lights.front());
+  return scene;
+}
+
+class SharedLights : public testing::TestWithParam<const char*>
+{
+protected:
+  tool::VtkMessages messages_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, SharedLights, testing::Values("sun", "spot", "point", "area"),
+  [](const testing::TestParamInfo<const char*>& kind) { return std::string(kind.param); });
+
+TEST_P(SharedLights, EqualThoseOfOneProcess)
+{
+  const std::string kind = GetParam();
+  SplitScene scene(boxScene(
+                     [&](tool::SceneLight& light)
+                     {
+                       light.type = kind == "spot" ? tool::SceneLight::Type::Spot
+                         : kind == "point"         ? tool::SceneLight::Type::Point
+                                                   : tool::SceneLight::Type::Directional;
+                       light.coneAngleDegrees = 40.0;
+                       if (kind == "area")
+                       {
+                         light.settings["light_radius"] = "2";
+                         light.settings["light_samples"] = "16";
+                       }
+                     }),
+    roundRobin());
+  EXPECT_GT(scene.expectSame(), 0u);
+  EXPECT_EQ(scene.shared().report().lights.front().lightSamples, kind == "area" ? 16 : 1);
+  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
+}
+
+class SharedFrames : public testing::Test
+{
+protected:
+  SplitScene scene_{ tool::loadScene("posts"), blocks() };
+  tool::VtkMessages messages_;
+  const int own_ = controller()->GetLocalProcessId();
+  const int last_ = controller()->GetNumberOfProcesses() - 1;
+
+  void showOwn(bool show)
+  {
+    vtkActorCollection* const actors = this->scene_.shared().renderer->GetActors();
+    vtkCollectionSimpleIterator cookie;
+    actors->InitTraversal(cookie);
+    while (vtkActor* actor = actors->GetNextActor(cookie))
+    {
+      actor->SetVisibility(show);
+    }
+  }
+};
+
+TEST_F(SharedFrames, RestWithoutWork)
+{
+  this->scene_.expectSame();
+  this->scene_.expectSame();
+  const FrameReport& report = this->scene_.shared().report();
+  EXPECT_EQ(report.receiversDrawn, 0);
+  EXPECT_EQ(report.visibilityComputed, 0);
+  EXPECT_LT(report.bytesShared, 100);
+  EXPECT_EQ(report.processes, this->last_ + 1);
+}
+
+TEST_F(SharedFrames, GoOnWhereOneProcessHasNothing)
+{
+  this->scene_.expectSame();
+  const std::vector<float> before = this->scene_.shared().pass->GetVisibility().visibility.front();
+  this->showOwn(this->own_ != this->last_);
+  this->scene_.shared().draw();
+  const std::vector<float>& without =
+    this->scene_.shared().pass->GetVisibility().visibility.front();
+  EXPECT_NE(without, before);
+  if (this->own_ == this->last_)
+  {
+    EXPECT_EQ(this->scene_.shared().report().ownReceivers, 0);
+    EXPECT_GT(this->scene_.shared().report().lights.front().rays, 0); // for the others
+  }
+  this->showOwn(true);
+  this->scene_.expectSame();
+}
+
+TEST_F(SharedFrames, TellAllWhyOneFailed)
+{
+  if (this->own_ == this->last_)
+  {
+    this->scene_.shared().pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU);
+  }
+  this->scene_.shared().draw();
+  EXPECT_EQ(this->scene_.shared().report().route, "none");
+  ASSERT_EQ(this->messages_.errors().size(), 1u);
+  const std::string error = this->messages_.errors().front();
+  EXPECT_THAT(error, testing::HasSubstr("the tracer on the GPU was asked for"));
+  if (this->own_ != this->last_)
+  {
+    EXPECT_THAT(error,
+      testing::HasSubstr("process " + std::to_string(this->last_) + " of " +
+        std::to_string(this->last_ + 1) + " failed"));
+  }
+  this->scene_.shared().draw(); // said once
+  EXPECT_EQ(this->messages_.errors().size(), 1u);
+  this->scene_.shared().pass->SetTracer(vtkGnomonShadowPass::TRACER_AUTO);
+  this->scene_.expectSame();
+}
+
+TEST_F(SharedFrames, RefuseDifferentLights)
+{
+  auto* light =
+    vtkLight::SafeDownCast(this->scene_.shared().renderer->GetLights()->GetItemAsObject(0));
+  light->SetPosition(1.0, 2.0, 10.0 + this->own_);
+  this->scene_.shared().draw();
+  EXPECT_EQ(this->scene_.shared().report().route, "none");
+  ASSERT_EQ(this->messages_.errors().size(), 1u);
+  EXPECT_THAT(
+    this->messages_.errors().front(), testing::HasSubstr("the processes have different lights"));
+}
+
+TEST_F(SharedFrames, TraceInPlaceOfOtherTechniques)
+{
+  this->scene_.shared().pass->SetTechnique("auto");
+  this->scene_.expectSame();
+  EXPECT_EQ(this->scene_.shared().report().lights.front().technique, "raytraced");
+  EXPECT_TRUE(this->messages_.errors().empty());
+  this->scene_.shared().pass->SetTechnique("nsm");
+  this->scene_.expectSame();
+  ASSERT_EQ(this->messages_.errors().size(), 1u);
+  EXPECT_THAT(this->messages_.errors().front(),
+    testing::HasSubstr("'nsm' sees the casters of one process, and several draw this picture"));
+}
+
+TEST_F(SharedFrames, EndWithTheController)
+{
+  this->scene_.expectSame();
+  this->scene_.shared().pass->SetController(nullptr);
+  this->scene_.shared().draw();
+  EXPECT_EQ(this->scene_.shared().report().processes, 1);
+  EXPECT_EQ(this->scene_.shared().report().receiversDrawn, 1);
+  this->scene_.shared().pass->SetController(controller());
+  this->scene_.expectSame();
+}
+
+TEST_F(SharedFrames, SurviveChangesByChance)
+{
+  std::mt19937 random(7); // the same on all processes
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (int frame = 0; frame < 60; ++frame)
+  {
+    const double a = number(random);
+    const double b = number(random);
+    const int change = static_cast<int>(random() % 6);
+    const bool mine = static_cast<int>(random() % 3) == this->own_;
+    if (change == 5)
+    {
+      this->showOwn(!mine); // one process's part comes and goes
+    }
+    this->scene_.change(
+      [&](vtkRenderer* renderer)
+      {
+        auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+        switch (change)
+        {
+          case 0:
+            renderer->GetActiveCamera()->Azimuth(30.0 * a);
+            break;
+          case 1:
+            light->SetPosition(10.0 * a, 10.0 * b, 12.0);
+            break;
+          case 2:
+            light->SetPositional(a > 0.0);
+            break;
+          case 3:
+            renderer->GetActors()->GetLastActor()->SetPosition(a, b, 0.0);
+            break;
+          case 4:
+            light->SetIntensity(a > -0.5 ? 1.0 : 0.0);
+            break;
+          default:
+            break;
+        }
+      });
+    this->scene_.shared().draw();
+    ASSERT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  }
+  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
+  this->showOwn(true);
+  auto setLight = [](vtkRenderer* renderer)
+  { vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0))->SetIntensity(1.0); };
+  this->scene_.change(setLight);
+  this->scene_.expectSame();
 }
 
 } // namespace
