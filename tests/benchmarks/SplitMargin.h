@@ -1,0 +1,45 @@
+#pragma once
+
+#include "shadowtech/base/Occluders.h"
+
+#include <glm/glm.hpp>
+
+namespace gnomon::test
+{
+
+/// A ray as the tracers get it, centred.
+struct TestedRay
+{
+  glm::vec3 origin;
+  glm::vec3 direction;
+  float rayFar; ///< in lengths of the direction
+};
+
+/// How far a ray is from the other answer, in roundings.
+///
+/// A triangle blocks a ray if the ray passes its three edges on their inner side, and meets its
+/// plane between start and end. Each of these tests has a margin: its exact value over 2^-24 of the
+/// lengths that it multiplies, negative if the ray fails it. A triangle's margin is the least one
+/// of its tests, a scene's the largest one of its triangles. So a positive margin means that the
+/// ray is blocked, and rounding can decide only where the margin is small.
+struct RayMargin
+{
+  enum class Test
+  {
+    Edge,
+    Start,
+    End
+  };
+  double roundings;
+  Test test; ///< the test that has this margin
+};
+
+/// The margin, of either sign, below which rounding decides Embree's test. For edges,
+/// RaysAtCornersSlipThroughOnlyByARounding (EmbreeTracerTest.cpp) derives it.
+constexpr double mostRoundings = 12.0;
+
+/// Compute a ray's margin in double precision.
+/// @param occluders with casters that are plain triangles: no instances, solids or cut-outs
+RayMargin marginOf(const Occluders& occluders, const TestedRay& ray);
+
+} // namespace gnomon::test
