@@ -19,22 +19,29 @@ double inRoundings(double value, double terms)
   return value == 0.0 ? 0.0 : value / (roundoff * terms);
 }
 
+/// The margin of one triangle.
+struct TriangleMargin
+{
+  double roundings;
+  bool isOfEdge; ///< an edge's test has it
+};
+
 /// Return a triangle's margin.
 /// @param v the corners from the ray's origin
 /// @param normal (v1 - v0) x (v2 - v0)
-RayMargin marginOf(const std::array<glm::dvec3, 3>& v, const glm::dvec3& normal,
+TriangleMargin marginOf(const std::array<glm::dvec3, 3>& v, const glm::dvec3& normal,
   const glm::dvec3& direction, double rayFar)
 {
   const double length = glm::length(direction);
   const double along = glm::dot(normal, direction);
   const double sign = along < 0.0 ? -1.0 : 1.0;
-  RayMargin margin{ std::numeric_limits<double>::infinity(), RayMargin::Test::Edge };
-  const auto take = [&](double value, double terms, RayMargin::Test test)
+  TriangleMargin margin{ std::numeric_limits<double>::infinity(), true };
+  const auto take = [&](double value, double terms, bool isOfEdge)
   {
     const double roundings = inRoundings(value, terms);
     if (roundings < margin.roundings)
     {
-      margin = { roundings, test };
+      margin = { roundings, isOfEdge };
     }
   };
   double longest = 0.0;
@@ -46,7 +53,7 @@ RayMargin marginOf(const std::array<glm::dvec3, 3>& v, const glm::dvec3& normal,
     const std::size_t j = (i + 1) % 3;
     const double edge = glm::length(v[j] - v[i]);
     take(2.0 * sign * glm::dot(direction, glm::cross(v[i], v[j])),
-      edge * glm::length(v[i] + v[j]) * length + 2.0 * std::abs(along), RayMargin::Test::Edge);
+      edge * glm::length(v[i] + v[j]) * length + 2.0 * std::abs(along), true);
     longest = std::max(longest, edge);
     farthest = std::max(farthest, glm::length(v[i]));
   }
@@ -54,11 +61,10 @@ RayMargin marginOf(const std::array<glm::dvec3, 3>& v, const glm::dvec3& normal,
   // largest face.
   const double distance = sign * glm::dot(normal, v[0]);
   const double face = longest * farthest;
-  take(distance, face * farthest, RayMargin::Test::Start);
+  take(distance, face * farthest, false);
   if (std::isfinite(rayFar))
   {
-    take(rayFar * std::abs(along) - distance, face * (farthest + rayFar * length),
-      RayMargin::Test::End);
+    take(rayFar * std::abs(along) - distance, face * (farthest + rayFar * length), false);
   }
   return margin;
 }
@@ -70,7 +76,8 @@ RayMargin marginOf(const Occluders& occluders, const TestedRay& ray)
 {
   const glm::dvec3 origin(ray.origin);
   const glm::dvec3 direction(ray.direction);
-  RayMargin most{ -std::numeric_limits<double>::infinity(), RayMargin::Test::Edge };
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  RayMargin most{ none, none };
   for (const Surface& surface : occluders.surfaces)
   {
     const std::uint32_t end = surface.firstTriangle + (surface.casts ? surface.triangleCount : 0);
@@ -87,11 +94,9 @@ RayMargin marginOf(const Occluders& occluders, const TestedRay& ray)
       {
         continue;
       }
-      const RayMargin margin = marginOf(v, normal, direction, ray.rayFar);
-      if (margin.roundings > most.roundings)
-      {
-        most = margin;
-      }
+      const TriangleMargin margin = marginOf(v, normal, direction, ray.rayFar);
+      most.roundings = std::max(most.roundings, margin.roundings);
+      most.edgeRoundings = std::max(most.edgeRoundings, margin.isOfEdge ? margin.roundings : none);
     }
   }
   return most;

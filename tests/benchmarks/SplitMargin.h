@@ -24,14 +24,10 @@ struct TestedRay
 /// ray is blocked, and rounding can decide only where the margin is small.
 struct RayMargin
 {
-  enum class Test
-  {
-    Edge,
-    Start,
-    End
-  };
-  double roundings;
-  Test test; ///< the test that has this margin
+  double roundings; ///< the scene's
+  /// The largest margin of the triangles whose least test is that of an edge. It is near 0 if the
+  /// ray passes an edge that may decide its answer.
+  double edgeRoundings;
 };
 
 /// The margin, of either sign, below which rounding decides Embree's test. For edges,
