@@ -336,27 +336,27 @@ std::string pageOf(const std::vector<SceneResult>& results, const std::string& c
   {
     page << rowOf(result);
   }
-  page << rowOf(sum) << "\n"
-       << "- **Splits** have " << leastParts << " to " << mostParts
-       << " parts, each with an Embree scene of its own. Triangles go to parts at random,\n"
-          "  in runs of their order, or in slabs. All parts have the whole's vertices, bit for "
-          "bit.\n"
-       << "- **Shadow rays** start at random points of random triangles, as receivers do. They go "
-          "to suns,\n  point lights and points of area lights.\n"
-       << "- **Aimed rays** go to corners, to middles of edges and to random points of edges. They "
-          "end just\n  behind these points. One in four goes along an axis.\n"
-       << "- **Roundings** is the largest distance of a different ray from an edge that may decide "
-          "it. The unit\n  is 2^-24 of the lengths that the edge's test multiplies. Rounding may "
-          "decide up to "
-       << mostRoundings << " of them\n  (`tests/benchmarks/SplitMargin.h`).\n\n"
-       << "Of the different aimed rays, " << grouped(aimed.onlyWhole)
-       << " are blocked by the whole alone and " << grouped(aimed.different - aimed.onlyWhole)
-       << " by parts alone.\n"
-       << grouped(aimed.exact) << " of them meet an edge exactly.\n\n"
-       << "The test `SplitBenchmarkRuns` repeats this with fewer rays. It fails if a ray differs "
-          "elsewhere, or\nif more than one shadow ray in "
-       << grouped(raysPerDifference) << " differs.\n\nMeasured on: " << tool::processorName()
-       << "; Embree " << RTC_VERSION_STRING << ".\n";
+  page
+    << rowOf(sum) << "\n"
+    << "- **Splits** have " << leastParts << " to " << mostParts
+    << " parts, each with an Embree scene of its own. Triangles go to parts at\n  random, in runs "
+       "of their order, or in slabs. All parts have the whole's vertices, bit for bit.\n"
+    << "- **Shadow rays** start at random points of random triangles, as receivers do. They go "
+       "to suns,\n  point lights and points of area lights.\n"
+    << "- **Aimed rays** go to corners, to middles of edges and to random points of edges. They "
+       "end just\n  behind these points. One in four goes along an axis.\n"
+    << "- **Roundings** is the largest distance of a different ray from an edge that may decide "
+       "it. The unit\n  is 2^-24 of the lengths that the edge's test multiplies. Rounding may "
+       "decide up to "
+    << mostRoundings << " of them\n  (`tests/benchmarks/SplitMargin.h`).\n\n"
+    << "Of the different aimed rays, " << grouped(aimed.onlyWhole)
+    << " are blocked by the whole alone and " << grouped(aimed.different - aimed.onlyWhole)
+    << " by parts alone.\n"
+    << grouped(aimed.exact) << " of them meet an edge exactly.\n\n"
+    << "The test `SplitBenchmarkRuns` repeats this with fewer rays. It fails if a ray differs "
+       "elsewhere, or\nif more than one shadow ray in "
+    << grouped(raysPerDifference) << " differs.\n\nMeasured on: " << tool::processorName()
+    << "; Embree " << RTC_VERSION_STRING << ".\n";
   return page.str();
 }
 
