@@ -334,8 +334,9 @@ public:
    *
    * Lights have the technique `raytraced` with one ray for a pixel of an edge, and no textures;
    * another technique is an error, "auto" is not. Receivers are on their triangles
-   * (SmoothTerminators), Embree traces, MemoryBudget has no effect, and translucent surfaces show no
-   * shadows. Null, the default, or a controller of one process: this process has the whole scene.
+   * (SmoothTerminators), Embree traces, MemoryBudget has no effect, and translucent surfaces show
+   * no shadows. Null, the default, or a controller of one process: this process has the whole
+   * scene.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
