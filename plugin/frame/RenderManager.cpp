@@ -373,7 +373,7 @@ void RenderManager::findStaleReceivers(const vtkRenderState* s)
   this->receiversDue_ = std::move(key);
   value.key.reset(); // in case of an error
   value.onCpu.reset();
-  value.shared.reset();
+  value.shared.clear();
   value.framesTraced = 0;
 }
 
@@ -476,7 +476,7 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
   this->findStaleReceivers(s);
   if (this->frame_.ranks && this->frame_.ranks->isAny(this->receiversDue_.has_value()))
   {
-    this->frame_.view->receivers.shared.reset();
+    this->frame_.view->receivers.shared.clear();
   }
   if (this->receiversDue_)
   {
@@ -587,8 +587,8 @@ bool RenderManager::endShading()
 //------------------------------------------------------------------------------
 void RenderManager::compareSurfaces()
 {
-  const std::optional<SharedReceivers>& shared = this->frame_.view->receivers.shared;
-  if (!this->frame_.ranks || !this->frame_.wishes.measureStages || !shared)
+  const SharedReceivers& shared = this->frame_.view->receivers.shared;
+  if (!this->frame_.ranks || !this->frame_.wishes.measureStages || !shared.areShared())
   {
     return;
   }
@@ -601,9 +601,9 @@ void RenderManager::compareSurfaces()
   std::int64_t others = 0;
   for (std::size_t pixel = 0; pixel < drawn.size(); ++pixel)
   {
-    const bool isReceiver = shared->pixels().surface[pixel] != ReceiverPixels::notCovered;
+    const bool isReceiver = shared.pixels().surface[pixel] != ReceiverPixels::notCovered;
     const bool isShown = drawn[pixel] == nearest[pixel] && drawn[pixel] < 1.0f;
-    others += isReceiver && isShown && !shared->isOwn(pixel) ? 1 : 0;
+    others += isReceiver && isShown && !shared.isOwn(pixel) ? 1 : 0;
   }
   this->frame_.report.otherSurfaces = this->frame_.ranks->sum(others);
 }
@@ -636,10 +636,10 @@ void RenderManager::endFrame()
   {
     report.processes = ranks->count();
     report.bytesShared = static_cast<std::int64_t>(ranks->bytesShared());
-    if (const std::optional<SharedReceivers>& shared = this->frame_.view->receivers.shared)
+    if (const SharedReceivers& shared = this->frame_.view->receivers.shared; shared.areShared())
     {
-      report.ownReceivers = static_cast<std::int64_t>(shared->own());
-      report.depthTies = static_cast<std::int64_t>(shared->ties());
+      report.ownReceivers = static_cast<std::int64_t>(shared.own());
+      report.depthTies = static_cast<std::int64_t>(shared.ties());
     }
   }
   report.wallMilliseconds = steadyMilliseconds() - this->frame_.start;

@@ -30,7 +30,7 @@ std::size_t ViewValues::bytesOfImages() const
 {
   std::size_t bytes = this->receivers.target.bytes() + this->receivers.deferred.bytes() +
     bytesOf(this->receivers.images.fragments) + bytesOf(this->receivers.fragmentsBefore) +
-    this->receivers.pixels.bytes() + this->layers.bytes() +
+    this->receivers.pixels.bytes() + this->receivers.shared.bytes() + this->layers.bytes() +
     (this->receivers.boxes ? this->receivers.boxes->bytes() : 0);
   for (const VisibilityValue& value : this->visibility)
   {

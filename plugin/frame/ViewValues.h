@@ -48,7 +48,7 @@ struct ReceiversValue
   std::size_t numberBefore = 0;            ///< their `number`
   ReceiverPixels pixels;                   ///< storage of `onCpu`, if it is used
   std::optional<Receivers> onCpu;          ///< made with `images`
-  std::optional<SharedReceivers> shared;   ///< of all processes, if several draw the picture
+  SharedReceivers shared;                  ///< of all processes, if several draw the picture
   std::optional<ReceiverBoxes> boxes;      ///< of `onCpu`, if it stores them
   int framesTraced = 0;                    ///< frames that traced lights from them
 };

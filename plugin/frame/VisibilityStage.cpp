@@ -245,7 +245,7 @@ const Occluders& VisibilityStage::surfacesOfReceivers()
 SharedReceivers& VisibilityStage::sharedReceivers()
 {
   ReceiversValue& value = this->frame_.view->receivers;
-  if (!value.shared)
+  if (!value.shared.areShared())
   {
     Ranks& ranks = *this->frame_.ranks;
     this->readImages();
@@ -257,10 +257,10 @@ SharedReceivers& VisibilityStage::sharedReceivers()
     Receivers own(value.images, value.drawnSurfaces, this->occluders_, value.pixels);
     const ReceiverPixels& pixels = own.all();
     this->frame_.endStage("visibility: own receivers");
-    value.shared.emplace(ranks, pixels, this->occluders_);
+    value.shared.share(ranks, pixels, this->occluders_);
     this->frame_.endStage("visibility: share receivers");
   }
-  return *value.shared;
+  return value.shared;
 }
 
 //------------------------------------------------------------------------------

@@ -167,7 +167,7 @@ void Ranks::takeLeast(std::vector<float>& numbers)
 {
   this->agree();
   reduce(*this->controller_, numbers, vtkCommunicator::MIN_OP);
-  this->bytesShared_ += 2 * sizeof(float) * numbers.size();
+  this->bytesShared_ += sizeof(float) * numbers.size();
 }
 
 //------------------------------------------------------------------------------
@@ -183,7 +183,7 @@ void Ranks::uniteBits(std::vector<std::uint64_t>& bits)
     throw RankFailure("the processes cannot reach each other");
   }
   bits = std::move(all);
-  this->bytesShared_ += 2 * sizeof(std::uint64_t) * bits.size();
+  this->bytesShared_ += sizeof(std::uint64_t) * bits.size();
 }
 
 //------------------------------------------------------------------------------
@@ -215,7 +215,7 @@ void Ranks::gatherBytes(
   {
     throw RankFailure("the processes cannot reach each other");
   }
-  this->bytesShared_ += static_cast<std::size_t>(own) + elementBytes * firsts.back();
+  this->bytesShared_ += elementBytes * firsts.back();
 }
 
 } // namespace gnomon

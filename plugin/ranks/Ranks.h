@@ -85,12 +85,12 @@ public:
     std::vector<Element> elements;
     std::vector<std::size_t> firsts; ///< of each rank, and the number of all
   };
-  /// Return the elements of all ranks.
+  /// Gather the elements of all ranks.
+  /// @param all overwritten
   /// @throws RankFailure
   template <typename Element>
-  Gathered<Element> gather(const std::vector<Element>& mine)
+  void gather(const std::vector<Element>& mine, Gathered<Element>& all)
   {
-    Gathered<Element> all;
     const std::vector<std::size_t> counts = this->counts(mine.size());
     all.firsts.assign(1, 0);
     for (const std::size_t count : counts)
@@ -99,10 +99,9 @@ public:
     }
     all.elements.resize(all.firsts.back());
     this->gatherBytes(mine.data(), all.elements.data(), sizeof(Element), all.firsts);
-    return all;
   }
 
-  /// Return the bytes that this rank has sent and received in the frame.
+  /// Return the bytes that this rank has received of others in the frame, with its own among them.
   std::size_t bytesShared() const { return this->bytesShared_; }
 
 private:

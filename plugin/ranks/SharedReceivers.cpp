@@ -1,5 +1,7 @@
 #include "plugin/ranks/SharedReceivers.h"
 
+#include "shadowtech/base/Bytes.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -38,45 +40,60 @@ void keepNearest(
 }
 
 //------------------------------------------------------------------------------
-SharedReceivers::SharedReceivers(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot)
+void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot)
 {
+  this->clear();
   this->surfaces_.centreWorld = snapshot.centreWorld;
-  this->surfaces_.surfaces.push_back(receivingSurface());
+  this->surfaces_.surfaces.assign(1, receivingSurface());
 
   const std::size_t pixels = own.size();
-  std::vector<std::uint64_t> claims((pixels + bitsOfWord - 1) / bitsOfWord, 0);
-  std::vector<Sent> sent;
+  this->claims_.assign((pixels + bitsOfWord - 1) / bitsOfWord, 0);
+  this->sent_.clear();
   for (std::size_t pixel = 0; pixel < pixels; ++pixel)
   {
     const std::uint32_t surface = own.surface[pixel];
     if (surface != ReceiverPixels::notCovered && snapshot.surfaces[surface].receives)
     {
-      claims[pixel / bitsOfWord] |= std::uint64_t(1) << pixel % bitsOfWord;
-      Sent& receiver = sent.emplace_back();
+      this->claims_[pixel / bitsOfWord] |= std::uint64_t(1) << pixel % bitsOfWord;
+      Sent& receiver = this->sent_.emplace_back();
       for (std::size_t i = 0; i < ReceiverPixels::planes.size(); ++i)
       {
         receiver.numbers[i] = (own.*ReceiverPixels::planes[i])[pixel];
       }
     }
   }
-  const Ranks::Gathered<std::uint64_t> allClaims = ranks.gather(claims);
-  const Ranks::Gathered<Sent> all = ranks.gather(sent);
+  ranks.gather(this->claims_, this->allClaims_);
+  ranks.gather(this->sent_, this->all_);
 
   this->pixels_.resize(own.width, own.height);
-  for (const auto plane : ReceiverPixels::planes)
-  {
-    std::fill((this->pixels_.*plane).begin(), (this->pixels_.*plane).end(), 0.0f);
-  }
   std::fill(this->pixels_.surface.begin(), this->pixels_.surface.end(), ReceiverPixels::notCovered);
-  std::fill(this->pixels_.lifted.begin(), this->pixels_.lifted.end(), std::uint8_t(0));
   this->isOwn_.assign(pixels, false);
-  for (std::size_t rank = 0; rank + 1 < all.firsts.size(); ++rank)
+  this->ties_ = 0;
+  for (std::size_t rank = 0; rank + 1 < this->all_.firsts.size(); ++rank)
   {
-    this->take(static_cast<int>(rank) == ranks.own(), &allClaims.elements[allClaims.firsts[rank]],
-      all.elements.data() + all.firsts[rank]);
+    this->take(static_cast<int>(rank) == ranks.own(),
+      &this->allClaims_.elements[this->allClaims_.firsts[rank]],
+      this->all_.elements.data() + this->all_.firsts[rank]);
+  }
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+  {
+    if (this->pixels_.surface[pixel] == ReceiverPixels::notCovered)
+    {
+      for (const auto plane : ReceiverPixels::planes)
+      {
+        (this->pixels_.*plane)[pixel] = 0.0f; // an earlier picture's
+      }
+    }
   }
   this->own_ = static_cast<std::size_t>(std::count(this->isOwn_.begin(), this->isOwn_.end(), true));
   this->receivers_.emplace(this->pixels_);
+}
+
+//------------------------------------------------------------------------------
+std::size_t SharedReceivers::bytes() const
+{
+  return this->pixels_.bytes() + bytesOf(this->claims_) + bytesOf(this->sent_) +
+    bytesOf(this->allClaims_.elements) + bytesOf(this->all_.elements) + this->isOwn_.capacity() / 8;
 }
 
 //------------------------------------------------------------------------------

@@ -31,9 +31,11 @@ public:
   /// @param own receivers on the rank's own triangles, where no other rank hides them
   /// @param snapshot of the rank
   /// @throws RankFailure
-  SharedReceivers(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot);
-  SharedReceivers(const SharedReceivers&) = delete;
-  SharedReceivers& operator=(const SharedReceivers&) = delete;
+  void share(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot);
+  /// Forget the receivers, but keep their memory: new memory takes longer than they do.
+  void clear() { this->receivers_.reset(); }
+  /// True if there are receivers. What follows is valid then.
+  bool areShared() const { return this->receivers_.has_value(); }
 
   /// Return the whole picture's receivers. Their surface is 0: receivers() are used with
   /// surfaces(), not with the rank's snapshot. Surfaces that do not receive count as not covered.
@@ -48,7 +50,8 @@ public:
   bool isOwn(std::size_t pixel) const { return this->isOwn_[pixel]; }
   /// Return in how many pixels several ranks drew different receivers at the same depth.
   std::size_t ties() const { return this->ties_; }
-  std::size_t bytes() const { return this->pixels_.bytes(); }
+  /// Return the bytes of memory in use.
+  std::size_t bytes() const;
 
 private:
   /// A receiver on its way.
@@ -63,6 +66,10 @@ private:
   ReceiverPixels pixels_;
   std::optional<Receivers> receivers_; ///< made with pixels_
   Occluders surfaces_;
+  std::vector<std::uint64_t> claims_; ///< this rank's: a bit for each pixel that has one of sent_
+  std::vector<Sent> sent_;            ///< in the order of their pixels
+  Ranks::Gathered<std::uint64_t> allClaims_;
+  Ranks::Gathered<Sent> all_;
   std::size_t own_ = 0;
   std::vector<bool> isOwn_; ///< by pixel
   std::size_t ties_ = 0;

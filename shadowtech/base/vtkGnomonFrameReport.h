@@ -124,7 +124,7 @@ struct FrameReport
   ///@{
   /// The processes that draw the picture (vtkGnomonShadowPass::SetController); the pixels whose
   /// receiver is this one's; those in which several drew different surfaces at the same depth; and
-  /// the bytes that this one sent and received for receivers and visibility.
+  /// the bytes that this one received for receivers and visibility, its own among them.
   int processes = 1;
   std::int64_t ownReceivers = 0, depthTies = 0, bytesShared = 0;
   ///@}

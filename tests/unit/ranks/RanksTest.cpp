@@ -49,7 +49,8 @@ TEST_F(RanksTest, ReduceAndGather)
   EXPECT_EQ(bits[1], std::uint64_t(1) << 63);
 
   const std::vector<glm::dvec2> mine(static_cast<std::size_t>(own), glm::dvec2(own, -own));
-  const Ranks::Gathered<glm::dvec2> all = this->ranks_.gather(mine);
+  Ranks::Gathered<glm::dvec2> all;
+  this->ranks_.gather(mine, all);
   ASSERT_EQ(all.firsts.size(), static_cast<std::size_t>(count) + 1);
   EXPECT_EQ(all.elements.size(), static_cast<std::size_t>(count * (count - 1) / 2));
   for (int rank = 0; rank < count; ++rank)
