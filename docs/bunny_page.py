@@ -14,7 +14,7 @@ BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
 CHOICES = [
     ("speed; edges are jagged at a texel's scale", "nsm", False),
     ("smooth edges", "pcf", False),
-    ("large scenes under a map; slow if the camera moves", "pssm", False),
+    ("smaller errors of a map; slow if the camera moves", "pssm", False),
     ("hard shadows, exact", "silhouette", False),
     ("soft shadows of area lights, exact", "penumbra", True),
 ]

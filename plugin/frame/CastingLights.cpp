@@ -35,18 +35,36 @@ const char* fallbackTechnique()
   return canDrawMaps() ? plainTechnique : "raytraced";
 }
 
+/// True if an estimator needs no newer OpenGL than 3.2: it draws on the CPU, its maps included.
+bool servesOldOpenGl(const TechniqueInfo& info)
+{
+  const bool drawsMaps = info.bakesMap() && !info.conservativeMap;
+  return info.evaluation == Evaluation::ScreenCpu && !drawsMaps;
+}
+
+/// Return the names of the techniques for which that holds: "'a', 'b'".
+std::string techniquesOfOldOpenGl()
+{
+  std::string names;
+  for (const TechniqueEntry& technique : registry())
+  {
+    if (servesOldOpenGl(technique.estimator->info))
+    {
+      names += (names.empty() ? "'" : ", '") + technique.name + "'";
+    }
+  }
+  return names;
+}
+
 /// Return the estimator of a light, and complete the light.
 /// @throws CompositionError also if OpenGL is too old for it
 const EstimatorEntry& composeHere(ShadowLight& light)
 {
   const EstimatorEntry& estimator = compose(light);
-  const TechniqueInfo& info = estimator.info;
-  const bool drawsMaps = info.bakesMap() && !info.conservativeMap; // else the CPU bakes them
-  if (!canDrawMaps() && (drawsMaps || info.evaluation != Evaluation::ScreenCpu))
+  if (!canDrawMaps() && !servesOldOpenGl(estimator.info))
   {
     throw CompositionError("'" + light.technique +
-      "' needs OpenGL 4.3, and this context has less; 'raytraced', 'silhouette' and 'penumbra' "
-      "need 3.2");
+      "' needs OpenGL 4.3, and this context has less; it suffices for " + techniquesOfOldOpenGl());
   }
   return estimator;
 }
