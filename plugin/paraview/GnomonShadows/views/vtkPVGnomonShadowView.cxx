@@ -113,6 +113,7 @@ void vtkPVGnomonShadowView::Render(bool interactive, bool skipRendering)
       vtkNew<vtkXMLImageDataWriter> writer;
       writer->SetFileName(this->VisibilityFile.c_str());
       writer->SetInputData(image);
+      writer->SetDataModeToBinary(); // ParaView of Debian 12 does not read appended data
       writer->Write();
     }
   }
