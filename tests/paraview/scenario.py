@@ -106,3 +106,48 @@ def read_picture(path):
     width, height, _ = image.GetDimensions()
     colours = vtk_to_numpy(image.GetPointData().GetScalars())
     return colours.reshape(height, width, -1)[:, :, :3].astype(int)
+
+
+class Comparison:
+    """Compares visibility of several processes with that of one, frame by frame."""
+
+    def __init__(self, processes, bound=3, needs_shadow=True):
+        """bound: how many pixels of a frame may show another receiver, besides depth ties."""
+        self.processes = processes
+        self.bound = bound
+        self.needs_shadow = needs_shadow
+        self.frames = self.pixels = self.shadowed = self.others = self.ties = self.wrong = 0
+        self.faults = []
+
+    def add(self, frame, shared, alone, report):
+        if shared.keys() != alone.keys() or len(shared["coverage"]) != len(alone["coverage"]):
+            self.faults.append(f"{frame}: other arrays or sizes")
+            return
+        same = shared["coverage"] == alone["coverage"]
+        for name in ("position", "normal"):
+            same &= (shared[name] == alone[name]).all(axis=1)
+        others = int((~same).sum())
+        lights = [name for name in alone if name.startswith("light ")]
+        wrong = sum(int((shared[name] != alone[name])[same].sum()) for name in lights)
+        shadowed = sum(int((alone[name] < 1.0).sum()) for name in lights)
+        self.frames += 1
+        self.pixels += int(alone["coverage"].sum())
+        self.shadowed += shadowed
+        self.others += others
+        self.ties += report["depth_ties"]
+        self.wrong += wrong
+        if wrong:
+            self.faults.append(f"{frame}: {wrong} values differ")
+        if others > report["depth_ties"] + self.bound:
+            self.faults.append(f"{frame}: {others} other receivers, {report['depth_ties']} ties")
+        if self.needs_shadow and not shadowed:
+            self.faults.append(f"{frame}: no shadow")
+        if report["processes"] != self.processes or report["route"] != "image":
+            self.faults.append(f"{frame}: {report['processes']} processes, {report['route']}")
+
+    def __str__(self):
+        text = (
+            f"{self.frames} frames, {self.pixels} pixels, {self.shadowed} shadowed, "
+            f"{self.wrong} wrong, {self.others} of other receivers, {self.ties} depth ties"
+        )
+        return "; ".join([text] + self.faults)
