@@ -77,7 +77,8 @@ void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
     vtkWarningMacro("Tile displays have no shadows.");
   }
   const bool isIn = camera->GetDelegatePass() == this->Pass.Get();
-  if (!this->ShowShadows || isTiled)
+  // During a selection the pass draws without its delegate, which composites.
+  if (!this->ShowShadows || isTiled || this->GetMakingSelection())
   {
     if (isIn)
     {
