@@ -37,6 +37,15 @@ vtkMultiProcessController* processesOf(vtkPVSynchronizedRenderer* renderers)
                                               : nullptr;
 }
 
+/// True on a client whose server draws the view.
+bool isDrawnByServer(vtkPVRenderView* view, bool interactive)
+{
+  const bool isRemote = interactive && view->GetUseLODForInteractiveRender()
+    ? view->GetUseDistributedRenderingForLODRender()
+    : view->GetUseDistributedRenderingForRender();
+  return isRemote && vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
+}
+
 /// Set a setting that differs. Setting one that the technique lacks is an error, also to its
 /// default, which ParaView sets.
 template <typename Value>
@@ -78,7 +87,8 @@ void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
   }
   const bool isIn = camera->GetDelegatePass() == this->Pass.Get();
   // During a selection the pass draws without its delegate, which composites.
-  if (!this->ShowShadows || isTiled || this->GetMakingSelection())
+  if (!this->ShowShadows || isTiled || this->GetMakingSelection() ||
+    isDrawnByServer(this, interactive))
   {
     if (isIn)
     {
@@ -105,7 +115,9 @@ void vtkPVGnomonShadowView::Render(bool interactive, bool skipRendering)
 {
   this->Superclass::Render(interactive, skipRendering);
   const int process = vtkMultiProcessController::GetGlobalController()->GetLocalProcessId();
-  if (!skipRendering && !this->GetMakingSelection() && !this->VisibilityFile.empty() && process == 0)
+  const bool isWritten = !skipRendering && !this->GetMakingSelection() &&
+    !this->VisibilityFile.empty() && process == 0 && !isDrawnByServer(this, interactive);
+  if (isWritten)
   {
     vtkNew<vtkImageData> image;
     this->Pass->GetVisibilityImage(image);
