@@ -72,10 +72,10 @@ def page(cases, triangles):
     rows = [
         "# Shadows over ParaView's processes",
         "",
-        f"Three processes draw {triangles / 1e6:.2f} million triangles at {SIZE[0]} x {SIZE[1]}, each"
-        " its part of contours of a wavelet. The camera moves; the data rest. Frames of a view with"
-        " shadows and of a plain one take turns; times are medians."
-        " `tests/paraview/run.sh --measure` measures this.",
+        f"Three processes draw {triangles / 1e6:.2f} million triangles at {SIZE[0]} x {SIZE[1]},",
+        "each its part of contours of a wavelet. The camera moves; the data rest. Frames of a view",
+        "with shadows and of a plain one take turns; times are medians.",
+        "`tests/paraview/run.sh --measure` measures this.",
         "",
         "| lights | plain ParaView | with shadows | ratio | bytes shared a pixel |",
         "|---|---|---|---|---|",
@@ -90,8 +90,8 @@ def page(cases, triangles):
         names += [name for name in case.stages if name not in names]
     rows += [
         "",
-        "The bytes are those that the first process sends and receives. Its stages, each until OpenGL"
-        " has ended it; `shading` has ParaView's drawing and compositing:",
+        "The bytes are those that the first process sends and receives. Its stages, each until",
+        "OpenGL has ended it:",
         "",
         "| stage | " + " | ".join(case.name for case in cases) + " |",
         "|---|" + "---|" * len(cases),

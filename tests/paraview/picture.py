@@ -34,7 +34,8 @@ def compare(path, batch_path):
     ours = scenario.read_visibility(path + ".vti")
     batch = scenario.read_visibility(batch_path + ".vti")
     shadowed = int((ours["light 0"] < 1).sum())
-    is_same = ours.keys() == batch.keys() and all((ours[name] == batch[name]).all() for name in ours)
+    is_same = ours.keys() == batch.keys()
+    is_same = is_same and all((ours[name] == batch[name]).all() for name in ours)
     figures = f"{shadowed} pixels in shadow"
     scenario.check("the server writes the batch's visibility", is_same and shadowed > 1000, figures)
 

@@ -2,9 +2,9 @@
 
     python3 prepare.py FOLDER
 
-A model in a distribution over N processes is FOLDER/MODEL-DISTRIBUTION-N.pvtp. Process i of N reads
-its part i; one process alone reads all parts, appended. Parts have no point normals, as receivers of
-several processes are on their triangles.
+A model in a distribution over N processes is FOLDER/MODEL-DISTRIBUTION-N.pvtp. Process i of N
+reads part i; one process alone reads all parts, appended. Parts have no point normals, as receivers
+of several processes are on their triangles.
 """
 
 import pathlib
@@ -213,7 +213,8 @@ def main():
         mesh = make()
         for count in COUNTS:
             for distribution in DISTRIBUTIONS:
-                write(folder, f"{model}-{distribution}-{count}", in_parts(mesh, distribution, count))
+                parts = in_parts(mesh, distribution, count)
+                write(folder, f"{model}-{distribution}-{count}", parts)
         print(f"{model}: {len(mesh.cells)} cells")
 
 

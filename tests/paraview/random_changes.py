@@ -59,7 +59,8 @@ class Changes:
         self.move_camera()
 
     def place(self, low, high):
-        return [self.random.uniform(-2, 2), self.random.uniform(-2, 2), self.random.uniform(low, high)]
+        uniform = self.random.uniform
+        return [uniform(-2, 2), uniform(-2, 2), uniform(low, high)]
 
     def move_camera(self):
         scenario.set_camera(self.view, self.place(0.4, 3), (self.random.uniform(-0.5, 0.5), 0, 0.3))

@@ -88,6 +88,13 @@ beside_server()
   return "$status"
 }
 
+machine()
+{
+  local model
+  model=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)
+  echo "$model, $(nproc) processors; OpenGL by software (llvmpipe)"
+}
+
 failures=0
 limit=600 # seconds until a scenario counts as one that hangs
 expected='nothing'
@@ -105,7 +112,8 @@ scenario()
     echo "FAIL it hangs: no end in $limit s"
   elif [ "$status" != 0 ] || ! grep -q '^passed$' "$log"; then
     echo "FAIL it ended with status $status"
-  elif grep -E 'ERR\||WARN\||[Ee]rror' "$log" | grep -v -E "^(ok  |FAIL)|$expected" > "$log.errors"; then
+  elif grep -E 'ERR\||WARN\||[Ee]rror' "$log" |
+    grep -v -E "^(ok  |FAIL)|$expected" > "$log.errors"; then
     echo "FAIL it printed errors:"
     head -n 20 "$log.errors"
   else
@@ -159,7 +167,7 @@ if [ "$measure" = yes ]; then
   if [ "$failures" = 0 ]; then
     cat "$root$work/paraview.md" - > "$project/docs/results/paraview.md" << PAGE
 
-Measured on: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors; OpenGL by software (llvmpipe).
+Measured on: $(machine).
 PAGE
   fi
   exit "$failures"

@@ -3,9 +3,9 @@
     mpirun -np N pvbatch same_visibility.py shared DATA OUT     writes OUT/N/FRAME.vti
     pvbatch same_visibility.py alone DATA OUT N...              compares with them
 
-DATA is of prepare.py. Where both show the same receiver, visibility must be equal bit for bit. Other
-receivers are counted: OpenGL decides equal depths by the order of drawing. In "shifted" data, VTK
-also shifts vertices by their part's middle, which rounds depths differently.
+DATA is of prepare.py. Where both show the same receiver, visibility must be equal bit for bit.
+Other receivers are counted: OpenGL decides equal depths by the order of drawing. In "shifted" data,
+VTK also shifts vertices by their part's middle, which rounds depths differently.
 """
 
 import json
@@ -19,13 +19,22 @@ from paraview.simple import Show, Wavelet, XMLPartitionedPolydataReader
 import scenario
 
 SIZE = (200, 150)
-DISTRIBUTIONS = ("block", "round-robin", "random", "ghosts", "doubles", "empty", "out-of-view", "shifted")
+DISTRIBUTIONS = (
+    "block",
+    "round-robin",
+    "random",
+    "ghosts",
+    "doubles",
+    "empty",
+    "out-of-view",
+    "shifted",
+)
 
 
 class Model:
     """Where a model's camera and lights are, relative to its middle and half its width."""
 
-    def __init__(self, name, middle=(0, 0, 0), size=1.0, camera=(1.1, -1.9, 1.5), sun=(0.7, 1.1, 2.4)):
+    def __init__(self, name, middle=(0, 0, 0), size=1.0, camera=(1, -2, 1), sun=(0.7, 1.1, 2.4)):
         self.name = name
         self.middle = np.asarray(middle, float)
         self.size = size
@@ -39,7 +48,7 @@ class Model:
 MODELS = {
     "bunny": Model("bunny", camera=(1.4, -2.5, 2.1)),
     "atrium": Model("atrium", camera=(0.9, -1.6, 0.9)),
-    "terrain": Model("terrain", (3000, -2000, 100), 500.0, sun=(0.7, 1.1, 0.5)),
+    "terrain": Model("terrain", (3000, -2000, 100), 500.0, (1.1, -1.9, 1.5), sun=(0.7, 1.1, 0.5)),
     "contour": Model("contour", size=10.0, camera=(2.0, -3.1, 2.4)),
 }
 
@@ -101,8 +110,11 @@ class Stage:
         self.view.VisibilityFile = self.path(frame)
         render(self.view)
         if self.is_shared:
-            pathlib.Path(self.path(frame, "json")).write_text(json.dumps(scenario.report(self.view)))
+            self.write_report(frame)
         return frame
+
+    def write_report(self, frame):
+        pathlib.Path(self.path(frame, "json")).write_text(json.dumps(scenario.report(self.view)))
 
     def few_frames(self):
         """Yield each frame once it is drawn."""
@@ -168,8 +180,7 @@ class Stage:
             self.path("screenshot", "png"), self.view, ImageResolution=[2 * side for side in SIZE]
         )
         if self.is_shared:
-            text = json.dumps(scenario.report(self.view))
-            pathlib.Path(self.path("screenshot", "json")).write_text(text)
+            self.write_report("screenshot")
 
     def close(self):
         Delete(self.display)

@@ -28,7 +28,9 @@ protected:
   tool::VtkMessages messages_;
 };
 
-class SharedPictureOf : public SharedPicture, public testing::WithParamInterface<Split>
+class SharedPictureOf
+  : public SharedPicture
+  , public testing::WithParamInterface<Split>
 {
 };
 
