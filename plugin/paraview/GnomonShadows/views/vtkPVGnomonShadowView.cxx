@@ -31,8 +31,7 @@ vtkCameraPass* findCameraPass(vtkRenderPass* pass)
 /// Return the processes that draw a distributed view; null if this one draws alone.
 vtkMultiProcessController* processesOf(vtkPVSynchronizedRenderer* renderers)
 {
-  const bool isClient =
-    vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
+  const bool isClient = vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
   return renderers->GetEnabled() && !isClient ? vtkMultiProcessController::GetGlobalController()
                                               : nullptr;
 }
@@ -102,12 +101,12 @@ void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
     camera->SetDelegatePass(this->Pass);
   }
   this->Pass->SetController(processesOf(this->SynchronizedRenderers));
-  const bool isComposited = this->Pass->GetController() &&
-    this->Pass->GetDelegatePass()->IsA("vtkIceTCompositePass");
+  const bool isComposited =
+    this->Pass->GetController() && this->Pass->GetDelegatePass()->IsA("vtkIceTCompositePass");
   this->Pass->SetImageReductionFactor(
     isComposited ? this->SynchronizedRenderers->GetImageReductionFactor() : 1);
-  this->Pass->SetInteractive(interactive ? vtkGnomonShadowPass::INTERACTIVE_ON
-                                         : vtkGnomonShadowPass::INTERACTIVE_OFF);
+  this->Pass->SetInteractive(
+    interactive ? vtkGnomonShadowPass::INTERACTIVE_ON : vtkGnomonShadowPass::INTERACTIVE_OFF);
 }
 
 //----------------------------------------------------------------------------
