@@ -42,7 +42,7 @@ def main():
     renderer.GetActiveCamera().SetViewUp(0, 0, 1)
     renderer.ResetCameraClippingRange()
 
-    window = gnomon.vtkGnomonEGLRenderWindow()  # any vtkRenderWindow will do
+    window = gnomon.vtkGnomonEGLRenderWindow()  # or, with a display, a vtkRenderWindow
     window.SetSize(640, 480)
     window.AddRenderer(renderer)
 

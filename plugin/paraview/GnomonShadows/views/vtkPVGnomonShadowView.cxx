@@ -31,10 +31,18 @@ vtkCameraPass* findCameraPass(vtkRenderPass* pass)
 /// Return the processes that draw a distributed view; null if this one draws alone.
 vtkMultiProcessController* processesOf(vtkPVSynchronizedRenderer* renderers)
 {
-  const bool isClient =
-    vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
+  const bool isClient = vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
   return renderers->GetEnabled() && !isClient ? vtkMultiProcessController::GetGlobalController()
                                               : nullptr;
+}
+
+/// True on a client whose server draws the view.
+bool isDrawnByServer(vtkPVRenderView* view, bool interactive)
+{
+  const bool isRemote = interactive && view->GetUseLODForInteractiveRender()
+    ? view->GetUseDistributedRenderingForLODRender()
+    : view->GetUseDistributedRenderingForRender();
+  return isRemote && vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
 }
 
 /// Set a setting that differs. Setting one that the technique lacks is an error, also to its
@@ -77,7 +85,9 @@ void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
     vtkWarningMacro("Tile displays have no shadows.");
   }
   const bool isIn = camera->GetDelegatePass() == this->Pass.Get();
-  if (!this->ShowShadows || isTiled)
+  // During a selection the pass draws without its delegate, which composites.
+  if (!this->ShowShadows || isTiled || this->GetMakingSelection() ||
+    isDrawnByServer(this, interactive))
   {
     if (isIn)
     {
@@ -91,12 +101,12 @@ void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
     camera->SetDelegatePass(this->Pass);
   }
   this->Pass->SetController(processesOf(this->SynchronizedRenderers));
-  const bool isComposited = this->Pass->GetController() &&
-    this->Pass->GetDelegatePass()->IsA("vtkIceTCompositePass");
+  const bool isComposited =
+    this->Pass->GetController() && this->Pass->GetDelegatePass()->IsA("vtkIceTCompositePass");
   this->Pass->SetImageReductionFactor(
     isComposited ? this->SynchronizedRenderers->GetImageReductionFactor() : 1);
-  this->Pass->SetInteractive(interactive ? vtkGnomonShadowPass::INTERACTIVE_ON
-                                         : vtkGnomonShadowPass::INTERACTIVE_OFF);
+  this->Pass->SetInteractive(
+    interactive ? vtkGnomonShadowPass::INTERACTIVE_ON : vtkGnomonShadowPass::INTERACTIVE_OFF);
 }
 
 //----------------------------------------------------------------------------
@@ -104,7 +114,9 @@ void vtkPVGnomonShadowView::Render(bool interactive, bool skipRendering)
 {
   this->Superclass::Render(interactive, skipRendering);
   const int process = vtkMultiProcessController::GetGlobalController()->GetLocalProcessId();
-  if (!skipRendering && !this->GetMakingSelection() && !this->VisibilityFile.empty() && process == 0)
+  const bool isWritten = !skipRendering && !this->GetMakingSelection() &&
+    !this->VisibilityFile.empty() && process == 0 && !isDrawnByServer(this, interactive);
+  if (isWritten)
   {
     vtkNew<vtkImageData> image;
     this->Pass->GetVisibilityImage(image);
@@ -113,6 +125,7 @@ void vtkPVGnomonShadowView::Render(bool interactive, bool skipRendering)
       vtkNew<vtkXMLImageDataWriter> writer;
       writer->SetFileName(this->VisibilityFile.c_str());
       writer->SetInputData(image);
+      writer->SetDataModeToBinary(); // ParaView of Debian 12 does not read appended data
       writer->Write();
     }
   }

@@ -1,0 +1,136 @@
+"""Measure frames with shadows beside plain ParaView's, and write a page of them.
+
+    mpirun -np 3 pvbatch measure.py PAGE
+"""
+
+import math
+import pathlib
+import statistics
+import sys
+import time
+
+from paraview.simple import Contour, Render, Show, Wavelet
+
+import scenario
+
+SIZE = (1920, 1080)
+WARM = 3
+FRAMES = 25
+STAGE_FRAMES = 7
+
+
+def set_frame(view, number):
+    """Move the camera around the data, a degree a frame."""
+    angle = math.radians(number)
+    scenario.set_camera(view, (230 * math.sin(angle), -230 * math.cos(angle), 150), (0, 0, 0))
+
+
+def milliseconds(view, number):
+    set_frame(view, number)
+    start = time.perf_counter()
+    Render(view)
+    return 1000 * (time.perf_counter() - start)
+
+
+class Case:
+    """A shadow view's lights and settings, drawn in turn with a plain view."""
+
+    def __init__(self, name, view, plain, lights, size):
+        self.name = name
+        for of in (view, plain):
+            for number, light in enumerate(of.AdditionalLights):
+                light.Enable = int(number < lights)
+        view.LightSize = size
+        pairs = []
+        for number in range(WARM + FRAMES):
+            pairs.append((milliseconds(plain, number), milliseconds(view, number)))
+        self.plain = statistics.median(pair[0] for pair in pairs[WARM:])
+        self.shadows = statistics.median(pair[1] for pair in pairs[WARM:])
+        self.ratio = statistics.median(pair[1] / pair[0] for pair in pairs[WARM:])
+        report = scenario.report(view)
+        self.bytes_shared = report["bytes_shared"] / (SIZE[0] * SIZE[1])
+        self.is_shared = report["route"] == "image" and report["processes"] > 1
+        self.stages = self.measure_stages(view)
+
+    @staticmethod
+    def measure_stages(view):
+        """Return the median of each stage of the first process; OpenGL is waited for at its end."""
+        view.MeasureStages = 1
+        stages = {}
+        for number in range(STAGE_FRAMES):
+            milliseconds(view, number)
+            sums = {}
+            for stage in scenario.report(view)["stages"]:
+                sums[stage["name"]] = sums.get(stage["name"], 0.0) + stage["milliseconds"]
+            for name, sum_ in sums.items():
+                stages.setdefault(name, []).append(sum_)
+        view.MeasureStages = 0
+        return {name: statistics.median(times[1:] or times) for name, times in stages.items()}
+
+
+def page(cases, triangles):
+    rows = [
+        "# Shadows over ParaView's processes",
+        "",
+        f"Three processes draw {triangles / 1e6:.2f} million triangles at {SIZE[0]} x {SIZE[1]},",
+        "each its part of contours of a wavelet. The camera moves; the data rest. Frames of a view",
+        "with shadows and of a plain one take turns; times are medians.",
+        "`tests/paraview/run.sh --measure` measures this.",
+        "",
+        "| lights | plain ParaView | with shadows | ratio | bytes shared a pixel |",
+        "|---|---|---|---|---|",
+    ]
+    for case in cases:
+        rows.append(
+            f"| {case.name} | {case.plain:.0f} ms | {case.shadows:.0f} ms | {case.ratio:.2f} | "
+            f"{case.bytes_shared:.1f} |"
+        )
+    names = []
+    for case in cases:
+        names += [name for name in case.stages if name not in names]
+    rows += [
+        "",
+        "The bytes are those that the first process sends and receives. Its stages, each until",
+        "OpenGL has ended it:",
+        "",
+        "| stage | " + " | ".join(case.name for case in cases) + " |",
+        "|---|" + "---|" * len(cases),
+    ]
+    for name in names:
+        times = [f"{case.stages[name]:.1f} ms" if name in case.stages else "" for case in cases]
+        if any(case.stages.get(name, 0) >= 0.05 for case in cases):
+            rows.append(f"| {name} | " + " | ".join(times) + " |")
+    return "\n".join(rows) + "\n"
+
+
+def main():
+    scenario.load_plugin()
+    wavelet = Wavelet(WholeExtent=[-75, 75, -75, 75, -75, 75])
+    contour = Contour(Input=wavelet, ContourBy=["POINTS", "RTData"])
+    contour.Isosurfaces = [-60.0, 20.0, 100.0]
+    views = [scenario.make_view(kind, SIZE) for kind in ("GnomonShadowView", "RenderView")]
+    for view in views:
+        Show(contour, view).ColorArrayName = ["POINTS", ""]
+        Render(view)
+        scenario.add_light(view, "sun", (60, -80, 200))
+        scenario.add_light(view, "sun", (-150, 30, 160))
+        scenario.add_light(view, "point", (40, -120, 130))
+    triangles = contour.GetDataInformation().GetNumberOfCells()
+    view, plain = views
+    view.LightSamples = 16
+    cases = [
+        Case("a sun", view, plain, 1, 0.0),
+        Case("three lights", view, plain, 3, 0.0),
+        Case("an area light of 16 samples", view, plain, 1, 1.0),
+    ]
+    text = page(cases, triangles)
+    pathlib.Path(sys.argv[1]).write_text(text, encoding="utf-8")
+    print(text)
+    for case in cases:
+        scenario.check(case.name, case.is_shared, f"{case.ratio:.2f} times a plain frame")
+    scenario.check("a sun takes at most 3 plain frames", cases[0].ratio <= 3.0)
+    scenario.check("at most 40 bytes a pixel", cases[0].bytes_shared <= 41.0)
+    scenario.finish()
+
+
+main()
