@@ -34,6 +34,8 @@
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <list>
@@ -113,7 +115,7 @@ struct vtkGnomonShadowPass::Internals
   std::optional<gnomon::CostFactors> factors; ///< none: the default ones
   gnomon::RestingFrame restingFrame;          ///< that follows those that move
 
-  std::unique_ptr<gnomon::Ranks> ranks; ///< null: this process draws alone
+  std::unique_ptr<gnomon::Ranks> ranks; ///< of the last controller with several processes, or null
 
   gnomon::PassContext context; ///< which holds the managers' GL objects
 
@@ -159,9 +161,9 @@ gnomon::Ranks* vtkGnomonShadowPass::Internals::updateRanks(vtkMultiProcessContro
 {
   if (!controller || controller->GetNumberOfProcesses() < 2)
   {
-    this->ranks.reset();
+    return nullptr; // keeps those of before: the others need not know of this frame
   }
-  else if (!this->ranks || this->ranks->controller() != controller)
+  if (!this->ranks || this->ranks->controller() != controller)
   {
     this->ranks = std::make_unique<gnomon::Ranks>(controller);
   }
@@ -291,15 +293,20 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     return;
   }
   std::string whyNot = this->Internal->context.enter(this, renderer, { 3, 2 });
-  gnomon::Ranks* const ranks = this->Internal->updateRanks(this->Controller);
-  if (ranks)
+  gnomon::Ranks* ranks = nullptr;
+  try
   {
-    whyNot = ranks->beginFrame(whyNot);
+    ranks = this->Internal->updateRanks(this->Controller);
+    whyNot = ranks ? ranks->beginFrame(whyNot) : whyNot;
+  }
+  catch (const std::exception& error)
+  {
+    whyNot = error.what();
   }
   this->Internal->tellError(this, renderer, gnomon::Topic::Context, whyNot);
   if (!whyNot.empty())
   {
-    this->RenderPlain(s, "OpenGL 3.2 is not available");
+    this->RenderPlain(s, ranks ? "a process cannot draw shadows" : "OpenGL 3.2 is not available");
     return;
   }
 
@@ -311,6 +318,8 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   bool failed = false;
   bool again = false;
   bool outOfTextureMemory = false;
+  bool measures = false; // on all processes
+  std::optional<tbb::global_control> threads;
   try
   {
     gnomon::FrameWishes wishes = this->Wishes();
@@ -318,11 +327,17 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     wishes.mayRefine =
       this->Interactive == INTERACTIVE_AUTO && this->Internal->restingFrame.mayRefine(window);
     wishes.isShared = ranks != nullptr;
-    wishes.smoothTerminators = wishes.smoothTerminators && !ranks;
+    if (ranks)
+    {
+      threads.emplace(tbb::global_control::max_allowed_parallelism, ranks->threads());
+      wishes.smoothTerminators = false;
+      measures = wishes.measureStages = ranks->isAny(wishes.measureStages);
+      wishes.keepVisibility = ranks->isAny(wishes.keepVisibility);
+    }
     manager.beginFrame(wishes, ranks);
 
     // lights
-    std::optional<ReducedPicture> reduced(std::in_place, renderer, this->ImageReductionFactor);
+    std::optional<ReducedPicture> reduced(std::in_place, renderer, wishes.reductionFactor);
     this->BeginView(s);
     const bool goesOn = manager.collectLights(renderer, this->Internal->settings->GetValues(),
       this->Internal->viewCount.areSeveral(renderer));
@@ -365,7 +380,6 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     if (goesOn)
     {
       this->TellOfResolution(s, manager.endShading());
-      manager.compareSurfaces();
     }
     manager.endFrame();
     this->Internal->tellError(this, renderer, gnomon::Topic::Frame, "");
@@ -416,6 +430,29 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   else
   {
     gnomon::tellProgress(this, progressBefore, this->Internal->progress);
+  }
+  if (measures)
+  {
+    this->CompareSurfaces(s, failed);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Has all processes compare what they have drawn with what they have traced.
+void vtkGnomonShadowPass::CompareSurfaces(const vtkRenderState* s, bool failed)
+{
+  gnomon::Ranks& ranks = *this->Internal->ranks;
+  try
+  {
+    if (ranks.beginFrame(failed ? "it has no shadows" : "").empty())
+    {
+      this->Internal->manager().compareSurfaces(s);
+      ranks.endFrame();
+    }
+  }
+  catch (const std::exception& error)
+  {
+    ranks.fail(error.what()); // the count stays 0
   }
 }
 
@@ -580,7 +617,7 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
   wishes.maximumSoftError = this->MaximumSoftError;
   wishes.timeBudget = this->TimeBudget;
   wishes.memoryBudget = this->MemoryBudget * 1024.0 * 1024.0;
-  wishes.reductionFactor = this->ImageReductionFactor;
+  wishes.reductionFactor = this->DelegatePass ? this->ImageReductionFactor : 1;
   wishes.factors = this->Internal->factors;
   return wishes;
 }

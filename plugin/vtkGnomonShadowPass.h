@@ -327,10 +327,11 @@ public:
    * The processes that draw one picture together, each its own part of the scene, and composite it
    * by depth (sort-last rendering). A point is lit if no process's casters block its ray.
    *
-   * All must have the same lights, cameras (clipping ranges included) and picture sizes, and must
-   * render equally often, also those without data or out of view. The pass calls the controller
-   * before the delegate draws, never while it draws. Each process takes its share of the cores of
-   * its machine. If one meets an error, all draw without shadows, and all say why.
+   * All must have the same lights, cameras (clipping ranges included), picture sizes and UseShadows
+   * if it is obeyed, and must render equally often, also those without data or out of view. The
+   * pass never calls the controller while the delegate draws. Meanwhile, each process takes its
+   * share of the cores of its machine. If one meets an error, all draw without shadows, and all
+   * say why.
    *
    * Lights have the technique `raytraced` with one ray for a pixel of an edge, and no textures;
    * another technique is an error, "auto" is not. Receivers are on their triangles
@@ -345,8 +346,8 @@ public:
   ///@{
   /**
    * The delegate draws the picture in the lower left part of its viewport, smaller by this factor
-   * in width and height, as vtkIceTCompositePass does for an image reduction factor. In [1, 50];
-   * default 1.
+   * in width and height, as vtkIceTCompositePass does for an image reduction factor. Without a
+   * delegate it has no effect. In [1, 50]; default 1.
    */
   vtkSetClampMacro(ImageReductionFactor, int, 1, 50);
   vtkGetMacro(ImageReductionFactor, int);
@@ -457,6 +458,7 @@ private:
   void DrawScene(const vtkRenderState* s);
   void ComputeShadows(const vtkRenderState* s);
   void DrawDeferred(const vtkRenderState* s);
+  void CompareSurfaces(const vtkRenderState* s, bool failed);
   void TellPlain(const char* reason);
   void DrawPlain(const vtkRenderState* s);
   void RenderPlain(const vtkRenderState* s, const char* reason);

@@ -30,9 +30,9 @@ int numberOf(const char* setting, const TechniqueInfo& info, const ShadowLight& 
 }
 
 /// Return the technique of lights that cannot have theirs.
-const char* fallbackTechnique()
+const char* fallbackTechnique(const FrameWishes& wishes)
 {
-  return canDrawMaps() ? plainTechnique : "raytraced";
+  return canDrawMaps() && !wishes.isShared ? plainTechnique : "raytraced";
 }
 
 /// True if an estimator needs no newer OpenGL than 3.2: it draws on the CPU, its maps included.
@@ -71,7 +71,8 @@ const EstimatorEntry& composeHere(ShadowLight& light)
 
 /// Return a light's estimator, and complete the light. If its settings contradict each other or
 /// OpenGL's version, use the fallback technique with the default settings.
-const EstimatorEntry& composeIn(ShadowLight& light, std::vector<std::string>& misfits)
+const EstimatorEntry& composeIn(
+  ShadowLight& light, const FrameWishes& wishes, std::vector<std::string>& misfits)
 {
   try
   {
@@ -79,12 +80,12 @@ const EstimatorEntry& composeIn(ShadowLight& light, std::vector<std::string>& mi
   }
   catch (const CompositionError& error)
   {
-    misfits.push_back(
-      nameOf(light) + ": " + error.what() + ". It uses '" + fallbackTechnique() + "' instead");
+    misfits.push_back(nameOf(light) + ": " + error.what() + ". It uses '" +
+      fallbackTechnique(wishes) + "' instead");
   }
   const int mapSizeTexels = light.mapSizeTexels;
   static_cast<ShadowSettings&>(light) = {};
-  light.technique = fallbackTechnique();
+  light.technique = fallbackTechnique(wishes);
   light.mapSizeTexels = mapSizeTexels;
   return compose(light);
 }
@@ -226,7 +227,7 @@ void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
         std::min(of.light.mapSizeTexels, fewestTexels); // for translucent surfaces
       of.light.technique = "raytraced";
       of.light.estimator.clear();
-      of.estimator = &composeIn(of.light, report.misfits);
+      of.estimator = &composeIn(of.light, wishes, report.misfits);
       of.budgetReason =
         of.asked ? "" : "the memory budget has no room for its map, so rays replace it";
     }
@@ -332,7 +333,7 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   {
     ComposedLight& of = composed.emplace_back();
     of.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
-    of.estimator = &composeIn(light, report.misfits);
+    of.estimator = &composeIn(light, wishes, report.misfits);
     of.light = std::move(light);
   }
   if (wishes.memoryBudget > 0.0 && !wishes.isShared) // what each process sees differs

@@ -21,7 +21,7 @@ TracerChoice chooseTracer(
       throw std::runtime_error(
         "the tracer on the GPU was asked for, but it does not share rays with other processes");
     }
-    return { false, true, "several processes draw the picture", ranks };
+    return { false, true, "several processes draw the picture", ranks, ranks->serial() };
   }
   if (wished == TracerWish::Embree)
   {
@@ -97,7 +97,8 @@ ShadowTracer::Update FrameTracer::update(const TracerChoice& choice, const Occlu
 ShadowTracer::Update FrameTracer::updateTaken(
   const TracerChoice& choice, const Occluders& occluders)
 {
-  if (!this->tracer_ || this->taken_.gpu != choice.gpu || this->taken_.ranks != choice.ranks)
+  if (!this->tracer_ || this->taken_.gpu != choice.gpu ||
+    this->taken_.ranksSerial != choice.ranksSerial)
   {
     this->tracer_.reset(); // frees its memory first
     if (choice.gpu)

@@ -22,6 +22,7 @@ struct TracerChoice
   std::string reason; ///< as a clause
   /// The processes whose casters block rays, too (SharedTracer); null: this one's alone.
   Ranks* ranks = nullptr;
+  std::uint64_t ranksSerial = 0; ///< Ranks::serial(); 0: no ranks
 };
 
 /// Return the tracer of a frame.

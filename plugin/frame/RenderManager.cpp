@@ -138,7 +138,7 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
     report.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
   report.leftOut = this->collector_.leftOut();
   this->names_.clear();
-  if (this->frame_.wishes.keepVisibility && !this->frame_.ranks) // which have names of their own
+  if (this->frame_.wishes.keepVisibility && !this->frame_.ranks) // other processes' have others
   {
     this->names_ = surfaceNames(s->GetRenderer(), this->collector_.records());
   }
@@ -160,9 +160,7 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
   {
     std::size_t hash = 0;
     hashView(hash, this->frame_.camera, this->frame_.size);
-    hashCombine(hash, this->frame_.wishes.measureStages);
-    hashCombine(hash, this->frame_.wishes.keepVisibility);
-    this->frame_.ranks->requireSame(hash, "cameras, sizes of the picture, or wishes");
+    this->frame_.ranks->requireSame(hash, "cameras or sizes of the picture");
   }
   this->frame_.endStage("occluders");
 }
@@ -334,7 +332,7 @@ ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
   key.add(propsPart, hashOfShownProps(s));
   key.add(snapshotPart, std::pair(occluders.topologyVersion, occluders.positionsVersion));
   key.add("what is read of receivers", this->readsPoints());
-  key.add("the processes", this->frame_.ranks);
+  key.add("the processes", this->frame_.ranks ? this->frame_.ranks->serial() : 0);
   key.add("where they are drawn", std::tuple(this->frame_.route, originOf(s)));
   return key;
 }
@@ -474,7 +472,9 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
 {
   this->makeRoomForLayers();
   this->findStaleReceivers(s);
-  if (this->frame_.ranks && this->frame_.ranks->isAny(this->receiversDue_.has_value()))
+  const bool areDue =
+    this->receiversDue_.has_value() || !this->frame_.view->receivers.shared.areShared();
+  if (this->frame_.ranks && this->frame_.ranks->isAny(areDue))
   {
     this->frame_.view->receivers.shared.clear();
   }
@@ -585,19 +585,20 @@ bool RenderManager::endShading()
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::compareSurfaces()
+void RenderManager::compareSurfaces(const vtkRenderState* s)
 {
   const SharedReceivers& shared = this->frame_.view->receivers.shared;
-  if (!this->frame_.ranks || !this->frame_.wishes.measureStages || !shared.areShared())
+  const bool canCompare = shared.areShared() && samplesOfBoundFramebuffer() <= 1;
+  if (this->frame_.ranks->isAny(!canCompare))
   {
     return;
   }
   GLint framebuffer = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
   std::vector<float> drawn;
-  readDepths(static_cast<GLuint>(framebuffer), glm::ivec2(0), this->frame_.size, drawn);
+  readDepths(static_cast<GLuint>(framebuffer), originOf(s), this->frame_.size, drawn);
   std::vector<float> nearest = drawn;
-  this->frame_.ranks->takeLeast(nearest);
+  this->frame_.ranks->reduceToLeast(nearest);
   std::int64_t others = 0;
   for (std::size_t pixel = 0; pixel < drawn.size(); ++pixel)
   {
@@ -638,7 +639,7 @@ void RenderManager::endFrame()
     report.bytesShared = static_cast<std::int64_t>(ranks->bytesShared());
     if (const SharedReceivers& shared = this->frame_.view->receivers.shared; shared.areShared())
     {
-      report.ownReceivers = static_cast<std::int64_t>(shared.own());
+      report.ownReceivers = static_cast<std::int64_t>(shared.ownCount());
       report.depthTies = static_cast<std::int64_t>(shared.ties());
     }
   }

@@ -107,9 +107,9 @@ public:
   /// show no shadows then
   bool endShading();
 
-  /// Counts where the picture shows another process's surface than its receivers, if stages are
-  /// measured; collective, after the picture was drawn.
-  void compareSurfaces();
+  /// Counts where the picture shows another process's surface than its receivers. A collective frame
+  /// of its own (Ranks), after the picture was drawn and the report was completed.
+  void compareSurfaces(const vtkRenderState* s);
 
   /// Completes the report.
   void endFrame();

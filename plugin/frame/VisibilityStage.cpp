@@ -128,6 +128,7 @@ void VisibilityStage::findStale()
   std::vector<VisibilityValue>& values = this->frame_.view->visibility;
   values.resize(this->frame_.lights.size());
   auto value = values.begin();
+  std::vector<std::string> changesOf;
   for (CastingLight& casting : this->frame_.lights)
   {
     const ValueKey key = this->keyOf(casting);
@@ -143,8 +144,8 @@ void VisibilityStage::findStale()
     {
       changes = "how pixels were decided is asked for";
     }
-    this->frame_.tellReuse("visibility of " + nameOf(casting.light), changes);
     casting.isStale = !changes.empty();
+    changesOf.push_back(changes);
     ++value;
   }
   if (this->frame_.ranks)
@@ -152,8 +153,13 @@ void VisibilityStage::findStale()
     this->agreeOnStale();
   }
   value = values.begin();
+  auto changes = changesOf.begin();
   for (CastingLight& casting : this->frame_.lights)
   {
+    const bool isOthers = casting.isStale && changes->empty();
+    this->frame_.tellReuse("visibility of " + nameOf(casting.light),
+      isOthers ? "another process's part of the scene" : *changes);
+    ++changes;
     if (!casting.isStale)
     {
       LightReport& report = reportOf(this->frame_.report, casting.light);
@@ -364,7 +370,7 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
         [](const CastingLight& casting) { return casting.isStale && isOnCpu(casting); }))
   {
     this->updateTracer();
-    if (!this->frame_.ranks) // whose tiles have other casters, too
+    if (!this->frame_.ranks) // other processes' casters reach these tiles, too
     {
       this->storeReceivers();
       this->judge();
@@ -515,7 +521,8 @@ void VisibilityStage::trace(
   const std::size_t edgeSamples = edgeSamplesOf(casting);
   std::vector<std::uint8_t> classesForEdges;
   ShadowLight traced = light;
-  traced.lightSamples = samplesOf(casting, value.samples, this->frame_.severalViews);
+  traced.lightSamples =
+    samplesOf(casting, value.samples, this->frame_.severalViews || this->frame_.ranks);
   value.samples = traced.lightSamples;
   report.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
   Receivers& onCpu = this->receiversOnCpu();

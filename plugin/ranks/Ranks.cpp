@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <fstream>
 #include <thread>
 
 #include <unistd.h>
@@ -14,17 +16,18 @@ namespace gnomon
 namespace
 {
 
-/// Reduce numbers over all ranks, in place.
-template <typename Number>
-void reduce(vtkMultiProcessController& controller, std::vector<Number>& numbers, int operation)
+std::atomic<std::uint64_t> lastSerial{ 0 };
+
+/// Return a text that processes on one machine have in common: its name, and the number of its
+/// start, as containers on several machines may have one name.
+std::array<char, 512> nameOfMachine()
 {
-  std::vector<Number> all(numbers.size());
-  if (!controller.AllReduce(
-        numbers.data(), all.data(), static_cast<vtkIdType>(numbers.size()), operation))
-  {
-    throw RankFailure("the processes cannot reach each other");
-  }
-  numbers = std::move(all);
+  std::array<char, 512> name{};
+  gethostname(name.data(), name.size() / 2 - 1);
+  std::string start;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> start;
+  start.copy(name.data() + name.size() / 2, name.size() / 2 - 1);
+  return name;
 }
 
 } // namespace
@@ -34,8 +37,20 @@ Ranks::Ranks(vtkMultiProcessController* controller)
   : controller_(controller)
   , count_(controller->GetNumberOfProcesses())
   , own_(controller->GetLocalProcessId())
+  , serial_(++lastSerial)
 {
-  this->limitThreads();
+  const auto name = nameOfMachine();
+  std::vector<char> names(name.size() * static_cast<std::size_t>(this->count_));
+  if (!controller->AllGather(name.data(), names.data(), static_cast<vtkIdType>(name.size())))
+  {
+    this->giveUp();
+  }
+  std::size_t neighbours = 0; // this rank included
+  for (auto other = names.begin(); other != names.end(); other += name.size())
+  {
+    neighbours += std::equal(name.begin(), name.end(), other) ? 1 : 0;
+  }
+  this->threads_ = std::max<std::size_t>(std::thread::hardware_concurrency() / neighbours, 1);
 }
 
 //------------------------------------------------------------------------------
@@ -48,53 +63,64 @@ vtkMultiProcessController* Ranks::controller() const
 }
 
 //------------------------------------------------------------------------------
-void Ranks::limitThreads()
+void Ranks::giveUp()
 {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  std::vector<char> names(name.size() * static_cast<std::size_t>(this->count_));
-  this->controller_->AllGather(name.data(), names.data(), static_cast<vtkIdType>(name.size()));
-  int neighbours = 0; // this rank included
-  for (int rank = 0; rank < this->count_; ++rank)
-  {
-    const char* const other = &names[name.size() * static_cast<std::size_t>(rank)];
-    neighbours += std::equal(name.begin(), name.end(), other) ? 1 : 0;
-  }
-  const unsigned int cores = std::max(std::thread::hardware_concurrency(), 1u);
-  this->threads_.emplace(tbb::global_control::max_allowed_parallelism,
-    std::max(cores / static_cast<unsigned int>(std::max(neighbours, 1)), 1u));
+  this->othersWait_ = false;
+  throw RankFailure("the processes cannot reach each other");
 }
 
 //------------------------------------------------------------------------------
 /// Return the error of the first rank that has one, with its number; empty if none has.
 std::string Ranks::firstFailure(const std::string& mine)
 {
-  std::vector<int> first{ mine.empty() ? this->count_ : this->own_ };
-  reduce(*this->controller_, first, vtkCommunicator::MIN_OP);
-  const int failed = first.front();
+  const int own = mine.empty() ? this->count_ : this->own_;
+  int failed = 0;
+  if (!this->controller_->AllReduce(&own, &failed, 1, vtkCommunicator::MIN_OP))
+  {
+    this->giveUp();
+  }
   if (failed == this->count_)
   {
     return {};
   }
   std::string error = mine;
-  vtkIdType length = static_cast<vtkIdType>(error.size());
-  this->controller_->Broadcast(&length, 1, failed);
-  error.resize(static_cast<std::size_t>(length));
-  this->controller_->Broadcast(error.data(), length, failed);
+  auto length = static_cast<vtkIdType>(error.size());
+  const bool isSent = this->controller_->Broadcast(&length, 1, failed) != 0;
+  error.resize(isSent ? static_cast<std::size_t>(length) : 0);
+  if (!isSent || !this->controller_->Broadcast(error.data(), length, failed))
+  {
+    this->giveUp();
+  }
   return "process " + std::to_string(failed) + " of " + std::to_string(this->count_) +
     " failed: " + error;
 }
 
 //------------------------------------------------------------------------------
-/// Throw on all ranks if one of them fails in place of this call.
+/// Throw on all ranks if one of them fails in place of this call. Between it and the call that
+/// follows, nothing may throw.
 void Ranks::agree()
 {
   const std::string error = this->firstFailure({});
   if (!error.empty())
   {
-    this->isOpen_ = false;
+    this->othersWait_ = false;
     throw RankFailure(error);
   }
+}
+
+//------------------------------------------------------------------------------
+/// Reduce numbers over all ranks, in place.
+template <typename Number>
+void Ranks::reduce(std::vector<Number>& numbers, int operation)
+{
+  std::vector<Number> all(numbers.size());
+  this->agree();
+  if (!this->controller_->AllReduce(
+        numbers.data(), all.data(), static_cast<vtkIdType>(numbers.size()), operation))
+  {
+    this->giveUp();
+  }
+  numbers = std::move(all);
 }
 
 //------------------------------------------------------------------------------
@@ -102,102 +128,108 @@ std::string Ranks::beginFrame(const std::string& whyNot)
 {
   this->bytesShared_ = 0;
   const std::string error = this->firstFailure(whyNot);
-  this->isOpen_ = error.empty();
+  this->othersWait_ = error.empty();
   return error;
 }
 
 //------------------------------------------------------------------------------
-void Ranks::fail(const std::string& error)
+void Ranks::endFrame()
 {
-  if (this->isOpen_)
+  this->agree();
+  this->othersWait_ = false;
+}
+
+//------------------------------------------------------------------------------
+void Ranks::fail(const std::string& error) noexcept
+{
+  if (this->othersWait_)
   {
-    this->isOpen_ = false;
-    this->firstFailure(error.empty() ? "unknown error" : error);
+    this->othersWait_ = false;
+    try
+    {
+      this->firstFailure(error.empty() ? "unknown error" : error);
+    }
+    catch (const std::exception&)
+    {
+      // The others cannot be told.
+    }
   }
 }
 
 //------------------------------------------------------------------------------
 bool Ranks::isAny(bool mine)
 {
-  this->agree();
   std::vector<int> any{ mine ? 1 : 0 };
-  reduce(*this->controller_, any, vtkCommunicator::MAX_OP);
+  this->reduce(any, vtkCommunicator::MAX_OP);
   return any.front() != 0;
 }
 
 //------------------------------------------------------------------------------
-std::int64_t Ranks::sum(std::int64_t mine)
+void Ranks::requireSame(std::uint64_t number, const std::string& what)
 {
-  this->agree();
-  std::vector<long long> sum{ mine };
-  reduce(*this->controller_, sum, vtkCommunicator::SUM_OP);
-  return sum.front();
-}
-
-//------------------------------------------------------------------------------
-void Ranks::requireSame(std::uint64_t hash, const std::string& what)
-{
-  this->agree();
-  std::vector<unsigned long long> extremes{ hash, ~static_cast<unsigned long long>(hash) };
-  reduce(*this->controller_, extremes, vtkCommunicator::MIN_OP);
+  std::vector<std::uint64_t> extremes{ number, ~number };
+  this->reduce(extremes, vtkCommunicator::MIN_OP);
   if (extremes[0] != ~extremes[1])
   {
-    this->isOpen_ = false; // all ranks throw here
+    this->othersWait_ = false; // all ranks throw here
     throw RankFailure("the processes have different " + what);
   }
 }
 
 //------------------------------------------------------------------------------
-Bounds Ranks::united(const Bounds& mine)
+std::int64_t Ranks::sum(std::int64_t mine)
 {
-  this->agree();
-  std::vector<double> extremes;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    extremes.push_back(mine.lower[axis]);
-    extremes.push_back(-mine.upper[axis]);
-  }
-  reduce(*this->controller_, extremes, vtkCommunicator::MIN_OP);
-  return { { extremes[0], extremes[2], extremes[4] },
-    -glm::dvec3(extremes[1], extremes[3], extremes[5]) };
+  std::vector<long long> sum{ mine };
+  this->reduce(sum, vtkCommunicator::SUM_OP);
+  return sum.front();
 }
 
 //------------------------------------------------------------------------------
-void Ranks::takeLeast(std::vector<float>& numbers)
+Bounds Ranks::united(const Bounds& mine)
 {
-  this->agree();
-  reduce(*this->controller_, numbers, vtkCommunicator::MIN_OP);
+  std::vector<double> extremes{ mine.lower.x, mine.lower.y, mine.lower.z, -mine.upper.x,
+    -mine.upper.y, -mine.upper.z };
+  this->reduce(extremes, vtkCommunicator::MIN_OP);
+  return { { extremes[0], extremes[1], extremes[2] },
+    { -extremes[3], -extremes[4], -extremes[5] } };
+}
+
+//------------------------------------------------------------------------------
+void Ranks::reduceToLeast(std::vector<float>& numbers)
+{
+  this->reduce(numbers, vtkCommunicator::MIN_OP);
   this->bytesShared_ += sizeof(float) * numbers.size();
 }
 
 //------------------------------------------------------------------------------
 void Ranks::uniteBits(std::vector<std::uint64_t>& bits)
 {
-  static_assert(sizeof(unsigned long) == sizeof(std::uint64_t), "the controller's type of 64 bits");
-  this->agree();
-  std::vector<std::uint64_t> all(bits.size());
-  if (!this->controller_->AllReduce(reinterpret_cast<const unsigned long*>(bits.data()),
-        reinterpret_cast<unsigned long*>(all.data()), static_cast<vtkIdType>(bits.size()),
-        vtkCommunicator::BITWISE_OR_OP))
-  {
-    throw RankFailure("the processes cannot reach each other");
-  }
-  bits = std::move(all);
+  this->reduce(bits, vtkCommunicator::BITWISE_OR_OP);
   this->bytesShared_ += sizeof(std::uint64_t) * bits.size();
 }
 
 //------------------------------------------------------------------------------
-std::vector<std::size_t> Ranks::counts(std::size_t mine)
+/// Return the first of each rank's elements among those of all, and the number of all.
+/// @param mine the number of this rank's
+std::vector<std::size_t> Ranks::firstsOf(std::size_t mine)
 {
-  this->agree();
   const auto own = static_cast<vtkIdType>(mine);
-  std::vector<vtkIdType> all(static_cast<std::size_t>(this->count_));
-  this->controller_->AllGather(&own, all.data(), 1);
-  return { all.begin(), all.end() };
+  std::vector<vtkIdType> counts(static_cast<std::size_t>(this->count_));
+  std::vector<std::size_t> firsts(counts.size() + 1, 0);
+  this->agree();
+  if (!this->controller_->AllGather(&own, counts.data(), 1))
+  {
+    this->giveUp();
+  }
+  for (std::size_t rank = 0; rank < counts.size(); ++rank)
+  {
+    firsts[rank + 1] = firsts[rank] + static_cast<std::size_t>(counts[rank]);
+  }
+  return firsts;
 }
 
 //------------------------------------------------------------------------------
-/// @param firsts of each rank's elements, and the number of all
+/// @param firsts of firstsOf()
 void Ranks::gatherBytes(
   const void* mine, void* all, std::size_t elementBytes, const std::vector<std::size_t>& firsts)
 {
@@ -210,10 +242,11 @@ void Ranks::gatherBytes(
     offsets[rank] = static_cast<vtkIdType>(firsts[rank] * elementBytes);
   }
   const vtkIdType own = lengths[static_cast<std::size_t>(this->own_)];
+  this->agree();
   if (!this->controller_->AllGatherV(static_cast<const char*>(mine), static_cast<char*>(all), own,
         lengths.data(), offsets.data()))
   {
-    throw RankFailure("the processes cannot reach each other");
+    this->giveUp();
   }
   this->bytesShared_ += elementBytes * firsts.back();
 }

@@ -29,7 +29,7 @@ void keepNearest(
   Ranks& ranks, const std::vector<float>& windowDepths, std::vector<glm::vec2>& fragments)
 {
   std::vector<float> nearest = windowDepths;
-  ranks.takeLeast(nearest);
+  ranks.reduceToLeast(nearest);
   for (std::size_t pixel = 0; pixel < fragments.size(); ++pixel)
   {
     if (windowDepths[pixel] != nearest[pixel])
@@ -48,14 +48,14 @@ void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occlu
 
   const std::size_t pixels = own.size();
   this->claims_.assign((pixels + bitsOfWord - 1) / bitsOfWord, 0);
-  this->sent_.clear();
+  this->packed_.clear();
   for (std::size_t pixel = 0; pixel < pixels; ++pixel)
   {
     const std::uint32_t surface = own.surface[pixel];
     if (surface != ReceiverPixels::notCovered && snapshot.surfaces[surface].receives)
     {
       this->claims_[pixel / bitsOfWord] |= std::uint64_t(1) << pixel % bitsOfWord;
-      Sent& receiver = this->sent_.emplace_back();
+      PackedReceiver& receiver = this->packed_.emplace_back();
       for (std::size_t i = 0; i < ReceiverPixels::planes.size(); ++i)
       {
         receiver.numbers[i] = (own.*ReceiverPixels::planes[i])[pixel];
@@ -63,7 +63,7 @@ void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occlu
     }
   }
   ranks.gather(this->claims_, this->allClaims_);
-  ranks.gather(this->sent_, this->all_);
+  ranks.gather(this->packed_, this->all_);
 
   this->pixels_.resize(own.width, own.height);
   std::fill(this->pixels_.surface.begin(), this->pixels_.surface.end(), ReceiverPixels::notCovered);
@@ -71,7 +71,7 @@ void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occlu
   this->ties_ = 0;
   for (std::size_t rank = 0; rank + 1 < this->all_.firsts.size(); ++rank)
   {
-    this->take(static_cast<int>(rank) == ranks.own(),
+    this->insert(static_cast<int>(rank) == ranks.own(),
       &this->allClaims_.elements[this->allClaims_.firsts[rank]],
       this->all_.elements.data() + this->all_.firsts[rank]);
   }
@@ -85,14 +85,15 @@ void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occlu
       }
     }
   }
-  this->own_ = static_cast<std::size_t>(std::count(this->isOwn_.begin(), this->isOwn_.end(), true));
+  this->ownCount_ =
+    static_cast<std::size_t>(std::count(this->isOwn_.begin(), this->isOwn_.end(), true));
   this->receivers_.emplace(this->pixels_);
 }
 
 //------------------------------------------------------------------------------
 std::size_t SharedReceivers::bytes() const
 {
-  return this->pixels_.bytes() + bytesOf(this->claims_) + bytesOf(this->sent_) +
+  return this->pixels_.bytes() + bytesOf(this->claims_) + bytesOf(this->packed_) +
     bytesOf(this->allClaims_.elements) + bytesOf(this->all_.elements) + this->isOwn_.capacity() / 8;
 }
 
@@ -103,18 +104,18 @@ std::size_t SharedReceivers::bytes() const
 /// @param isOwn true if it is this rank
 /// @param claims a bit for each pixel that has one of them
 /// @param next the first of them
-void SharedReceivers::take(bool isOwn, const std::uint64_t* claims, const Sent* next)
+void SharedReceivers::insert(bool isOwn, const std::uint64_t* claims, const PackedReceiver* next)
 {
   for (std::size_t word = 0; word * bitsOfWord < this->pixels_.size(); ++word)
   {
     for (std::uint64_t bits = claims[word]; bits != 0; bits &= bits - 1)
     {
       const std::size_t pixel = word * bitsOfWord + static_cast<std::size_t>(__builtin_ctzll(bits));
-      const Sent& receiver = *next++;
+      const PackedReceiver& receiver = *next++;
       if (this->pixels_.surface[pixel] != ReceiverPixels::notCovered)
       {
-        const Sent before = this->at(pixel);
-        if (std::memcmp(&before, &receiver, sizeof(Sent)) == 0)
+        const PackedReceiver before = this->at(pixel);
+        if (std::memcmp(&before, &receiver, sizeof(PackedReceiver)) == 0)
         {
           this->isOwn_[pixel] = this->isOwn_[pixel] || isOwn;
           continue;
@@ -137,9 +138,9 @@ void SharedReceivers::take(bool isOwn, const std::uint64_t* claims, const Sent* 
 }
 
 //------------------------------------------------------------------------------
-SharedReceivers::Sent SharedReceivers::at(std::size_t pixel) const
+SharedReceivers::PackedReceiver SharedReceivers::at(std::size_t pixel) const
 {
-  Sent receiver;
+  PackedReceiver receiver;
   for (std::size_t i = 0; i < ReceiverPixels::planes.size(); ++i)
   {
     receiver.numbers[i] = (this->pixels_.*ReceiverPixels::planes[i])[pixel];

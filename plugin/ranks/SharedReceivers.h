@@ -21,9 +21,9 @@ namespace gnomon
 void keepNearest(
   Ranks& ranks, const std::vector<float>& windowDepths, std::vector<glm::vec2>& fragments);
 
-/// The receivers of a picture that several ranks draw: in each pixel that of the rank that drew the
-/// nearest surface. The rank computes it once, and all ranks hold all of them, bit for bit the
-/// same, so that each can trace them against its own casters.
+/// The receivers of a picture that several ranks draw. A pixel's receiver is on the nearest surface
+/// of all ranks. The rank that drew it computes the receiver once, and all ranks hold the same bits
+/// of all receivers, so that each can trace them against its own casters.
 class SharedReceivers
 {
 public:
@@ -46,7 +46,7 @@ public:
   const Occluders& surfaces() const { return this->surfaces_; }
 
   /// Return how many of the receivers are this rank's, and which.
-  std::size_t own() const { return this->own_; }
+  std::size_t ownCount() const { return this->ownCount_; }
   bool isOwn(std::size_t pixel) const { return this->isOwn_[pixel]; }
   /// Return in how many pixels several ranks drew different receivers at the same depth.
   std::size_t ties() const { return this->ties_; }
@@ -55,22 +55,22 @@ public:
 
 private:
   /// A receiver on its way.
-  struct Sent
+  struct PackedReceiver
   {
     float numbers[7]; ///< in the order of ReceiverPixels::planes
   };
 
-  void take(bool isOwn, const std::uint64_t* claims, const Sent* next);
-  Sent at(std::size_t pixel) const;
+  void insert(bool isOwn, const std::uint64_t* claims, const PackedReceiver* next);
+  PackedReceiver at(std::size_t pixel) const;
 
   ReceiverPixels pixels_;
   std::optional<Receivers> receivers_; ///< made with pixels_
   Occluders surfaces_;
-  std::vector<std::uint64_t> claims_; ///< this rank's: a bit for each pixel that has one of sent_
-  std::vector<Sent> sent_;            ///< in the order of their pixels
+  std::vector<std::uint64_t> claims_; ///< this rank's: a bit for each pixel that has one of packed_
+  std::vector<PackedReceiver> packed_; ///< in the order of their pixels
   Ranks::Gathered<std::uint64_t> allClaims_;
-  Ranks::Gathered<Sent> all_;
-  std::size_t own_ = 0;
+  Ranks::Gathered<PackedReceiver> all_;
+  std::size_t ownCount_ = 0;
   std::vector<bool> isOwn_; ///< by pixel
   std::size_t ties_ = 0;
 };

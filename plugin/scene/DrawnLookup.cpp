@@ -14,6 +14,7 @@
 #include "vtkProperty.h"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -100,9 +101,13 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
 {
   const std::size_t number = this->held_.size();
   this->heldAt_.emplace(Place{ actor, worldFromModel }, number);
-  // For glyphs and levels of detail, VTK may draw by other actors, which have the mapper.
-  this->heldAt_.emplace(Place{ mapper, worldFromModel }, number);
-  if (!held.front().isGlyph)
+  const bool isGlyph = held.front().isGlyph;
+  if (isGlyph || std::strcmp(actor->GetClassName(), "vtkOpenGLActor") != 0)
+  {
+    // It may be drawn by another actor, which has the mapper.
+    this->heldAt_.emplace(Place{ mapper, worldFromModel }, number);
+  }
+  if (!isGlyph)
   {
     std::sort(held.begin(), held.end(), isBefore);
   }

@@ -2,6 +2,8 @@
 
 #include "shadowtech/base/Bytes.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -97,7 +99,7 @@ std::size_t SharedTracer::tracePicture(const TracedPicture& picture)
     this->unite_(this->blocked_);
     const float one = 1.0f;
     const auto samples = static_cast<std::size_t>(range.end - range.first);
-    for (std::size_t word = 0; word < this->blocked_.size(); ++word)
+    const auto darken = [&](std::size_t word)
     {
       const std::size_t tile = word / (wordsOfTile * samples);
       const std::size_t firstPixel = word % wordsOfTile * bitsOfWord;
@@ -109,7 +111,16 @@ std::size_t SharedTracer::tracePicture(const TracedPicture& picture)
         const std::size_t y = tile / tilesAcross * TracedTile::rows + pixel / TracedTile::columns;
         picture.darken(y * picture.columns() + x, &one);
       }
-    }
+    };
+    tbb::parallel_for(std::size_t(0), picture.tiles(),
+      [&](std::size_t tile)
+      {
+        const std::size_t words = wordsOfTile * samples;
+        for (std::size_t word = tile * words; word < (tile + 1) * words; ++word)
+        {
+          darken(word);
+        }
+      });
   }
   return rays;
 }

@@ -11,8 +11,8 @@ namespace gnomon
 {
 
 /// Traces the casters of several processes, each of which holds its own part of them: a ray is
-/// blocked if any process's casters block it. Visibility multiplies, so no geometry travels, but a
-/// bit a ray. All processes trace the same pictures from the same receivers in the same order.
+/// blocked if any process's casters block it. So processes exchange a bit for each ray, and no
+/// geometry. All processes must trace the same pictures from the same receivers in the same order.
 class SharedTracer : public EmbreeTracer
 {
 public:

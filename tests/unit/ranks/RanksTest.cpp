@@ -40,7 +40,7 @@ TEST_F(RanksTest, ReduceAndGather)
   EXPECT_EQ(united.upper, glm::dvec3(count - 1, 0.0, -1.0));
 
   std::vector<float> numbers{ static_cast<float>(own), static_cast<float>(-own), 0.5f };
-  this->ranks_.takeLeast(numbers);
+  this->ranks_.reduceToLeast(numbers);
   EXPECT_EQ(numbers, (std::vector<float>{ 0.0f, static_cast<float>(1 - count), 0.5f }));
 
   std::vector<std::uint64_t> bits{ std::uint64_t(1) << own, std::uint64_t(1) << 63 };

@@ -3,6 +3,7 @@
 
 #include "SplitScene.h"
 
+#include "lights/vtkGnomonLightKeys.h"
 #include "shadowtech/base/Gl.h"
 
 #include <vtkActor.h>
@@ -202,14 +203,78 @@ TEST_F(SharedFrames, TraceInPlaceOfOtherTechniques)
     testing::HasSubstr("'nsm' sees the casters of one process, and several draw this picture"));
 }
 
+TEST_F(SharedFrames, TraceInPlaceOfWhatCannotBeComposed)
+{
+  this->scene_.shared().pass->SetSetting("light_radius", "1");
+  this->scene_.shared().pass->SetSetting("light_sampling", "jittered");
+  this->scene_.shared().pass->SetSetting("light_samples", "5"); // no square
+  this->scene_.shared().draw();
+  EXPECT_EQ(this->scene_.shared().report().lights.front().technique, "raytraced");
+  ASSERT_EQ(this->messages_.errors().size(), 1u);
+  EXPECT_THAT(this->messages_.errors().front(), testing::HasSubstr("It uses 'raytraced' instead"));
+}
+
+TEST_F(SharedFrames, HaveAllSamplesAtOnce)
+{
+  this->scene_.change(
+    [](vtkRenderer* renderer)
+    {
+      auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+      vtkGnomonLightKeys::SetSetting(light, "light_radius", "2");
+      vtkGnomonLightKeys::SetSetting(light, "light_samples", "64");
+      vtkGnomonLightKeys::SetSetting(light, "moving_samples", "4");
+    });
+  this->scene_.shared().draw();
+  this->showOwn(
+    this->own_ != this->last_); // one process's visibility is stale, the others' are not
+  this->scene_.shared().draw();
+  this->scene_.shared().draw();
+  this->showOwn(true);
+  this->scene_.shared().draw();
+  EXPECT_EQ(this->scene_.shared().report().lights.front().progress, 1.0);
+  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
+}
+
+TEST_F(SharedFrames, KeepVisibilityIfOneAsks)
+{
+  this->scene_.shared().pass->SetKeepVisibility(this->own_ == 0);
+  this->scene_.shared().draw();
+  EXPECT_FALSE(this->scene_.shared().pass->GetVisibility().visibility.empty());
+  this->scene_.change([](vtkRenderer* renderer)
+    { vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0))->SwitchOff(); });
+  this->scene_.shared().draw();
+  EXPECT_FALSE(this->scene_.shared().pass->GetVisibility().coverage.empty());
+}
+
+TEST_F(SharedFrames, CountWhatOthersShow)
+{
+  this->scene_.shared().pass->SetMeasureStages(this->own_ == 0);
+  this->scene_.shared().draw();
+  EXPECT_FALSE(this->scene_.shared().report().stages.empty());
+  // Here nothing composites: each process shows its own part, as the pass drew it.
+  EXPECT_LE(this->scene_.shared().report().otherSurfaces, 2);
+  if (this->own_ == this->last_)
+  {
+    this->scene_.shared().pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU);
+  }
+  this->scene_.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(5.0); });
+  this->scene_.shared().draw();
+  EXPECT_EQ(this->messages_.errors().size(), 1u);
+  this->scene_.shared().pass->SetTracer(vtkGnomonShadowPass::TRACER_AUTO);
+  this->scene_.expectSame();
+}
+
 TEST_F(SharedFrames, EndWithTheController)
 {
   this->scene_.expectSame();
-  this->scene_.shared().pass->SetController(nullptr);
-  this->scene_.shared().draw();
-  EXPECT_EQ(this->scene_.shared().report().processes, 1);
-  EXPECT_EQ(this->scene_.shared().report().receiversDrawn, 1);
-  this->scene_.shared().pass->SetController(controller());
+  if (this->own_ == 0)
+  {
+    this->scene_.shared().pass->SetController(nullptr);
+    this->scene_.shared().draw(); // the others need not know
+    EXPECT_EQ(this->scene_.shared().report().processes, 1);
+    EXPECT_EQ(this->scene_.shared().report().receiversDrawn, 1);
+    this->scene_.shared().pass->SetController(controller());
+  }
   this->scene_.expectSame();
 }
 

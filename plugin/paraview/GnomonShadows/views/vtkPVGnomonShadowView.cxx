@@ -11,6 +11,7 @@
 #include "vtkRenderer.h"
 #include "vtkXMLImageDataWriter.h"
 
+#include <limits>
 #include <sstream>
 
 vtkStandardNewMacro(vtkPVGnomonShadowView);
@@ -51,6 +52,7 @@ template <typename Value>
 void setSetting(vtkGnomonShadowPass* pass, const char* name, Value value)
 {
   std::ostringstream text;
+  text.precision(std::numeric_limits<double>::max_digits10);
   text << value;
   if (pass->GetSetting(name) != text.str())
   {
@@ -76,13 +78,13 @@ void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
   vtkCameraPass* const camera = findCameraPass(this->GetRenderer()->GetPass());
   if (!camera)
   {
-    vtkErrorMacro("The view has no pass of its camera, so it has no shadows.");
+    this->TellOnce("The view has no pass of its camera, so it has no shadows.");
     return;
   }
-  const bool isTiled = this->InTileDisplayMode();
+  const bool isTiled = this->InTileDisplayMode() || this->InCaveDisplayMode();
   if (isTiled && this->ShowShadows)
   {
-    vtkWarningMacro("Tile displays have no shadows.");
+    this->TellOnce("Tile displays and CAVEs have no shadows.");
   }
   const bool isIn = camera->GetDelegatePass() == this->Pass.Get();
   // During a selection the pass draws without its delegate, which composites.
@@ -107,6 +109,16 @@ void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
     isComposited ? this->SynchronizedRenderers->GetImageReductionFactor() : 1);
   this->Pass->SetInteractive(
     interactive ? vtkGnomonShadowPass::INTERACTIVE_ON : vtkGnomonShadowPass::INTERACTIVE_OFF);
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadowView::TellOnce(const char* why)
+{
+  if (this->Told != why)
+  {
+    this->Told = why;
+    vtkWarningMacro(<< why);
+  }
 }
 
 //----------------------------------------------------------------------------

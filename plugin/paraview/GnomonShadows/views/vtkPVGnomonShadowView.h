@@ -4,7 +4,7 @@
  *
  * Puts a vtkGnomonShadowPass between the camera's pass and the one that draws the view. Where
  * several processes draw the view, each its own part of the data, that one composites their
- * pictures, and the pass shares its rays with theirs. Tile displays have no shadows.
+ * pictures, and the pass shares its rays with theirs. Tile displays and CAVEs have no shadows.
  */
 
 #ifndef vtkPVGnomonShadowView_h
@@ -77,7 +77,10 @@ private:
   vtkPVGnomonShadowView(const vtkPVGnomonShadowView&) = delete;
   void operator=(const vtkPVGnomonShadowView&) = delete;
 
+  void TellOnce(const char* why);
+
   vtkNew<vtkGnomonShadowPass> Pass;
+  std::string Told; ///< the last warning
   std::string VisibilityFile;
   std::string ReportText;
 };
