@@ -23,8 +23,8 @@ mkdir -p "$out"
 
 # versionsOf COMMAND... : VTK, Embree and Mesa of a system
 versionsOf() {
-  "$@" dpkg-query -W -f '${Package} ${Version}\n' 'libvtk9*' 'libembree*' libgl1-mesa-dri |
-    grep -vE -- '-(dev|qt|doc|java)|^python' | sed -E 's/ [0-9]+:/ /' | paste -sd, | sed 's/,/, /g'
+  "$@" dpkg-query -W -f '${db:Status-Status} ${Package} ${Version}\n' 'libvtk9*' 'libembree*' \
+    libgl1-mesa-dri | sed -n 's/^installed //p' | grep -vE -- '-(dev|qt|doc|java)|^python' | sed -E 's/ [0-9]+:/ /' | paste -sd, | sed 's/,/, /g'
 }
 
 # renderBy NAME COMMAND... : the visibility of all scenes and techniques, as $out/NAME.*.exr
@@ -94,8 +94,8 @@ cat > docs/results/vtk_releases.md << END
 
 Pixels, of $pixels, in which a channel of \`gnomon render --visibility\` (visibility, positions,
 normals, coverage) is more than 0.5 off that of this machine, in the scenes
-${scenes[*]}. A ? stands for a scene that the technique does not serve.
-Written by \`docs/vtk_releases.sh\`.
+${scenes[*]}.
+A ? stands for a scene that the technique does not serve. Written by \`docs/vtk_releases.sh\`.
 
 $versions
 

@@ -107,8 +107,8 @@ public:
   /// show no shadows then
   bool endShading();
 
-  /// Counts where the picture shows another process's surface than its receivers. A collective frame
-  /// of its own (Ranks), after the picture was drawn and the report was completed.
+  /// Counts where the picture shows another process's surface than its receivers. This is a
+  /// collective frame of its own (Ranks), after the picture was drawn and the report completed.
   void compareSurfaces(const vtkRenderState* s);
 
   /// Completes the report.
