@@ -15,14 +15,14 @@ import scenario
 
 SIZE = (1920, 1080)
 WARM = 3
-FRAMES = 25
-STAGE_FRAMES = 7
+FRAMES = 15
+STAGE_FRAMES = 5
 
 
 def set_frame(view, number):
     """Move the camera around the data, a degree a frame."""
     angle = math.radians(number)
-    scenario.set_camera(view, (230 * math.sin(angle), -230 * math.cos(angle), 150), (0, 0, 0))
+    scenario.set_camera(view, (300 * math.sin(angle), -300 * math.cos(angle), 200), (0, 0, 0))
 
 
 def milliseconds(view, number):
@@ -105,16 +105,16 @@ def page(cases, triangles):
 
 def main():
     scenario.load_plugin()
-    wavelet = Wavelet(WholeExtent=[-75, 75, -75, 75, -75, 75])
+    wavelet = Wavelet(WholeExtent=[-100, 100, -100, 100, -100, 100])
     contour = Contour(Input=wavelet, ContourBy=["POINTS", "RTData"])
-    contour.Isosurfaces = [-60.0, 20.0, 100.0]
+    contour.Isosurfaces = [-60.0 + 26.0 * number for number in range(10)]
     views = [scenario.make_view(kind, SIZE) for kind in ("GnomonShadowView", "RenderView")]
     for view in views:
         Show(contour, view).ColorArrayName = ["POINTS", ""]
         Render(view)
         scenario.add_light(view, "sun", (60, -80, 200))
         scenario.add_light(view, "sun", (-150, 30, 160))
-        scenario.add_light(view, "point", (40, -120, 130))
+        scenario.add_light(view, "point", (60, -160, 170))
     triangles = contour.GetDataInformation().GetNumberOfCells()
     view, plain = views
     view.LightSamples = 16

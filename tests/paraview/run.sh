@@ -164,7 +164,7 @@ inside "$root" mkdir -p "$data"
 if [ "$measure" = yes ]; then
   limit=1800
   scenario measure batch 3 measure.py "$work/paraview.md"
-  if [ "$failures" = 0 ]; then
+  if [ -e "$root$work/paraview.md" ]; then
     cat "$root$work/paraview.md" - > "$project/docs/results/paraview.md" << PAGE
 
 Measured on: $(machine).
