@@ -24,7 +24,7 @@ namespace
 
 using testing::HasSubstr;
 
-const VariantResult& variant(const ComparisonResults& results, const std::string& name)
+const VariantResult& variant(const ComparisonResults& results, std::string_view name)
 {
   const auto found = std::find_if(results.variants.begin(), results.variants.end(),
     [&name](const VariantResult& candidate) { return candidate.name == name; });
