@@ -30,7 +30,7 @@ const VariantResult& variant(const ComparisonResults& results, std::string_view 
     [&name](const VariantResult& candidate) { return candidate.name == name; });
   if (found == results.variants.end())
   {
-    throw std::runtime_error("no variant " + name);
+    throw std::runtime_error("no variant " + std::string(name));
   }
   return *found;
 }
