@@ -24,7 +24,8 @@ mkdir -p "$out"
 # versionsOf COMMAND... : VTK, Embree and Mesa of a system
 versionsOf() {
   "$@" dpkg-query -W -f '${db:Status-Status} ${Package} ${Version}\n' 'libvtk9*' 'libembree*' \
-    libgl1-mesa-dri | sed -n 's/^installed //p' | grep -vE -- '-(dev|qt|doc|java)|^python' | sed -E 's/ [0-9]+:/ /' | paste -sd, | sed 's/,/, /g'
+    libgl1-mesa-dri | sed -n 's/^installed //p' | grep -vE -- '-(dev|qt|doc|java)|^python' |
+    sed -E 's/ [0-9]+:/ /; s/( [0-9.]+).*/\1/' | paste -sd, | sed 's/,/, /g'
 }
 
 # renderBy NAME COMMAND... : the visibility of all scenes and techniques, as $out/NAME.*.exr
