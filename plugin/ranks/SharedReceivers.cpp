@@ -98,9 +98,9 @@ std::size_t SharedReceivers::bytes() const
 }
 
 //------------------------------------------------------------------------------
-/// Put a rank's receivers where they belong. Where several ranks drew the same depth, the receivers'
-/// numbers decide, so that it does not matter which rank has which triangle. A triangle that two
-/// ranks have is the same receiver.
+/// Insert a rank's receivers into the picture. Where several ranks drew the same depth, the
+/// receivers' numbers decide, so that it does not matter which rank has which triangle. If two
+/// ranks have the same triangle, their receivers are the same.
 /// @param isOwn true if it is this rank
 /// @param claims a bit for each pixel that has one of them
 /// @param next the first of them

@@ -362,8 +362,8 @@ TEST(ComparisonRun, ColoursOfPicturesAreItsNumbers)
   std::set<std::string> kinds;
   for (const VariantResult& result : results.variants)
   {
-    // Blue: false light; red: false shadow; purple, through which the picture shines: traced and
-    // right, as all that is traced is. All else is grey.
+    // Blue: false light. Red: false shadow. Purple, through which the picture shines: traced, hence
+    // right. Other pixels are grey.
     std::map<std::array<int, 3>, std::int64_t> errors = coloursOf(result.errors);
     EXPECT_EQ((errors[{ 64, 128, 255 }]), result.error.falseLight) << result.name;
     EXPECT_EQ((errors[{ 255, 48, 48 }]), result.error.falseShadow) << result.name;

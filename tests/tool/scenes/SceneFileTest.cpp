@@ -152,8 +152,8 @@ TEST_F(SceneFile, ClippingPlanesEncloseWhatIsInFrontOfTheCamera)
 }
 
 //------------------------------------------------------------------------------
-/// Of a perspective camera the second plate is beside the picture; of a parallel one it is in it, and
-/// what lies behind the camera is not.
+/// The second plate is beside a perspective camera's picture, and in a parallel one's. What lies
+/// behind the camera is not in the picture.
 TEST_F(SceneFile, ClippingPlanesOfAParallelCameraEncloseWhatIsInItsPicture)
 {
   writeBytes(this->folder / "model.obj",
