@@ -95,7 +95,7 @@ def main():
     camera.SetViewAngle(29.5)
     renderer.ResetCameraClippingRange()
 
-    window = gnomon.vtkGnomonEGLRenderWindow()  # any vtkRenderWindow will do
+    window = gnomon.vtkGnomonEGLRenderWindow()  # or, with a display, a vtkRenderWindow
     window.SetSize(size)
     window.AddRenderer(renderer)
     picture = vtk.vtkWindowToImageFilter()

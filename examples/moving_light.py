@@ -90,7 +90,7 @@ def main():
     camera.SetViewUp(0, 0, 1)
     renderer.ResetCameraClippingRange()
 
-    window = gnomon.vtkGnomonEGLRenderWindow()  # any vtkRenderWindow will do
+    window = gnomon.vtkGnomonEGLRenderWindow()  # or, with a display, a vtkRenderWindow
     window.SetSize(size)
     window.AddRenderer(renderer)
     picture = vtk.vtkWindowToImageFilter()

@@ -45,7 +45,7 @@ def main():
     names = [a_pass.GetTechniqueName(i) for i in range(a_pass.GetNumberOfTechniques())]
     names.sort(key=lambda name: name in SOFT)  # stable: the rest stays in its order
 
-    window = gnomon.vtkGnomonEGLRenderWindow()  # any vtkRenderWindow will do
+    window = gnomon.vtkGnomonEGLRenderWindow()  # or, with a display, a vtkRenderWindow
     window.SetSize(size)
     camera = vtk.vtkCamera()
     camera.SetPosition(3.4, -7.5, 5.2)

@@ -1,8 +1,7 @@
 """Terrain coloured by its hours of sun on a day, under the sun of one moment of that day.
 
 The date and the place give the suns. vtkGnomonVisibilityFilter counts the hours that each point of
-the terrain sees them, and needs no window. The pass then draws the shadows of the afternoon. In
-December north faces and narrow valleys stay dark all day.
+the terrain sees them, and needs no window. The pass then draws the shadows of the afternoon.
 
 python3 terrain_sun_hours.py [picture.png [width height]]
 """
@@ -35,6 +34,7 @@ def make_terrain():
         noise.EvaluateFunction(terrain.GetPoints().GetData(), layer)
         heights += 0.5 * 0.45**octave * (1 - np.abs(vtk_to_numpy(layer))) ** 2
     vtk_to_numpy(terrain.GetPoints().GetData())[:, 2] = RELIEF * heights
+    terrain.GetPointData().SetNormals(None)  # newer VTK would keep those of the square
     normals = vtk.vtkPolyDataNormals()
     normals.SetInputData(terrain)
     normals.SplittingOff()
@@ -106,7 +106,7 @@ def main():
     camera.SetViewUp(0, 0, 1)
     renderer.ResetCameraClippingRange()
 
-    window = gnomon.vtkGnomonEGLRenderWindow()  # any vtkRenderWindow will do
+    window = gnomon.vtkGnomonEGLRenderWindow()  # or, with a display, a vtkRenderWindow
     window.SetSize(size)
     window.AddRenderer(renderer)
     picture = vtk.vtkWindowToImageFilter()
