@@ -326,11 +326,9 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     wishes.moves = moves;
     wishes.mayRefine =
       this->Interactive == INTERACTIVE_AUTO && this->Internal->restingFrame.mayRefine(window);
-    wishes.isShared = ranks != nullptr;
     if (ranks)
     {
       threads.emplace(tbb::global_control::max_allowed_parallelism, ranks->threads());
-      wishes.smoothTerminators = false;
       measures = wishes.measureStages = ranks->isAny(wishes.measureStages);
       wishes.keepVisibility = ranks->isAny(wishes.keepVisibility);
     }

@@ -83,6 +83,8 @@ void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
   this->frame_.report.numbersChecked = std::exchange(this->checkedBefore_, 0);
   this->frame_.wishes = wishes;
   this->frame_.ranks = ranks;
+  this->frame_.wishes.isShared = ranks != nullptr;
+  this->frame_.wishes.smoothTerminators = wishes.smoothTerminators && !ranks;
   if (!wishes.keepVisibility)
   {
     this->visibility_.dropImages();

@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -97,28 +96,24 @@ std::size_t SharedTracer::tracePicture(const TracedPicture& picture)
       std::min(first + samplesAtOnce, picture.samples()) };
     rays += this->traceOwn(picture, range);
     this->unite_(this->blocked_);
-    const float one = 1.0f;
-    const auto samples = static_cast<std::size_t>(range.end - range.first);
-    const auto darken = [&](std::size_t word)
-    {
-      const std::size_t tile = word / (wordsOfTile * samples);
-      const std::size_t firstPixel = word % wordsOfTile * bitsOfWord;
-      for (std::uint64_t bits = this->blocked_[word]; bits != 0; bits &= bits - 1)
-      {
-        const std::size_t pixel = firstPixel + static_cast<std::size_t>(__builtin_ctzll(bits));
-        const std::size_t x =
-          tile % tilesAcross * TracedTile::columns + pixel % TracedTile::columns;
-        const std::size_t y = tile / tilesAcross * TracedTile::rows + pixel / TracedTile::columns;
-        picture.darken(y * picture.columns() + x, &one);
-      }
-    };
+    const auto words = wordsOfTile * static_cast<std::size_t>(range.end - range.first);
     tbb::parallel_for(std::size_t(0), picture.tiles(),
       [&](std::size_t tile)
       {
-        const std::size_t words = wordsOfTile * samples;
-        for (std::size_t word = tile * words; word < (tile + 1) * words; ++word)
+        const std::size_t firstRow = tile / tilesAcross * TracedTile::rows;
+        const std::size_t firstColumn = tile % tilesAcross * TracedTile::columns;
+        const float one = 1.0f;
+        for (std::size_t word = 0; word < words; ++word)
         {
-          darken(word);
+          const std::size_t firstPixel = word % wordsOfTile * bitsOfWord;
+          for (std::uint64_t bits = this->blocked_[tile * words + word]; bits != 0;
+               bits &= bits - 1)
+          {
+            const std::size_t pixel = firstPixel + static_cast<std::size_t>(__builtin_ctzll(bits));
+            const std::size_t row = firstRow + pixel / TracedTile::columns;
+            picture.darken(
+              row * picture.columns() + firstColumn + pixel % TracedTile::columns, &one);
+          }
         }
       });
   }
