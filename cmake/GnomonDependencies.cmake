@@ -59,10 +59,11 @@ if(GNOMON_BUILD_EXAMPLES)
   find_package(ZLIB REQUIRED)
 endif()
 
-# What tests use where it is there: VTK's widget for Qt. Debian's VTK names the module without it.
+# What tests use where it is there: VTK's widget for Qt 5 or 6. Debian's VTK names the module
+# without it.
 if(GNOMON_BUILD_TESTS AND TARGET VTK::GUISupportQt)
-  find_package(Qt5 QUIET COMPONENTS OpenGL Widgets)
-  if(Qt5_FOUND)
+  find_package(VTK 9.1 QUIET OPTIONAL_COMPONENTS GUISupportQt)
+  if(VTK_GUISupportQt_FOUND)
     find_path(GNOMON_QVTK_INCLUDE_DIR QVTKOpenGLNativeWidget.h
       PATH_SUFFIXES "vtk-${VTK_MAJOR_VERSION}.${VTK_MINOR_VERSION}")
   endif()

@@ -30,7 +30,7 @@ announce()
 }
 
 announce "installing packages"
-install_packages
+install_packages libvtk9-qt-dev # for an example
 packages_end=$SECONDS
 
 announce "checking the format (clang-format -i puts it right)"
