@@ -1,6 +1,7 @@
 // Measure how well `auto` chooses; print lines of CSV.
-// Places: from random places in a scene the camera moves by small steps. `auto` is compared with
-// single techniques; the best one within the allowed error is known only afterwards.
+// Places: from random places in a scene the camera moves by small steps; the error is that of the
+// last frame. At the first places `auto` is compared with single techniques, too; the best one
+// within the allowed error is known only afterwards.
 // Budget: the camera flies around the scene with a time budget.
 
 #include "BenchmarkMain.h"
@@ -35,6 +36,7 @@ struct Options
 {
   std::vector<std::string> scenes;
   int places = 20;
+  int compared = 20; ///< the first of them, at which `auto` is compared
   unsigned int seed = 1;
   int sidePixels = 512;
   double budget = 0.0; ///< as a multiple of plain VTK's frame; 0: none
@@ -129,69 +131,97 @@ public:
 
   Runner& automatic() { return *this->runners_.back(); }
 
-  /// Draw frames of all ways in turn while the camera moves by small steps.
-  void move(vtkCamera* camera)
+  /// Draw frames while the camera moves by small steps.
+  /// @param compares true if all ways draw, in turns; else `auto` alone does
+  void move(vtkCamera* camera, bool compares)
   {
     for (const auto& runner : this->runners_)
     {
       runner->milliseconds.clear();
-      runner->place(camera, 0.0);
-      runner->draw();
     }
+    this->step(camera, 0, compares);
     this->interactive(vtkGnomonShadowPass::INTERACTIVE_ON);
-    for (int step = 1; step <= framesBefore + timedFrames; ++step)
+    for (int step = 1; step <= lastStep; ++step)
     {
-      for (const auto& runner : this->runners_)
-      {
-        runner->place(camera, step * stepDegrees);
-        const double milliseconds = runner->draw();
-        if (step > framesBefore)
-        {
-          runner->milliseconds.push_back(milliseconds);
-        }
-      }
+      this->step(camera, step, compares);
     }
     this->report_ = this->automatic().variant.pass()->GetReport();
     this->interactive(vtkGnomonShadowPass::INTERACTIVE_OFF);
   }
 
   /// Print the choice of the last frame of move(), and the single techniques at that place.
-  void print(int place)
+  void print(int place, vtkCamera* camera, bool compares)
   {
     LightReport chosen;
     for (const LightReport& light : this->report_.lights)
     {
       chosen = light.casts ? light : chosen;
     }
-    const VisibilityImages truth = this->runners_[this->runners_.size() - 2]->visibility();
+    const VisibilityImages truth = this->visibility(this->runners_.size() - 2, camera);
     double best = 0.0;
     std::string bestName;
     double error = std::nan(""); // unless a single technique equals the choice
     for (std::size_t i = 0; i + 1 < this->runners_.size(); ++i)
     {
-      Runner& runner = *this->runners_[i];
-      const VisibilityError off = measureError(runner.visibility(), truth, this->scene_.lights);
-      const double share = off.share(off.wrongPixels());
-      const double milliseconds = median(runner.milliseconds);
-      if (share <= allowedShare && (bestName.empty() || milliseconds < best))
-      {
-        best = milliseconds;
-        bestName = runner.variant.spec().name();
-      }
-      const VariantSpec& spec = runner.variant.spec();
+      const VariantSpec& spec = this->runners_[i]->variant.spec();
       const bool isChosen = spec.technique == chosen.technique &&
         (spec.technique != "nsm" || spec.mapSizeTexels == chosen.mapSizeTexels);
+      if (!compares && !isChosen)
+      {
+        continue;
+      }
+      const VisibilityError off =
+        measureError(this->visibility(i, camera), truth, this->scene_.lights);
+      const double share = off.share(off.wrongPixels());
+      const double milliseconds = median(this->runners_[i]->milliseconds);
+      if (compares && share <= allowedShare && (bestName.empty() || milliseconds < best))
+      {
+        best = milliseconds;
+        bestName = spec.name();
+      }
       error = isChosen ? share : error;
     }
-    const double own = median(this->automatic().milliseconds);
     std::cout << this->scene_.name << "," << place << "," << chosen.technique << ","
-              << chosen.mapSizeTexels << "," << error << "," << own << "," << best << ","
-              << own / best << "," << bestName << ",\"" << this->report_.choice << "\""
-              << std::endl;
+              << chosen.mapSizeTexels << "," << error;
+    if (compares)
+    {
+      const double own = median(this->automatic().milliseconds);
+      std::cout << "," << own << "," << best << "," << own / best << "," << bestName << ",\""
+                << this->report_.choice << "\"" << std::endl;
+    }
+    else
+    {
+      std::cout << ",,,,," << std::endl;
+    }
   }
 
 private:
+  static constexpr int lastStep = framesBefore + timedFrames;
+
   void interactive(int wish) { this->automatic().variant.pass()->SetInteractive(wish); }
+
+  /// Draw a frame of each way, or of `auto` alone.
+  void step(vtkCamera* camera, int step, bool compares)
+  {
+    for (std::size_t i = compares ? 0 : this->runners_.size() - 1; i < this->runners_.size(); ++i)
+    {
+      Runner& runner = *this->runners_[i];
+      runner.place(camera, step * stepDegrees);
+      const double milliseconds = runner.draw();
+      if (step > framesBefore)
+      {
+        runner.milliseconds.push_back(milliseconds);
+      }
+    }
+  }
+
+  /// Return the visibility of the last frame of move().
+  VisibilityImages visibility(std::size_t way, vtkCamera* camera)
+  {
+    Runner& runner = *this->runners_[way];
+    runner.place(camera, lastStep * stepDegrees);
+    return runner.visibility();
+  }
 
   const Scene& scene_;
   std::vector<std::unique_ptr<Runner>> runners_;
@@ -209,8 +239,9 @@ void compareWithSingles(const Scene& scene, const Options& options)
     vtkNew<vtkCamera> camera;
     camera->DeepCopy(start);
     wander(camera, random);
-    ways.move(camera);
-    ways.print(place);
+    const bool compares = place < options.compared;
+    ways.move(camera, compares);
+    ways.print(place, camera, compares);
   }
 }
 
@@ -301,6 +332,11 @@ int run(int argc, char** argv)
   app.add_option("SCENES", options.scenes, "Scenes: built-in names or scene files")->required();
   app.add_option("--places", options.places, "Places of the camera in each scene")
     ->check(CLI::Range(1, 100000))
+    ->capture_default_str();
+  app
+    .add_option("--compared", options.compared,
+      "At how many of them all techniques are timed; elsewhere auto's error alone is measured")
+    ->check(CLI::Range(0, 100000))
     ->capture_default_str();
   app.add_option("--seed", options.seed, "Of the places")->capture_default_str();
   app.add_option("--size", options.sidePixels, "Side of the window in pixels")
