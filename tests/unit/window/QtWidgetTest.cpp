@@ -41,9 +41,9 @@ void processEvents()
 /// What a widget shows, three bytes per pixel, bottom row first.
 std::vector<unsigned char> readPicture(QVTKOpenGLNativeWidget& widget)
 {
-  const QImage image = widget.grabFramebuffer().convertToFormat(QImage::Format_RGB888).mirrored();
+  const QImage image = widget.grabFramebuffer().convertToFormat(QImage::Format_RGB888);
   std::vector<unsigned char> picture;
-  for (int y = 0; y < image.height(); ++y)
+  for (int y = image.height() - 1; y >= 0; --y) // Qt's first row is the top one
   {
     picture.insert(picture.end(), image.scanLine(y), image.scanLine(y) + 3 * image.width());
   }
