@@ -144,8 +144,8 @@ std::vector<std::string> findMisfits(
   return misfits;
 }
 
-/// Have a light's rays traced where several processes draw the picture: maps and edges of one
-/// process know its own casters alone.
+/// Have a light's rays traced where several processes draw the picture: maps of one process know
+/// its own casters alone.
 void shareRays(ShadowLight& light, std::vector<std::string>& misfits)
 {
   if (!isAutomatic(light) && light.technique != "raytraced")
@@ -156,12 +156,6 @@ void shareRays(ShadowLight& light, std::vector<std::string>& misfits)
   }
   light.technique = "raytraced";
   light.estimator.clear();
-  if (light.of<EdgeSettings>().samples > 1)
-  {
-    misfits.push_back(nameOf(light) +
-      ": several processes draw this picture, and share one ray a pixel of an edge");
-    light.of<EdgeSettings>().samples = 1;
-  }
   if (light.texture)
   {
     misfits.push_back(

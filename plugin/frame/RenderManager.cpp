@@ -125,13 +125,19 @@ bool RenderManager::collectLights(
 //------------------------------------------------------------------------------
 void RenderManager::collectOccluders(const vtkRenderState* s)
 {
-  UniteBounds boundsOfAll;
-  if (this->frame_.ranks)
+  OtherParts others;
+  if (Ranks* const ranks = this->frame_.ranks)
   {
-    boundsOfAll = [this](const Bounds& own) { return this->frame_.ranks->united(own); };
+    others.unite = [ranks](const Bounds& own) { return ranks->united(own); };
+    others.gather = [ranks](const std::vector<GlyphCount>& own)
+    {
+      Ranks::Gathered<GlyphCount> all;
+      ranks->gather(own, all);
+      return all.elements;
+    };
   }
   const SnapshotChange change =
-    this->collector_.collect(s->GetRenderer(), this->frame_.wishes.smoothTerminators, boundsOfAll);
+    this->collector_.collect(s->GetRenderer(), this->frame_.wishes.smoothTerminators, others);
   const Occluders& occluders = this->collector_.occluders();
   FrameReport& report = this->frame_.report;
   report.surfacesExtracted = change.extracted;
@@ -140,7 +146,7 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
     report.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
   report.leftOut = this->collector_.leftOut();
   this->names_.clear();
-  if (this->frame_.wishes.keepVisibility && !this->frame_.ranks) // other processes' have others
+  if (this->frame_.wishes.keepVisibility || this->frame_.ranks)
   {
     this->names_ = surfaceNames(s->GetRenderer(), this->collector_.records());
   }
@@ -660,7 +666,7 @@ void RenderManager::abandonFrame()
 void RenderManager::setShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
 {
-  Drawn drawn = this->collector_.drawn(mapper, prop);
+  HookedSurface drawn = this->collector_.drawn(mapper, prop);
   if (this->stageValues_.receiversStage && drawn.index >= 0)
   {
     TriangleNumbers& numbers = this->programs_.numbers;

@@ -137,7 +137,7 @@ private:
 
   Frame frame_;
   OccluderCollector collector_;
-  std::vector<SurfaceName> names_; ///< of the snapshot's surfaces, if visibility is kept
+  std::vector<SurfaceName> names_; ///< of the snapshot's surfaces, if they are needed
   OccluderBuffers buffers_;
   PassPrograms& programs_;
   VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, programs_.library };

@@ -532,7 +532,7 @@ bool ShaderManager::setLayersOrigin(GLuint program)
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::setParameters(vtkShaderProgram* program, const Drawn& drawn)
+void ShaderManager::setParameters(vtkShaderProgram* program, const HookedSurface& drawn)
 {
   const auto handle = static_cast<GLuint>(program->GetHandle());
   if (this->upToDate_.insert(program).second)

@@ -98,7 +98,7 @@ public:
   bool endStage();
 
   /// Set the hook's uniforms of a program that is about to draw.
-  void setParameters(vtkShaderProgram* program, const Drawn& drawn);
+  void setParameters(vtkShaderProgram* program, const HookedSurface& drawn);
 
   /// Return the number of shaders that VTK has rebuilt since the start.
   int rebuilds() const { return this->rebuilds_; }

@@ -1,6 +1,7 @@
 #include "plugin/frame/VisibilityStage.h"
 
 #include "plugin/frame/KeptVisibility.h"
+#include "shadowtech/base/SeenTriangle.h"
 #include "shadowtech/tracing/GpuTracer.h"
 #include "shadowtech/tracing/RefinementSettings.h"
 
@@ -270,6 +271,29 @@ SharedReceivers& VisibilityStage::sharedReceivers()
 }
 
 //------------------------------------------------------------------------------
+/// Shares which surface each pixel shows, once, if lights' edges are smoothed. Surfaces of several
+/// processes are one if their props have the same number in the renderer, and the same cells.
+void VisibilityStage::shareSurfaces(const std::vector<SurfaceName>& names)
+{
+  SharedReceivers& shared = this->sharedReceivers();
+  const bool smooths = std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
+    [](const CastingLight& casting) { return edgeSamplesOf(casting) > 1; });
+  if (smooths && shared.surfaceOfPixel().empty())
+  {
+    ReceiversValue& value = this->frame_.view->receivers;
+    constexpr int kindsOfCells = 6;
+    std::vector<int> numbers;
+    for (const DrawnSurface& drawn : value.drawnSurfaces)
+    {
+      const SurfaceName& name = names[drawn.blocks.front().surface];
+      numbers.push_back(kindsOfCells * name.prop + static_cast<int>(name.cells));
+    }
+    shared.shareSurfaces(*this->frame_.ranks, value.images.fragments, numbers);
+    this->frame_.endStage("visibility: share surfaces");
+  }
+}
+
+//------------------------------------------------------------------------------
 /// The receivers that this process drew, read back once.
 Receivers& VisibilityStage::ownReceivers()
 {
@@ -370,7 +394,11 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
         [](const CastingLight& casting) { return casting.isStale && isOnCpu(casting); }))
   {
     this->updateTracer();
-    if (!this->frame_.ranks) // other processes' casters reach these tiles, too
+    if (this->frame_.ranks)
+    {
+      this->shareSurfaces(names);
+    }
+    else // other processes' casters would reach the tiles, too
     {
       this->storeReceivers();
       this->judge();
@@ -409,9 +437,11 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
     view.layers.darkenBits(this->darkBits_, view.receivers.boxes->receives());
   }
   view.layers.uploadBits();
+  // Other processes' surfaces have other names.
+  const std::vector<SurfaceName> kept = this->frame_.ranks ? std::vector<SurfaceName>() : names;
   bool keeps = this->frame_.wishes.keepVisibility &&
     (frameReport.visibilityComputed > 0 || this->imagesOf_ != &view ||
-      this->images_.visibility.empty() || this->imageNames_ != names);
+      this->images_.visibility.empty() || this->imageNames_ != kept);
   if (this->frame_.ranks)
   {
     keeps = this->frame_.ranks->isAny(keeps);
@@ -420,9 +450,9 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
   {
     const ReceiverPixels& receivers = this->receiversOnCpu().all();
     this->images_ =
-      keepVisibility(this->frame_.lights, view, receivers, this->surfacesOfReceivers(), names);
+      keepVisibility(this->frame_.lights, view, receivers, this->surfacesOfReceivers(), kept);
     this->imagesOf_ = &view;
-    this->imageNames_ = names;
+    this->imageNames_ = kept;
   }
 }
 
@@ -558,9 +588,8 @@ void VisibilityStage::trace(
   this->frame_.endStage("visibility: trace");
   if (edgeSamples > 1)
   {
-    namingLight(light,
-      [&]
-      { this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, report); });
+    namingLight(
+      light, [&] { this->smoothEdges(technique, input, edgeSamples, visibility, report); });
     this->frame_.endStage("visibility: edges");
   }
   hasBit ? layers.fillBit(casting.bit, visibility) : layers.upload(casting.layer, visibility);
@@ -569,6 +598,33 @@ void VisibilityStage::trace(
     this->frame_.view->receivers.deferred.keepShadows(visibility);
   }
   this->frame_.endStage("visibility: upload");
+}
+
+//------------------------------------------------------------------------------
+void VisibilityStage::smoothEdges(CpuScreenTechnique& technique, const ScreenInput& input,
+  std::size_t edgeSamples, std::vector<float>& visibility, LightReport& report)
+{
+  const auto smooth = [&](const PictureOfSeveral* several)
+  {
+    this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, several, report);
+  };
+  Ranks* const ranks = this->frame_.ranks;
+  if (!ranks)
+  {
+    smooth(nullptr);
+    return;
+  }
+  const ReceiversValue& value = this->frame_.view->receivers;
+  const Drawn drawn(value.images, value.drawnSurfaces, this->occluders_, nullptr, nullptr);
+  const PictureOfSeveral several{ drawn, this->tracer_, value.shared.surfaceOfPixel(),
+    value.shared.pixels(), [ranks](std::vector<float>& numbers) { ranks->reduceToLeast(numbers); },
+    [&](const ReceiverPixels& own) -> const ReceiverPixels&
+    {
+      this->sharedSamples_.share(*ranks, own, this->occluders_);
+      return this->sharedSamples_.pixels();
+    },
+    [ranks](std::vector<std::uint64_t>& bits) { ranks->uniteBits(bits); } };
+  smooth(&several);
 }
 
 } // namespace gnomon

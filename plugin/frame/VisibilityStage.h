@@ -35,7 +35,7 @@ public:
   void findStale();
 
   /// Computes what is stale, and keeps a copy of all if asked to.
-  /// @param names of the snapshot's surfaces, if asked to
+  /// @param names of the snapshot's surfaces, if visibility is kept or several processes draw
   /// @throws std::runtime_error for a tracer that there is not, or has no room
   void compute(const std::vector<SurfaceName>& names);
 
@@ -52,7 +52,10 @@ public:
   void updateTracer();
   const FrameTracer& tracer() const { return this->tracer_; }
   ShadowTracer& shadowTracer() { return this->tracer_.tracer(); } ///< of the last update
-  std::size_t bytesOfRays() const { return this->tracer_.bytesOfRays() + this->edges_.bytes(); }
+  std::size_t bytesOfRays() const
+  {
+    return this->tracer_.bytesOfRays() + this->edges_.bytes() + this->sharedSamples_.bytes();
+  }
 
 private:
   ValueKey keyOf(const CastingLight& casting) const;
@@ -64,6 +67,9 @@ private:
   Receivers& ownReceivers();
   void readImages();
   SharedReceivers& sharedReceivers();
+  void shareSurfaces(const std::vector<SurfaceName>& names);
+  void smoothEdges(CpuScreenTechnique& technique, const ScreenInput& input, std::size_t edgeSamples,
+    std::vector<float>& visibility, LightReport& report);
   const Occluders& surfacesOfReceivers();
   void storeReceivers();
   void judge();
@@ -80,7 +86,8 @@ private:
   ShaderLibrary& shaders_;
   FrameTracer tracer_;
   EdgeSamples edges_;
-  std::vector<float> onCpu_; ///< a light's; kept, as new memory costs more than old
+  SharedReceivers sharedSamples_; ///< of edges, if several processes draw the picture
+  std::vector<float> onCpu_;      ///< a light's; kept, as new memory costs more than old
   ///@{
   /// Of this frame: what is known of its lights' tiles, and the bits of those that are dark.
   std::vector<std::optional<TileVerdicts>> verdicts_;

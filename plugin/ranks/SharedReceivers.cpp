@@ -3,6 +3,7 @@
 #include "shadowtech/base/Bytes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
@@ -91,10 +92,35 @@ void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occlu
 }
 
 //------------------------------------------------------------------------------
+void SharedReceivers::shareSurfaces(
+  Ranks& ranks, std::vector<glm::vec2>& fragments, const std::vector<int>& numbers)
+{
+  std::vector<float> shown(fragments.size(), 0.0f);
+  for (std::size_t pixel = 0; pixel < fragments.size(); ++pixel)
+  {
+    glm::vec2& fragment = fragments[pixel];
+    if (this->pixels_.surface[pixel] != ReceiverPixels::notCovered && !this->isOwn_[pixel])
+    {
+      fragment = glm::vec2(0.0f);
+    }
+    const auto drawn = static_cast<std::size_t>(std::abs(fragment.x)); // from 1
+    if (drawn > 0 && drawn <= numbers.size())
+    {
+      shown[pixel] = -1.0f - static_cast<float>(numbers[drawn - 1]);
+    }
+  }
+  ranks.reduceToLeast(shown);
+  this->surfaceOfPixel_.resize(shown.size());
+  std::transform(shown.begin(), shown.end(), this->surfaceOfPixel_.begin(),
+    [](float number) { return glm::vec2(number, 0.0f); });
+}
+
+//------------------------------------------------------------------------------
 std::size_t SharedReceivers::bytes() const
 {
   return this->pixels_.bytes() + bytesOf(this->claims_) + bytesOf(this->packed_) +
-    bytesOf(this->allClaims_.elements) + bytesOf(this->all_.elements) + this->isOwn_.capacity() / 8;
+    bytesOf(this->allClaims_.elements) + bytesOf(this->all_.elements) +
+    bytesOf(this->surfaceOfPixel_) + this->isOwn_.capacity() / 8;
 }
 
 //------------------------------------------------------------------------------

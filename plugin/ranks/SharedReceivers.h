@@ -32,8 +32,18 @@ public:
   /// @param snapshot of the rank
   /// @throws RankFailure
   void share(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot);
+  /// Share which surface each pixel shows; collective. Not again before clear().
+  /// @param fragments as keepNearest() left them; set to 0 where another rank's receiver was taken
+  /// @param numbers by drawn surface, a number that is the same on all ranks, from 0
+  /// @throws RankFailure
+  void shareSurfaces(
+    Ranks& ranks, std::vector<glm::vec2>& fragments, const std::vector<int>& numbers);
   /// Forget the receivers, but keep their memory: new memory takes longer than they do.
-  void clear() { this->receivers_.reset(); }
+  void clear()
+  {
+    this->receivers_.reset();
+    this->surfaceOfPixel_.clear();
+  }
   /// True if there are receivers. What follows is valid then.
   bool areShared() const { return this->receivers_.has_value(); }
 
@@ -45,6 +55,9 @@ public:
   /// centre.
   const Occluders& surfaces() const { return this->surfaces_; }
 
+  /// Return x: a number of the surface that a pixel shows, negative; 0: none. Empty until
+  /// shareSurfaces().
+  const std::vector<glm::vec2>& surfaceOfPixel() const { return this->surfaceOfPixel_; }
   /// Return how many of the receivers are this rank's, and which.
   std::size_t ownCount() const { return this->ownCount_; }
   bool isOwn(std::size_t pixel) const { return this->isOwn_[pixel]; }
@@ -73,6 +86,7 @@ private:
   std::size_t ownCount_ = 0;
   std::vector<bool> isOwn_; ///< by pixel
   std::size_t ties_ = 0;
+  std::vector<glm::vec2> surfaceOfPixel_;
 };
 
 } // namespace gnomon

@@ -189,7 +189,8 @@ const DrawnLookup::HeldSurface* DrawnLookup::match(
 }
 
 //------------------------------------------------------------------------------
-Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders)
+HookedSurface DrawnLookup::find(
+  vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders)
 {
   const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
   if (!cells || !drawnAsSurface(prop, *cells))
@@ -198,7 +199,7 @@ Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluder
   }
   if (prop->IsRenderingTranslucentPolygonalGeometry())
   {
-    Drawn drawn;
+    HookedSurface drawn;
     drawn.receives = this->translucentReceivers_.count(prop) > 0;
     drawn.translucent = true;
     return drawn;
@@ -208,13 +209,14 @@ Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluder
   {
     return {};
   }
-  const auto [answer, isNew] = this->answers_.emplace(Question{ held, mapper, *cells }, Drawn());
+  const auto [answer, isNew] =
+    this->answers_.emplace(Question{ held, mapper, *cells }, HookedSurface());
   if (!isNew)
   {
     return answer->second;
   }
 
-  Drawn& drawn = answer->second;
+  HookedSurface& drawn = answer->second;
   // An unexpected level of detail receives, too. Drawing the receivers changes the times by which
   // VTK chooses levels, so VTK may shade another level than it drew there.
   drawn.receives = occluders.surfaces[held->front().surface].receives;

@@ -27,7 +27,7 @@ namespace gnomon
 struct Occluders;
 
 /// The hook's facts about a surface that VTK is about to draw.
-struct Drawn
+struct HookedSurface
 {
   int index = -1; ///< into the drawn surfaces; -1 if the snapshot does not hold it
   bool receives = false;
@@ -68,7 +68,7 @@ public:
   void beginFrame(const std::vector<const vtkProp*>& translucentReceivers);
   /// Return the facts about the surface that VTK is about to draw. A mapper's lines and points are
   /// not held. Surfaces of the translucent pass are not looked up in the snapshot.
-  Drawn find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders);
+  HookedSurface find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders);
   const std::vector<DrawnSurface>& drawnSurfaces() const { return this->drawnSurfaces_; }
 
   /// Return the bytes of memory in use.
@@ -115,7 +115,7 @@ private:
 
   std::vector<HeldSurfaces> held_;
   std::unordered_map<Place, std::size_t, PlaceHash> heldAt_; ///< indices into held_
-  std::unordered_map<Question, Drawn, QuestionHash> answers_;
+  std::unordered_map<Question, HookedSurface, QuestionHash> answers_;
   std::unordered_set<const vtkProp*> translucentReceivers_;
   std::unordered_set<const HeldSurface*> taken_; ///< glyphs whose helper is known
   std::vector<DrawnSurface> drawnSurfaces_;

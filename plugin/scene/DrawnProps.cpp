@@ -164,10 +164,18 @@ public:
     this->drawn_.props.reserve(count);
     this->drawn_.blocks.reserve(count);
   }
-  void addViewProp(vtkProp* viewProp);
+  /// @param number of the prop in vtkRenderer::GetViewProps()
+  void addViewProp(vtkProp* viewProp, int number)
+  {
+    const std::size_t first = this->drawn_.props.size();
+    this->addViewProp(viewProp);
+    std::for_each(this->drawn_.props.begin() + static_cast<std::ptrdiff_t>(first),
+      this->drawn_.props.end(), [number](DrawnProp& prop) { prop.number = number; });
+  }
   DrawnProps take();
 
 private:
+  void addViewProp(vtkProp* viewProp);
   void addPlain(const PlainProp& plain);
   void addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix);
   void addImage(vtkProp* viewProp, std::size_t path, vtkImageSlice* slice, vtkMatrix4x4* matrix);
@@ -629,9 +637,10 @@ DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory)
   vtkPropCollection* viewProps = renderer->GetViewProps();
   vtkCollectionSimpleIterator cookie;
   viewProps->InitTraversal(cookie);
+  int number = 0;
   while (vtkProp* viewProp = viewProps->GetNextProp(cookie))
   {
-    finder.addViewProp(viewProp);
+    finder.addViewProp(viewProp, number++);
   }
   memory.plainProps.endFrame();
   return finder.take();

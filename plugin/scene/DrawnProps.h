@@ -58,6 +58,7 @@ struct DrawnBlock
 struct DrawnProp
 {
   vtkProp* viewProp = nullptr; ///< the renderer's prop: the actor itself, or the assembly above it
+  int number = -1;             ///< the view prop's in vtkRenderer::GetViewProps()
   std::size_t path = 0;        ///< index among the view prop's paths
   vtkActor* actor = nullptr;   ///< as VTK hands it to a render pass: for followers, an inner one
   vtkMapper* mapper = nullptr;

@@ -11,7 +11,7 @@ namespace gnomon
 
 //------------------------------------------------------------------------------
 SnapshotChange OccluderCollector::collect(
-  vtkRenderer* renderer, bool readsNormals, const UniteBounds& boundsOfAll)
+  vtkRenderer* renderer, bool readsNormals, const OtherParts& others)
 {
   DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
   this->lookup_.beginFrame(drawn.translucentReceivers);
@@ -23,7 +23,7 @@ SnapshotChange OccluderCollector::collect(
   {
     surface.block.normals = readsNormals ? surface.block.normals : nullptr;
   }
-  const SnapshotChange change = this->surfaces_.update(wanted, boundsOfAll);
+  const SnapshotChange change = this->surfaces_.update(wanted, others);
   if (change.any)
   {
     this->indexProps(wanted);
@@ -80,7 +80,7 @@ std::size_t OccluderCollector::bytes() const
 }
 
 //------------------------------------------------------------------------------
-Drawn OccluderCollector::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
+HookedSurface OccluderCollector::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
 {
   return this->lookup_.find(mapper, prop, this->occluders());
 }

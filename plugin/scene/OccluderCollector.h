@@ -40,9 +40,9 @@ public:
   /// Brings the snapshot up to date with the renderer's props. Updates the mappers' inputs first,
   /// as VTK would when drawing.
   /// @param readsNormals whether surfaces get the normals that VTK shades them with
-  /// @param boundsOfAll from which the snapshot's centre follows
+  /// @param others what other processes hold of the scene
   SnapshotChange collect(
-    vtkRenderer* renderer, bool readsNormals = false, const UniteBounds& boundsOfAll = {});
+    vtkRenderer* renderer, bool readsNormals = false, const OtherParts& others = {});
 
   const Occluders& occluders() const { return this->surfaces_.occluders(); }
   /// One for each of the snapshot's surfaces.
@@ -69,7 +69,7 @@ public:
   /// Finds the surface that `mapper` (a mapper, or its helper) draws for `prop`, with the matrix
   /// that the prop has at this moment. Called while VTK draws, from
   /// vtkOpenGLRenderPass::SetShaderParameters.
-  Drawn drawn(vtkAbstractMapper* mapper, vtkProp* prop);
+  HookedSurface drawn(vtkAbstractMapper* mapper, vtkProp* prop);
 
   /// How primitive numbers of drawn surfaces lead to the snapshot (see projectReceivers). Entries
   /// are added by drawn(), and stay until the next collect().

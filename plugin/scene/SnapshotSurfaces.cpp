@@ -4,6 +4,7 @@
 #include "shadowtech/base/SmoothFacet.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -33,7 +34,7 @@ void takeFacets(const SurfaceRecord& record, Surface& surface)
 
 //------------------------------------------------------------------------------
 SnapshotChange SnapshotSurfaces::update(
-  std::vector<WantedSurface>& wanted, const UniteBounds& boundsOfAll)
+  std::vector<WantedSurface>& wanted, const OtherParts& others)
 {
   SnapshotChange change;
   bool otherList = wanted.size() != this->records_.size();
@@ -55,13 +56,17 @@ SnapshotChange SnapshotSurfaces::update(
     moved = moved || !record || !isWhere(*record, *surface.prop, surface.block);
   }
 
+  if (others.gather)
+  {
+    change.extracted += this->countInstances(wanted, others);
+  }
   bool positionsChanged = false;
   bool trianglesChanged = otherList;
   change.any = otherList || moved || change.extracted > 0;
   bool recentred = false;
-  if (change.any || boundsOfAll)
+  if (change.any || others.unite)
   {
-    recentred = this->updateCentre(wanted, boundsOfAll);
+    recentred = this->updateCentre(wanted, others);
     change.any = change.any || recentred;
   }
   if (change.any)
@@ -94,9 +99,59 @@ SnapshotChange SnapshotSurfaces::update(
 }
 
 //------------------------------------------------------------------------------
+/// Count the instances that all processes have of each glyph. Glyphs that are held otherwise than
+/// this asks for are read again.
+/// @return the number of surfaces read
+int SnapshotSurfaces::countInstances(std::vector<WantedSurface>& wanted, const OtherParts& others)
+{
+  const auto recordOf = [&](const WantedSurface& surface) -> SurfaceRecord&
+  { return surface.fresh ? surface.fresh->record : this->records_[surface.old]; };
+  const auto countOf = [&](const WantedSurface& surface)
+  {
+    return GlyphCount{ surface.prop->number, static_cast<std::int64_t>(surface.key.path),
+      surface.key.glyphSource, static_cast<std::int64_t>(surface.key.cells),
+      static_cast<std::int64_t>(recordOf(surface).modelFromInstance.size()) };
+  };
+  std::vector<GlyphCount> own;
+  for (const WantedSurface& surface : wanted)
+  {
+    if (surface.key.glyphPoints)
+    {
+      own.push_back(countOf(surface));
+    }
+  }
+  const std::vector<GlyphCount> all = others.gather(own);
+  int read = 0;
+  for (WantedSurface& surface : wanted)
+  {
+    if (!surface.key.glyphPoints)
+    {
+      continue;
+    }
+    const GlyphCount counted = countOf(surface);
+    const std::size_t instances = std::accumulate(all.begin(), all.end(), std::size_t(0),
+      [&](std::size_t sum, const GlyphCount& other)
+      {
+        return sum +
+          (other.isSameGlyph(counted) ? static_cast<std::size_t>(other.instances) : std::size_t(0));
+      });
+    SurfaceRecord& record = recordOf(surface);
+    const auto isCheaper = [&](std::size_t count)
+    { return areInstancesCheaper(record.trianglesOfSource, count); };
+    if (!surface.fresh && isCheaper(instances) != isCheaper(record.instancesOfAll))
+    {
+      this->read(surface, record.shapeTime);
+      ++read;
+    }
+    recordOf(surface).instancesOfAll = instances;
+  }
+  return read;
+}
+
+//------------------------------------------------------------------------------
 /// Set the centre to that of the present box; true if it moved.
 bool SnapshotSurfaces::updateCentre(
-  const std::vector<WantedSurface>& wanted, const UniteBounds& boundsOfAll)
+  const std::vector<WantedSurface>& wanted, const OtherParts& others)
 {
   Bounds boundsWorld;
   for (const WantedSurface& surface : wanted)
@@ -105,9 +160,9 @@ bool SnapshotSurfaces::updateCentre(
       surface.fresh ? surface.fresh->record : this->records_[surface.old];
     boundsWorld.add(transformed(record.boundsModel, surface.prop->worldFromModel));
   }
-  if (boundsOfAll)
+  if (others.unite)
   {
-    boundsWorld = boundsOfAll(boundsWorld);
+    boundsWorld = others.unite(boundsWorld);
   }
   const glm::dvec3 old = std::exchange(this->occluders_.centreWorld, snapshotCentre(boundsWorld));
   return this->occluders_.centreWorld != old;

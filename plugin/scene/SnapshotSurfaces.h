@@ -12,9 +12,29 @@
 namespace gnomon
 {
 
-/// Returns the box around a snapshot's surfaces and those that other processes hold of the scene,
-/// from the box around the snapshot's. Empty: there are no others.
-using UniteBounds = std::function<Bounds(const Bounds&)>;
+/// How many instances a process has of a glyph. Glyphs of several processes are one if the rest is
+/// equal.
+struct GlyphCount
+{
+  std::int64_t prop; ///< DrawnProp::number
+  std::int64_t path; ///< DrawnProp::path
+  std::int64_t source;
+  std::int64_t cells; ///< SurfaceCells
+  std::int64_t instances;
+
+  bool isSameGlyph(const GlyphCount& other) const
+  {
+    return this->prop == other.prop && this->path == other.path && this->source == other.source &&
+      this->cells == other.cells;
+  }
+};
+
+/// What other processes hold of the scene, from what this one does. Empty: there are no others.
+struct OtherParts
+{
+  std::function<Bounds(const Bounds&)> unite; ///< the box around all
+  std::function<std::vector<GlyphCount>(const std::vector<GlyphCount>&)> gather; ///< those of all
+};
 
 /// The result of one update of the snapshot.
 struct SnapshotChange
@@ -30,8 +50,8 @@ class SnapshotSurfaces
 {
 public:
   /// Make the snapshot hold these surfaces, in this order.
-  /// @param boundsOfAll returns the box that sets the centre, from that of these surfaces
-  SnapshotChange update(std::vector<WantedSurface>& wanted, const UniteBounds& boundsOfAll);
+  /// @param others from all bounds follows the centre, from all counts which glyphs are instances
+  SnapshotChange update(std::vector<WantedSurface>& wanted, const OtherParts& others);
 
   const Occluders& occluders() const { return this->occluders_; }
   /// Return the records, one for each of the snapshot's surfaces.
@@ -47,7 +67,8 @@ private:
     OtherTriangles ///< waits in WantedSurface::fresh
   };
 
-  bool updateCentre(const std::vector<WantedSurface>& wanted, const UniteBounds& boundsOfAll);
+  int countInstances(std::vector<WantedSurface>& wanted, const OtherParts& others);
+  bool updateCentre(const std::vector<WantedSurface>& wanted, const OtherParts& others);
   void read(WantedSurface& wanted, vtkMTimeType time);
   Outcome updateSurface(WantedSurface& wanted, bool recentred, SnapshotChange& change);
   bool transformAgain(const WantedSurface& wanted);

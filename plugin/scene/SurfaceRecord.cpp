@@ -74,7 +74,6 @@ void expandInstances(FreshSurface& fresh)
   std::vector<glm::uvec3>& triangles = fresh.triangles;
   const std::size_t count = triangles.size();
   const std::size_t instances = fresh.record.modelFromInstance.size();
-  fresh.record.keptAsInstances = false;
   if (fresh.record.tooManyTriangles)
   {
     triangles.clear();
@@ -145,6 +144,7 @@ bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3&
   dropDefects(fresh);
   clearNonFinite(positions, fresh.vertexCount);
   recordPlaces(fresh.instances, positions, fresh.vertexCount, record);
+  record.keptAsInstances = true;
   return true;
 }
 
@@ -245,10 +245,10 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
     }
     const std::size_t instances = record.modelFromInstance.size();
     record.tooManyTriangles = drawn.triangles.size() * instances > mostGlyphTriangles;
-    record.keptAsInstances = !record.tooManyTriangles && prop.clipPlanes.empty() &&
-      !drawn.boundsModel.empty() && areInstancesCheaper(drawn.triangles.size(), instances);
-    if (record.keptAsInstances)
+    record.instancesOfAll = instances;
+    if (!record.tooManyTriangles && prop.clipPlanes.empty() && !drawn.boundsModel.empty())
     {
+      record.trianglesOfSource = drawn.triangles.size();
       record.sourceCentre = drawn.boundsModel.centre();
       record.boundsSource = { drawn.boundsModel.lower - record.sourceCentre,
         drawn.boundsModel.upper - record.sourceCentre };
@@ -327,7 +327,8 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
     recordPlaces(fresh.instances, positions.data(), positions.size(), record);
     return;
   }
-  if (record.keptAsInstances && placeSource(fresh, block, centreWorld))
+  if (areInstancesCheaper(record.trianglesOfSource, record.instancesOfAll) &&
+    placeSource(fresh, block, centreWorld))
   {
     return;
   }

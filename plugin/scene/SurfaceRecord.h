@@ -107,6 +107,10 @@ struct SurfaceRecord
   /// glyph.
   std::vector<glm::mat4> modelFromInstance{ glm::mat4(1.0f) };
   bool tooManyTriangles = false; ///< more than the bound, so it has none
+  /// Of a glyph that the snapshot may hold as instances: the source's triangles, and the instances
+  /// in all processes that draw the picture. 0: it may not.
+  std::size_t trianglesOfSource = 0;
+  std::size_t instancesOfAll = 0;
   /// True if the snapshot holds it as instances of a source. The origin of source coordinates is
   /// sourceCentre in the polydata.
   bool keptAsInstances = false;

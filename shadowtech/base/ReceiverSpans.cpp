@@ -61,7 +61,9 @@ void meetSpan(const SeenTriangle& seen,
   }
 }
 
-/// Compute the receivers of a span on its triangle.
+} // namespace
+
+//------------------------------------------------------------------------------
 void projectFlat(
   const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers)
 {
@@ -101,8 +103,6 @@ void projectFlat(
     }
   }
 }
-
-} // namespace
 
 //------------------------------------------------------------------------------
 void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const Span& span,

@@ -42,6 +42,10 @@ inline TrianglePoint meetTriangle(
       seen.insideEdge[2].row(y).at(x) >= 0.0 && along > 0.0 };
 }
 
+/// Compute the receivers of a span that shows a triangle, on the triangle.
+void projectFlat(
+  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers);
+
 /// Compute the receivers of a span that shows a triangle.
 /// @param freeSegments not null if the triangle has smooth normals
 void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const FreeSegments* freeSegments,

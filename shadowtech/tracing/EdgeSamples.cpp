@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 namespace gnomon
 {
@@ -19,6 +21,7 @@ namespace
 {
 
 constexpr std::size_t mostSamples = 64;
+constexpr std::size_t pixelsAtOnce = 256;
 constexpr std::size_t probes = 4; ///< samples that decide if a pixel between surfaces needs all
 
 /// Return the Hammersley points of a pixel. Each row and each column holds one sample, so edges
@@ -48,6 +51,13 @@ bool canBeLit(std::uint8_t ofReceiver)
   return traced != TracedClass::Unreached && traced != TracedClass::NoReceiver;
 }
 
+/// The surfaces that a picture shows.
+struct ShownSurfaces
+{
+  int width, height;
+  const std::vector<glm::vec2>& numbers; ///< x: the pixel's surface
+};
+
 /// The edge pixels of a picture, in order.
 struct EdgePixels
 {
@@ -59,10 +69,10 @@ struct EdgePixels
 class ShownRow
 {
 public:
-  void look(const ReceiverImages& images, const std::vector<float>& visibility,
+  void look(const ShownSurfaces& surfaces, const std::vector<float>& visibility,
     const std::vector<std::uint8_t>& classes, int row)
   {
-    const int width = images.width;
+    const int width = surfaces.width;
     const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
     const auto places = static_cast<std::size_t>(width) + 2;
     this->ownSurface_.resize(places);
@@ -75,7 +85,7 @@ public:
     int* const kinds = this->ownKinds_.data() + 1;
     for (int x = 0; x < width; ++x)
     {
-      surface[x] = images.fragments[first + static_cast<std::size_t>(x)].x;
+      surface[x] = surfaces.numbers[first + static_cast<std::size_t>(x)].x;
     }
     for (int x = 0; x < width; ++x)
     {
@@ -118,32 +128,32 @@ public:
 private:
   static constexpr int lit = 1, dark = 2;
 
-  std::vector<float> ownSurface_;                 ///< ReceiverImages::fragments
+  std::vector<float> ownSurface_;                 ///< ShownSurfaces::numbers
   std::vector<float> leastSurface_, mostSurface_; ///< of three pixels
   std::vector<int> ownKinds_;                     ///< lit, dark or neither
   std::vector<int> kinds_;                        ///< of three pixels, combined by or
 };
 
 /// Return the edge pixels of a band of rows.
-EdgePixels findEdges(const ReceiverImages& images, const std::vector<float>& visibility,
+EdgePixels findEdges(const ShownSurfaces& surfaces, const std::vector<float>& visibility,
   const std::vector<std::uint8_t>& classes, int firstRow, int endRow)
 {
   EdgePixels found;
   std::array<ShownRow, 3> rows; // by number modulo three
   const auto rowAt = [&](int row) -> ShownRow&
-  { return rows[static_cast<std::size_t>(glm::clamp(row, 0, images.height - 1) % 3)]; };
+  { return rows[static_cast<std::size_t>(glm::clamp(row, 0, surfaces.height - 1) % 3)]; };
   for (int row = std::max(firstRow - 1, 0); row < std::min(firstRow + 1, endRow); ++row)
   {
-    rowAt(row).look(images, visibility, classes, row);
+    rowAt(row).look(surfaces, visibility, classes, row);
   }
   for (int row = firstRow; row < endRow; ++row)
   {
-    if (row + 1 < images.height)
+    if (row + 1 < surfaces.height)
     {
-      rowAt(row + 1).look(images, visibility, classes, row + 1);
+      rowAt(row + 1).look(surfaces, visibility, classes, row + 1);
     }
     const std::size_t firstPixel =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(images.width);
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(surfaces.width);
     ShownRow::findEdges(rowAt(row - 1), rowAt(row), rowAt(row + 1), firstPixel, found);
   }
   return found;
@@ -173,166 +183,161 @@ struct SampleBlocks
     const std::size_t perRow = columns / this->side;
     return (block / perRow * this->side + row) * columns + block % perRow * this->side;
   }
+  /// Return the index of a block's n-th sample.
+  std::size_t sample(std::size_t block, std::size_t n) const
+  {
+    return this->firstOfRow(block, n / this->side) + n % this->side;
+  }
 
   std::size_t side; ///< of a square
 };
 
 /// Computes the receivers of samples, pixel by pixel.
+///
+/// A sample's receiver lies on the first triangle that holds it, in this *order*: 0 is the pixel's
+/// own, then come those of its neighbours, row by row.
 class SamplePlacing
 {
 public:
-  /// @param hiders tests if casters hide samples from the camera; null: none do
-  SamplePlacing(const Drawn& drawn, const FreeSegments* hiders,
-    const std::vector<glm::dvec2>& places, ReceiverPixels& receivers)
+  /// @param several null if this process draws the picture alone
+  /// @param orders set to the samples' orders
+  SamplePlacing(const Drawn& drawn, const PictureOfSeveral* several,
+    const std::vector<glm::dvec2>& places, ReceiverPixels& receivers, std::vector<float>& orders)
     : drawn_(drawn)
-    , hiders_(hiders)
+    , several_(several)
+    , surfaces_(several ? several->surfaces : drawn.images.fragments)
     , places_(places)
+    , blocks_(places.size())
     , receivers_(receivers)
+    , orders_(orders)
   {
     this->samples_.resize(static_cast<int>(places.size()), 1);
+    this->centre_.resize(1, 1);
   }
 
   /// @param block the pixel's index among the pixels with samples
-  void place(std::uint32_t pixel, std::size_t block)
+  /// @return true if the pixel is at an outline: a neighbour shows something that does not continue
+  /// its surface
+  bool place(std::uint32_t pixel, std::size_t block)
   {
     const auto width = static_cast<std::uint32_t>(this->drawn_.images.width);
-    const int x = static_cast<int>(pixel % width);
-    const int y = static_cast<int>(pixel / width);
-    this->pixel_ = { x, y };
+    this->pixel_ = { static_cast<int>(pixel % width), static_cast<int>(pixel / width) };
+    this->block_ = block;
     this->next_ = 0;
     this->remaining_ = this->places_.size();
     std::iota(this->missing_.begin(), this->missing_.begin() + this->remaining_, 0);
-
-    const glm::vec2 own = this->drawn_.images.fragments[pixel];
-    const SeenTriangle& seen = this->cache_.find(this->drawn_, own);
-    if (seen.finite)
+    const std::optional<Shown> shown = this->shownAt(this->pixel_);
+    if (!shown)
     {
-      this->look(seen);
-      this->fill(seen);
-      this->fillFromNeighbours(own);
-      if (this->hiders_ && this->isAtOutline(own))
-      {
-        this->dropHidden();
-      }
+      return false;
     }
-    leaveUncovered({ 0.0, 0.0, this->remaining_, this->next_ }, this->samples_);
-    this->copyTo(block);
+    const PixelRays& rays = this->drawn_.images.rays;
+    const glm::dvec3 direction = rays.direction(this->pixel_.x, this->pixel_.y);
+    const double t =
+      glm::dot(shown->position - rays.origin(this->pixel_.x, this->pixel_.y), direction) /
+      glm::dot(direction, direction);
+    this->shown_ = *shown;
+    this->pixelSide_ = glm::length(rays.originPerRow + t * rays.directionPerRow);
+    const SeenTriangle& own = this->cache_.find(this->drawn_, this->drawn_.images.fragments[pixel]);
+    this->isSolid_ = own.finite && own.solid;
+    this->fill(own, 0.0f);
+    this->fillFromNeighbours(pixel);
+    return this->isAtOutline(pixel);
   }
 
 private:
-  void copyTo(std::size_t block)
+  /// What a pixel's centre shows.
+  struct Shown
   {
-    const SampleBlocks blocks(this->places_.size());
-    for (std::size_t row = 0; row < blocks.side; ++row)
+    glm::dvec3 position, normal; ///< of the receiver, as the picture has it on a flat triangle
+  };
+  std::optional<Shown> shownAt(const glm::ivec2& at)
+  {
+    const std::size_t pixel = this->pixelAt(at);
+    const ReceiverPixels* receivers = &this->centre_;
+    std::size_t i = 0;
+    if (this->several_)
     {
-      const std::size_t from = row * blocks.side;
-      const std::size_t to = blocks.firstOfRow(block, row);
-      const auto copy = [&](auto array)
-      { std::copy_n(&(this->samples_.*array)[from], blocks.side, &(this->receivers_.*array)[to]); };
-      for (const auto plane : ReceiverPixels::planes)
-      {
-        copy(plane);
-      }
-      copy(&ReceiverPixels::surface);
-      copy(&ReceiverPixels::lifted);
+      receivers = &this->several_->receivers;
+      i = pixel;
     }
+    else
+    {
+      const Span span{ static_cast<double>(at.x), static_cast<double>(at.y), 1, 0 };
+      const SeenTriangle& seen =
+        this->cache_.find(this->drawn_, this->drawn_.images.fragments[pixel]);
+      const PixelRays& rays = this->drawn_.images.rays;
+      !seen.finite   ? leaveUncovered(span, this->centre_)
+        : seen.solid ? projectSolid(seen, rays, span, this->centre_)
+                     : projectFlat(seen, rays, span, this->centre_);
+    }
+    if (receivers->surface[i] == ReceiverPixels::notCovered)
+    {
+      return std::nullopt;
+    }
+    return Shown{ { receivers->positionX[i], receivers->positionY[i], receivers->positionZ[i] },
+      { receivers->normalX[i], receivers->normalY[i], receivers->normalZ[i] } };
   }
 
-  /// Remember the surface that the pixel shows.
-  void look(const SeenTriangle& seen)
+  std::size_t pixelAt(const glm::ivec2& at) const
   {
-    const PixelRays& rays = this->drawn_.images.rays;
-    const Met met = this->meet(seen, this->pixel_);
-    this->normal_ = met.normal;
-    this->position_ = met.position;
-    this->pixelSide_ = glm::length(rays.originPerRow + met.t * rays.directionPerRow);
+    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(this->drawn_.images.width) +
+      static_cast<std::size_t>(at.x);
   }
 
-  /// Call visit(fragment, pixel) for the fragments of the pixels around it, skipping most
-  /// repetitions.
+  /// Call visit(neighbour, order) for the pixels around it.
   template <typename Visit>
-  void visitNeighbours(const glm::vec2& own, const Visit& visit) const
+  void visitNeighbours(const Visit& visit) const
   {
-    const ReceiverImages& images = this->drawn_.images;
-    glm::vec2 before = own;
+    int order = 1;
     for (int dy = -1; dy <= 1; ++dy)
     {
       for (int dx = -1; dx <= 1; ++dx)
       {
-        const int x = glm::clamp(this->pixel_.x + dx, 0, images.width - 1);
-        const int y = glm::clamp(this->pixel_.y + dy, 0, images.height - 1);
-        const glm::vec2& fragment =
-          images.fragments[static_cast<std::size_t>(y) * static_cast<std::size_t>(images.width) +
-            static_cast<std::size_t>(x)];
-        if (fragment != own && fragment != before)
-        {
-          before = fragment;
-          visit(fragment, glm::dvec2(x, y));
-        }
+        visit(glm::ivec2(glm::clamp(this->pixel_.x + dx, 0, this->drawn_.images.width - 1),
+                glm::clamp(this->pixel_.y + dy, 0, this->drawn_.images.height - 1)),
+          order++);
       }
     }
   }
 
-  /// True if a neighbour shows something that does not continue the pixel's surface.
-  bool isAtOutline(const glm::vec2& own)
+  bool isAtOutline(std::size_t own)
   {
     bool isOutline = false;
-    this->visitNeighbours(own,
-      [&](const glm::vec2& fragment, const glm::dvec2& pixel)
+    this->visitNeighbours(
+      [&](const glm::ivec2& at, int)
       {
-        if (!isOutline)
+        const std::size_t pixel = this->pixelAt(at);
+        if (!isOutline && (this->isSolid_ || !this->showSame(pixel, own)))
         {
-          const SeenTriangle& seen = this->cache_.find(this->drawn_, fragment);
-          isOutline = fragment.x != own.x || !seen.finite || !this->goesOn(this->meet(seen, pixel));
+          const std::optional<Shown> shown = this->shownAt(at);
+          isOutline = this->surfaces_[pixel].x != this->surfaces_[own].x || !shown ||
+            !this->goesOn(shown->position, shown->normal);
         }
       });
     return isOutline;
   }
 
-  /// Drop samples that casters hide from the camera.
-  void dropHidden()
+  /// True if two pixels are known to show the same triangle or solid.
+  bool showSame(std::size_t pixel, std::size_t other) const
   {
-    const PixelRays& rays = this->drawn_.images.rays;
-    const ReceiverPixels& samples = this->samples_;
-    std::array<float, mostSamples> fromX, fromY, fromZ, toX, toY, toZ;
-    for (std::size_t i = 0; i < this->next_; ++i)
-    {
-      const glm::vec3 position(samples.positionX[i], samples.positionY[i], samples.positionZ[i]);
-      const glm::vec3 normal(samples.normalX[i], samples.normalY[i], samples.normalZ[i]);
-      const glm::vec3 from = position + samples.offset[i] * normal;
-      fromX[i] = from.x;
-      fromY[i] = from.y;
-      fromZ[i] = from.z;
-      const glm::dvec2 place = this->taken_[i];
-      const glm::vec3 to(rays.origin(place.x, place.y));
-      toX[i] = to.x;
-      toY[i] = to.y;
-      toZ[i] = to.z;
-    }
-    std::array<std::uint8_t, mostSamples> isSeen;
-    this->hiders_->areFree(this->next_, { fromX.data(), fromY.data(), fromZ.data() },
-      { toX.data(), toY.data(), toZ.data() }, isSeen.data());
-    for (std::size_t i = 0; i < this->next_; ++i)
-    {
-      if (isSeen[i] == 0)
-      {
-        this->samples_.surface[i] = ReceiverPixels::notCovered;
-      }
-    }
+    const std::vector<glm::vec2>& fragments = this->drawn_.images.fragments;
+    return fragments[pixel] == fragments[other] && fragments[pixel].x != 0.0f;
   }
 
-  void fillFromNeighbours(const glm::vec2& own)
+  void fillFromNeighbours(std::size_t own)
   {
-    this->visitNeighbours(own,
-      [&](const glm::vec2& fragment, const glm::dvec2&)
+    std::size_t before = own;
+    this->visitNeighbours(
+      [&](const glm::ivec2& at, int order)
       {
-        if (fragment.x == own.x && this->remaining_ > 0)
+        const std::size_t pixel = this->pixelAt(at);
+        if (this->remaining_ > 0 && this->surfaces_[pixel].x == this->surfaces_[own].x &&
+          !this->showSame(pixel, own) && !this->showSame(pixel, before))
         {
-          const SeenTriangle& seen = this->cache_.find(this->drawn_, fragment);
-          if (seen.finite)
-          {
-            this->fill(seen);
-          }
+          before = pixel;
+          this->fill(this->cache_.find(this->drawn_, this->drawn_.images.fragments[pixel]),
+            static_cast<float>(order));
         }
       });
   }
@@ -340,7 +345,6 @@ private:
   /// The point where a place's ray meets a triangle or solid.
   struct Met
   {
-    double t; ///< along the ray (PixelRays)
     glm::dvec3 position, normal;
     float offset; ///< of the shadow ray, on a triangle
     bool isMet;
@@ -351,54 +355,70 @@ private:
     if (!seen.solid)
     {
       const TrianglePoint point = meetTriangle(seen, rays, place.x, place.y);
-      return { point.t, point.position, seen.normal, point.offset, point.isInside };
+      return { point.position, seen.normal, point.offset, point.isInside };
     }
-    const glm::dvec3 origin = rays.origin(place.x, place.y);
-    const glm::dvec3 direction = rays.direction(place.x, place.y);
-    const SolidPoint point = seenPoint(*seen.solid, origin, direction);
-    const double t = glm::dot(point.position - origin, direction) / glm::dot(direction, direction);
-    return { t, point.position, point.normal, 0.0f, point.isMet };
+    const SolidPoint point =
+      seenPoint(*seen.solid, rays.origin(place.x, place.y), rays.direction(place.x, place.y));
+    return { point.position, point.normal, 0.0f, point.isMet };
   }
 
   /// True if a point continues the surface that the pixel shows.
-  bool goesOn(const Met& met) const
+  bool goesOn(const glm::dvec3& position, const glm::dvec3& normal) const
   {
     constexpr double leastCosine = 0.70710678; // 45 degrees
-    return glm::dot(met.normal, this->normal_) >= leastCosine &&
-      std::abs(glm::dot(met.position - this->position_, this->normal_)) <= this->pixelSide_;
+    return glm::dot(normal, this->shown_.normal) >= leastCosine &&
+      std::abs(glm::dot(position - this->shown_.position, this->shown_.normal)) <= this->pixelSide_;
   }
 
   /// Add receivers for the missing samples that lie on a triangle or solid.
-  void fill(const SeenTriangle& seen)
+  /// @param seen if not finite, none do
+  void fill(const SeenTriangle& seen, float order)
   {
     const std::size_t first = this->next_;
     std::size_t left = 0;
-    for (std::size_t i = 0; i < this->remaining_; ++i)
+    for (std::size_t i = 0; i < this->remaining_ && seen.finite; ++i)
     {
       const std::size_t sample = this->missing_[i];
       const glm::dvec2 place = glm::dvec2(this->pixel_) + this->places_[sample];
       const Met met = this->meet(seen, place);
-      if (!met.isMet || !this->goesOn(met))
+      if (!met.isMet || !this->goesOn(met.position, met.normal))
       {
         this->missing_[left++] = sample;
       }
       else
       {
-        this->add(seen, met, place);
+        this->add(seen, met, place, sample);
       }
     }
-    this->remaining_ = left;
+    this->remaining_ = seen.finite ? left : this->remaining_;
     const std::size_t count = this->next_ - first;
     if (count > 0 && seen.smoothNormals)
     {
       liftSpan(seen, *this->drawn_.freeSegments, { 0.0, 0.0, count, first }, this->samples_);
     }
+    for (std::size_t i = first; i < this->next_; ++i)
+    {
+      this->copy(i, order);
+    }
   }
 
-  void add(const SeenTriangle& seen, const Met& met, const glm::dvec2& place)
+  /// Copy a receiver to its place among those of all pixels.
+  void copy(std::size_t i, float order)
+  {
+    const std::size_t to = this->blocks_.sample(this->block_, this->taken_[i]);
+    for (const auto plane : ReceiverPixels::planes)
+    {
+      (this->receivers_.*plane)[to] = (this->samples_.*plane)[i];
+    }
+    this->receivers_.surface[to] = this->samples_.surface[i];
+    this->receivers_.lifted[to] = this->samples_.lifted[i];
+    this->orders_[to] = order;
+  }
+
+  void add(const SeenTriangle& seen, const Met& met, const glm::dvec2& place, std::size_t sample)
   {
     const std::size_t i = this->next_++;
-    this->taken_[i] = place;
+    this->taken_[i] = sample;
     if (seen.solid)
     {
       projectSolid(seen, this->drawn_.images.rays, { place.x, place.y, 1, i }, this->samples_);
@@ -417,33 +437,39 @@ private:
   }
 
   const Drawn& drawn_;
-  const FreeSegments* hiders_;
+  const PictureOfSeveral* several_;
+  const std::vector<glm::vec2>& surfaces_;
   const std::vector<glm::dvec2>& places_;
+  const SampleBlocks blocks_;
   ReceiverPixels& receivers_; ///< of all pixels' samples
-  ReceiverPixels samples_;    ///< of one pixel's samples
+  std::vector<float>& orders_;
+  ReceiverPixels samples_; ///< of one pixel's samples, in the order in which they were found
+  ReceiverPixels centre_;  ///< of one pixel
   SeenTriangles cache_;
 
   glm::ivec2 pixel_{ 0 };
-  glm::dvec3 position_{ 0.0 }, normal_{ 0.0 }; ///< of the surface that the pixel shows
-  double pixelSide_ = 0.0;                     ///< there
-  std::array<glm::dvec2, mostSamples> taken_;  ///< the receivers' places in the picture
+  std::size_t block_ = 0;
+  Shown shown_{};
+  bool isSolid_ = false;                       ///< the pixel shows a solid of this process
+  double pixelSide_ = 0.0;                     ///< where it is
+  std::array<std::size_t, mostSamples> taken_; ///< the samples of samples_
   std::array<std::size_t, mostSamples> missing_{};
   std::size_t remaining_ = 0; ///< number of missing samples
   std::size_t next_ = 0;      ///< index of the next receiver
 };
 
 /// Return a picture's edge pixels, in order.
-EdgePixels findEdgePixels(const ReceiverImages& images, const std::vector<float>& visibility,
+EdgePixels findEdgePixels(const ShownSurfaces& surfaces, const std::vector<float>& visibility,
   const std::vector<std::uint8_t>& classes)
 {
   constexpr int rowsOfBand = 32;
-  const int bands = (images.height + rowsOfBand - 1) / rowsOfBand;
+  const int bands = (surfaces.height + rowsOfBand - 1) / rowsOfBand;
   std::vector<EdgePixels> found(static_cast<std::size_t>(bands));
   tbb::parallel_for(0, bands,
     [&](int band)
     {
-      found[static_cast<std::size_t>(band)] = findEdges(images, visibility, classes,
-        band * rowsOfBand, std::min((band + 1) * rowsOfBand, images.height));
+      found[static_cast<std::size_t>(band)] = findEdges(surfaces, visibility, classes,
+        band * rowsOfBand, std::min((band + 1) * rowsOfBand, surfaces.height));
     });
   EdgePixels all;
   for (const EdgePixels& ofBand : found)
@@ -459,14 +485,25 @@ EdgePixels findEdgePixels(const ReceiverImages& images, const std::vector<float>
 //------------------------------------------------------------------------------
 void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input,
   const std::vector<std::uint8_t>& classes, std::size_t perPixel, std::vector<float>& visibility,
-  LightReport& report)
+  const PictureOfSeveral* several, LightReport& report)
 {
-  const Drawn drawn = input.receivers.drawn();
-  EdgePixels edges = findEdgePixels(drawn.images, visibility, classes);
-  const auto trace =
-    [&](const std::vector<std::uint32_t>& pixels, std::size_t count, const FreeSegments* hiders)
+  const Drawn drawn = several ? several->drawn : input.receivers.drawn();
+  const FreeSegments* const hiders = several ? &several->hiders : drawn.freeSegments;
+  const ReceiverImages& images = drawn.images;
+  EdgePixels edges =
+    findEdgePixels({ images.width, images.height, several ? several->surfaces : images.fragments },
+      visibility, classes);
+  const auto trace = [&](const std::vector<std::uint32_t>& pixels, std::size_t count, bool drops)
   {
-    this->place(drawn, hiders, pixels, count);
+    this->place(drawn, several, pixels, count);
+    if (several)
+    {
+      this->share(*several);
+    }
+    if (drops && hiders)
+    {
+      this->dropHidden(images, *hiders, several, pixels, count);
+    }
     Receivers samples(this->receivers_);
     LightReport ofSamples;
     technique.computeVisibility(
@@ -478,7 +515,7 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
   std::vector<std::uint32_t>& pixels = edges.ofShadows;
   if (perPixel > probes && !edges.ofSurfaces.empty())
   {
-    trace(edges.ofSurfaces, probes, nullptr);
+    trace(edges.ofSurfaces, probes, false);
     for (std::size_t i = 0; i < edges.ofSurfaces.size(); ++i)
     {
       const std::uint32_t pixel = edges.ofSurfaces[i];
@@ -494,7 +531,7 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
   }
   if (!pixels.empty())
   {
-    trace(pixels, perPixel, drawn.freeSegments);
+    trace(pixels, perPixel, true);
   }
   for (std::size_t i = 0; i < pixels.size(); ++i)
   {
@@ -504,29 +541,107 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
 }
 
 //------------------------------------------------------------------------------
-/// Compute the samples' receivers. Samples without a receiver are not covered.
-/// @param hiders tests if casters hide samples from the camera; null: none do
-void EdgeSamples::place(const Drawn& drawn, const FreeSegments* hiders,
+/// Compute the samples' receivers on the triangles that this process drew. Samples without a
+/// receiver are not covered.
+void EdgeSamples::place(const Drawn& drawn, const PictureOfSeveral* several,
   const std::vector<std::uint32_t>& pixels, std::size_t perPixel)
 {
   constexpr std::size_t columns = SampleBlocks::columns;
   const std::size_t rows = SampleBlocks(perPixel).rows(pixels.size());
   this->receivers_.resize(static_cast<int>(columns), static_cast<int>(rows));
-  std::fill(this->receivers_.surface.begin(), this->receivers_.surface.end(),
-    ReceiverPixels::notCovered); // after the last pixel's samples
+  leaveUncovered({ 0.0, 0.0, this->receivers_.size(), 0 }, this->receivers_);
+  this->orders_.assign(this->receivers_.size(), std::numeric_limits<float>::infinity());
+  this->outline_.resize(pixels.size());
   const std::vector<glm::dvec2> places = samplePlaces(perPixel);
   tbb::enumerable_thread_specific<SamplePlacing> placings(
-    [&] { return SamplePlacing(drawn, hiders, places, this->receivers_); });
-  constexpr std::size_t pixelsAtOnce = 256;
+    [&] { return SamplePlacing(drawn, several, places, this->receivers_, this->orders_); });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), pixelsAtOnce),
     [&](const tbb::blocked_range<std::size_t>& range)
     {
       SamplePlacing& placing = placings.local();
       for (std::size_t i = range.begin(); i != range.end(); ++i)
       {
-        placing.place(pixels[i], i);
+        this->outline_[i] = placing.place(pixels[i], i) ? 1 : 0;
       }
     });
+}
+
+//------------------------------------------------------------------------------
+/// Replace this process's receivers of samples by those of all processes.
+void EdgeSamples::share(const PictureOfSeveral& several)
+{
+  std::vector<float> least = this->orders_;
+  several.reduceToLeast(least);
+  for (std::size_t i = 0; i < least.size(); ++i)
+  {
+    if (this->orders_[i] != least[i])
+    {
+      this->receivers_.surface[i] = ReceiverPixels::notCovered;
+    }
+  }
+  this->receivers_ = several.share(this->receivers_);
+}
+
+//------------------------------------------------------------------------------
+/// Drop samples of pixels at outlines that casters hide from the camera.
+void EdgeSamples::dropHidden(const ReceiverImages& images, const FreeSegments& hiders,
+  const PictureOfSeveral* several, const std::vector<std::uint32_t>& pixels, std::size_t perPixel)
+{
+  const std::vector<glm::dvec2> places = samplePlaces(perPixel);
+  const SampleBlocks blocks(perPixel);
+  const auto width = static_cast<std::uint32_t>(images.width);
+  ReceiverPixels& samples = this->receivers_;
+  this->hidden_.assign(pixels.size(), 0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), pixelsAtOnce),
+    [&](const tbb::blocked_range<std::size_t>& range)
+    {
+      std::array<float, mostSamples> fromX, fromY, fromZ, toX, toY, toZ;
+      std::array<std::size_t, mostSamples> tested;
+      std::array<std::uint8_t, mostSamples> isSeen;
+      for (std::size_t pixel = range.begin(); pixel != range.end(); ++pixel)
+      {
+        std::size_t count = 0;
+        const glm::dvec2 centre(pixels[pixel] % width, pixels[pixel] / width);
+        for (std::size_t n = 0; n < perPixel && this->outline_[pixel] != 0; ++n)
+        {
+          const std::size_t i = blocks.sample(pixel, n);
+          if (samples.surface[i] == ReceiverPixels::notCovered)
+          {
+            continue;
+          }
+          const glm::vec3 normal(samples.normalX[i], samples.normalY[i], samples.normalZ[i]);
+          const glm::vec3 from =
+            glm::vec3(samples.positionX[i], samples.positionY[i], samples.positionZ[i]) +
+            samples.offset[i] * normal;
+          const glm::vec3 to(images.rays.origin(centre.x + places[n].x, centre.y + places[n].y));
+          fromX[count] = from.x;
+          fromY[count] = from.y;
+          fromZ[count] = from.z;
+          toX[count] = to.x;
+          toY[count] = to.y;
+          toZ[count] = to.z;
+          tested[count++] = n;
+        }
+        hiders.areFree(count, { fromX.data(), fromY.data(), fromZ.data() },
+          { toX.data(), toY.data(), toZ.data() }, isSeen.data());
+        for (std::size_t k = 0; k < count; ++k)
+        {
+          this->hidden_[pixel] |= std::uint64_t(isSeen[k] == 0) << tested[k];
+        }
+      }
+    });
+  if (several)
+  {
+    several->uniteBits(this->hidden_);
+  }
+  for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel)
+  {
+    for (std::uint64_t bits = this->hidden_[pixel]; bits != 0; bits &= bits - 1)
+    {
+      samples.surface[blocks.sample(pixel, static_cast<std::size_t>(__builtin_ctzll(bits)))] =
+        ReceiverPixels::notCovered;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -3,14 +3,35 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/Technique.h"
 
+#include <glm/glm.hpp>
+
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace gnomon
 {
 
 struct Drawn;
+
+/// A picture that several processes draw, each its own part of the triangles. All of them must call
+/// EdgeSamples::smooth() alike. The functions are collective.
+struct PictureOfSeveral
+{
+  /// What this process drew. Fragments are 0 where the picture shows another process's triangle.
+  const Drawn& drawn;
+  const FreeSegments& hiders; ///< this process's casters
+  /// x: a number of the surface that a pixel shows, the same in all processes; 0: none.
+  const std::vector<glm::vec2>& surfaces;
+  const ReceiverPixels& receivers;
+  /// Replace each number by the least of all processes'.
+  std::function<void(std::vector<float>&)> reduceToLeast;
+  /// Return the receivers of all processes.
+  std::function<const ReceiverPixels&(const ReceiverPixels& own)> share;
+  /// Replace bits by those that any process has set.
+  std::function<void(std::vector<std::uint64_t>&)> uniteBits;
+};
 
 /// Traces receivers between the centres of pixels near edges, for smooth edges of hard shadows.
 ///
@@ -22,6 +43,10 @@ struct Drawn;
 /// face the light and, at outlines, if the camera sees them; the latter needs a FreeSegments.
 ///
 /// Between surfaces most pixels are evenly lit: four samples decide which of them need all samples.
+///
+/// Where several processes draw the picture, each places samples on its own triangles. The one with
+/// the first of the triangles that hold a sample gives it to the others, and each tests if its own
+/// casters hide it.
 class EdgeSamples
 {
 public:
@@ -30,23 +55,32 @@ public:
   /// @param classes of the pixels, of TracedClass
   /// @param perPixel 4, 16 or 64
   /// @param visibility of the pixels
+  /// @param several null if this process draws the picture alone
   /// @param report the traced rays are added to it
   void smooth(CpuScreenTechnique& technique, const ScreenInput& input,
     const std::vector<std::uint8_t>& classes, std::size_t perPixel, std::vector<float>& visibility,
-    LightReport& report);
+    const PictureOfSeveral* several, LightReport& report);
 
   /// Return the bytes cached for the next picture.
   std::size_t bytes() const
   {
-    return this->receivers_.bytes() + bytesOf(this->visibility_) + bytesOf(this->classes_);
+    return this->receivers_.bytes() + bytesOf(this->orders_) + bytesOf(this->hidden_) +
+      bytesOf(this->visibility_) + bytesOf(this->classes_);
   }
 
 private:
-  void place(const Drawn& drawn, const FreeSegments* hiders,
+  void place(const Drawn& drawn, const PictureOfSeveral* several,
     const std::vector<std::uint32_t>& pixels, std::size_t perPixel);
+  void share(const PictureOfSeveral& several);
+  void dropHidden(const ReceiverImages& images, const FreeSegments& hiders,
+    const PictureOfSeveral* several, const std::vector<std::uint32_t>& pixels,
+    std::size_t perPixel);
   float mean(std::size_t pixel, std::size_t perPixel, float ofCentre) const;
 
   ReceiverPixels receivers_;          ///< of the samples
+  std::vector<float> orders_;         ///< of their triangles (SamplePlacing)
+  std::vector<std::uint8_t> outline_; ///< 1 for each pixel with samples that is at an outline
+  std::vector<std::uint64_t> hidden_; ///< of each of these pixels: a bit for each sample
   std::vector<float> visibility_;     ///< likewise
   std::vector<std::uint8_t> classes_; ///< likewise
 };

@@ -713,6 +713,11 @@ bool EmbreeTracer::hasCasters() const
 void EmbreeTracer::areFree(
   std::size_t count, const PointArrays& from, const PointArrays& to, std::uint8_t* free) const
 {
+  if (!this->hasCasters()) // then the scene may be one that Embree has not seen
+  {
+    std::fill_n(free, count, 1);
+    return;
+  }
   this->impl_->lanes16 ? findFree<RTCRay16>(this->impl_->scene.get(), count, from, to, free)
                        : findFree<RTCRay8>(this->impl_->scene.get(), count, from, to, free);
 }

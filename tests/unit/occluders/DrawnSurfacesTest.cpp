@@ -92,7 +92,7 @@ public:
     vtkOpenGLVertexArrayObject*) override
   {
     program->SetUniformi("drawPrimitives", this->drawPrimitives ? 1 : 0);
-    const Drawn drawn = this->collector.drawn(mapper, prop);
+    const HookedSurface drawn = this->collector.drawn(mapper, prop);
     program->SetUniformi("drawnSurface", drawn.index + 2);
     program->SetUniformi("primitivesPerInstance", static_cast<int>(drawn.primitivesPerInstance));
     return true;

@@ -9,12 +9,16 @@
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
+#include <vtkGlyph3DMapper.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
+#include <vtkPoints.h>
+#include <vtkSphereSource.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <random>
 #include <string>
@@ -106,6 +110,31 @@ TEST_P(SharedLights, EqualThoseOfOneProcess)
   EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
+class SharedEdges : public testing::TestWithParam<Split>
+{
+protected:
+  tool::VtkMessages messages_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SharedEdges,
+  testing::Combine(
+    testing::Values("bunny", "posts", "props"), testing::Values(random(), blocksWithGhosts())),
+  [](const testing::TestParamInfo<Split>& split)
+  { return std::get<0>(split.param) + "_" + std::get<1>(split.param).name; });
+
+TEST_P(SharedEdges, EqualThoseOfOneProcess)
+{
+  SplitScene scene(tool::loadScene(std::get<0>(GetParam())), std::get<1>(GetParam()));
+  for (const char* samples : { "16", "4", "64" })
+  {
+    scene.shared().pass->SetSetting("edge_samples", samples);
+    scene.alone().pass->SetSetting("edge_samples", samples);
+    EXPECT_GT(scene.expectSame(), 0u);
+    scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(10.0); });
+  }
+  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
+}
+
 class SharedFrames : public testing::Test
 {
 protected:
@@ -153,6 +182,62 @@ TEST_F(SharedFrames, GoOnWhereOneProcessHasNothing)
   }
   this->showOwn(true);
   this->scene_.expectSame();
+}
+
+TEST_F(SharedFrames, HoldGlyphsByTheirNumberInAllProcesses)
+{
+  constexpr int few = 2000; // of 100 triangles each: too few to be held as instances
+  constexpr int many = 3000;
+  const int ranks = this->last_ + 1;
+  vtkNew<vtkPoints> own, all;
+  const auto add = [](RankView& view, vtkPoints* points)
+  {
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    vtkNew<vtkSphereSource> sphere;
+    sphere->SetRadius(0.03);
+    sphere->SetThetaResolution(10);
+    sphere->SetPhiResolution(7);
+    vtkNew<vtkGlyph3DMapper> mapper;
+    mapper->SetInputData(data);
+    mapper->SetSourceConnection(sphere->GetOutputPort());
+    mapper->ScalingOff();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    view.renderer->AddActor(actor);
+  };
+  const auto fill = [&](int first, int end)
+  {
+    for (int i = first; i < end; ++i)
+    {
+      const double place[] = { 2.0 * std::cos(0.37 * i), 2.0 * std::sin(0.37 * i), 0.001 * i };
+      all->InsertNextPoint(place);
+      if (i % ranks == this->own_)
+      {
+        own->InsertNextPoint(place);
+      }
+    }
+    all->Modified();
+    own->Modified();
+  };
+  fill(0, few);
+  add(this->scene_.shared(), own);
+  add(this->scene_.alone(), all);
+  this->scene_.expectSame();
+  EXPECT_EQ(this->scene_.alone().report().instances, 0u);
+  EXPECT_EQ(this->scene_.shared().report().instances, 0u);
+  fill(few, many);
+  this->scene_.change(
+    [](vtkRenderer* renderer)
+    {
+      auto* mapper = vtkMapper::SafeDownCast(renderer->GetActors()->GetLastActor()->GetMapper());
+      mapper->GetInputDataObject(0, 0)->Modified();
+    });
+  this->scene_.expectSame();
+  EXPECT_EQ(this->scene_.alone().report().instances, static_cast<std::size_t>(many));
+  EXPECT_EQ(
+    this->scene_.shared().report().instances, static_cast<std::size_t>(own->GetNumberOfPoints()));
+  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
 TEST_F(SharedFrames, TellAllWhyOneFailed)
