@@ -344,7 +344,7 @@ std::string TechniqueChoice::tryMap(
     {
       return "the tracer does not return what pixels show, so no map can be probed";
     }
-    // If no visible point faces the light, nothing can be wrong.
+    // If no point of all looks faces the light, next to nothing can be wrong.
     choice.isProbed = wrong->asked == 0 || wrong->mostShare() <= limit;
     choice.mayBeCoarser =
       choice.step > 0 && WrongProbes{ wrong->asked, 4 * wrong->wrong }.mostShare() <= limit;
@@ -383,7 +383,7 @@ std::optional<WrongProbes> TechniqueChoice::probe(const CastingLight& casting, d
         this->frame_.space, this->occluders_, this->visibility_.shadowTracer(), this->shaders_);
     all.asked += wrong.asked;
     all.wrong += wrong.wrong;
-    if (wrong.asked == 0 || all.mostShare() <= limit || all.share() > limit)
+    if (all.mostShare() <= limit || all.share() > limit)
     {
       break;
     }

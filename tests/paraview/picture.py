@@ -1,7 +1,7 @@
 """Draw a picture; a client of a server draws what a batch of as many processes draws.
 
     mpirun -np 3 pvbatch picture.py DATA PICTURE
-    pvpython picture.py DATA PICTURE PORT BATCH'S     of a server on this machine
+    pvpython picture.py DATA PICTURE BATCH'S PORT     of a server on this machine
 """
 
 import sys
@@ -44,13 +44,13 @@ def main():
     data, path = sys.argv[1:3]
     is_client = len(sys.argv) > 3
     if is_client:
-        Connect("127.0.0.1", int(sys.argv[3]))
+        Connect("127.0.0.1", int(sys.argv[4]))
     scenario.load_plugin()
     if is_client:
         scenario.load_plugin(remote=True)
     view = draw(data, path)
     if is_client:
-        compare(path, sys.argv[4])
+        compare(path, sys.argv[3])
     else:
         report = scenario.report(view)
         passes = report["processes"] == 3 and report["route"] == "image"

@@ -67,19 +67,22 @@ batch()
   fi
 }
 
-# beside_server SCRIPT ARGUMENT...: runs a scenario as the client of a server of three processes
+# beside_server PROCESSES OPTIONS SCRIPT ARGUMENT...: runs a scenario as the client of a server; its
+# last argument is the server's port.
 beside_server()
 {
-  local name=$1 port=11133 server
-  shift
-  with_display mpirun -np 3 pvserver --server-port=$port > "$folder/server.log" 2>&1 &
+  local processes=$1 options=$2 name=$3 port=11133 server
+  shift 3
+  # shellcheck disable=SC2086 # the options are words
+  with_display mpirun -np "$processes" pvserver --server-port=$port $options \
+    > "$folder/server.log" 2>&1 &
   server=$!
   for _ in $(seq 60); do
     ! grep -q 'Accepting connection' "$folder/server.log" || break
     sleep 0.5
   done
   local status=0
-  with_display pvpython "$scripts/$name" "$@" $port "$work/batch.png" || status=$?
+  with_display pvpython "$scripts/$name" "$@" $port || status=$?
   if [ "$status" != 0 ]; then
     kill "$server" 2> /dev/null || true
   fi
@@ -128,7 +131,7 @@ scenario()
 expect()
 {
   local found
-  found=$(grep -c "ERR|.*$3" "$folder/$1.log" || true)
+  found=$(grep -c -E "(ERR|WARN)\|.*$3" "$folder/$1.log" || true)
   if [ "$found" = "$2" ]; then
     echo "ok   $2 processes say: $3"
   else
@@ -182,7 +185,10 @@ scenario random batch 3 random_changes.py shared "$data" "$work/random"
 scenario random-alone batch 1 random_changes.py alone "$data" "$work/random"
 scenario selections batch 3 selects.py "$data"
 scenario batch-picture batch 3 picture.py "$data" "$work/batch.png"
-scenario client beside_server picture.py "$data" "$work/client.png"
+scenario client beside_server 3 "" picture.py "$data" "$work/client.png" "$work/batch.png"
+expected="Tile displays and CAVEs have no shadows|Warning: In vtkPVGnomonShadowView"
+scenario tiles beside_server 2 "--tdx 2 --tdy 1" tiles.py
+expect tiles 3 "Tile displays and CAVEs have no shadows"
 expected="'pcf' sees the casters of one process|the processes have different lights"
 scenario refusals batch 3 refusals.py "$data" "$work"
 expect refusals 3 "'pcf' sees the casters of one process"

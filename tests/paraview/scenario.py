@@ -108,18 +108,26 @@ def read_picture(path):
     return colours.reshape(height, width, -1)[:, :, :3].astype(int)
 
 
+def all_around(mask):
+    """Return where a mask of pixels is true of a pixel and of all of its neighbours."""
+    padded = np.pad(mask, 1, constant_values=True)
+    rows, columns = mask.shape
+    around = [padded[y : y + rows, x : x + columns] for y in range(3) for x in range(3)]
+    return np.logical_and.reduce(around)
+
+
 class Comparison:
     """Compares visibility of several processes with that of one, frame by frame."""
 
-    def __init__(self, processes, bound=3, needs_shadow=True):
-        """bound: how many pixels of a frame may show another receiver, besides depth ties."""
+    def __init__(self, processes, needs_shadow=True):
         self.processes = processes
-        self.bound = bound
         self.needs_shadow = needs_shadow
         self.frames = self.pixels = self.shadowed = self.others = self.ties = self.wrong = 0
         self.faults = []
 
-    def add(self, frame, shared, alone, report):
+    def add(self, frame, shared, alone, report, bound=3, columns=None):
+        """bound: how many pixels may show another receiver, beside depth ties. columns: of the
+        picture, if pixels' visibility depends on their neighbours' receivers."""
         if shared.keys() != alone.keys() or len(shared["coverage"]) != len(alone["coverage"]):
             self.faults.append(f"{frame}: other arrays or sizes")
             return
@@ -127,6 +135,8 @@ class Comparison:
         for name in ("position", "normal"):
             same &= (shared[name] == alone[name]).all(axis=1)
         others = int((~same).sum())
+        if columns:
+            same = all_around(same.reshape(-1, columns)).reshape(-1)
         lights = [name for name in alone if name.startswith("light ")]
         wrong = sum(int((shared[name] != alone[name])[same].sum()) for name in lights)
         shadowed = sum(int((alone[name] < 1.0).sum()) for name in lights)
@@ -138,7 +148,7 @@ class Comparison:
         self.wrong += wrong
         if wrong:
             self.faults.append(f"{frame}: {wrong} values differ")
-        if others > report["depth_ties"] + self.bound:
+        if others > report["depth_ties"] + bound:
             self.faults.append(f"{frame}: {others} other receivers, {report['depth_ties']} ties")
         if self.needs_shadow and not shadowed:
             self.faults.append(f"{frame}: no shadow")
