@@ -333,11 +333,10 @@ public:
    * share of the cores of its machine. If one meets an error, all draw without shadows, and all
    * say why.
    *
-   * Lights have the technique `raytraced` with one ray for a pixel of an edge, and no textures;
-   * another technique is an error, "auto" is not. Receivers are on their triangles
-   * (SmoothTerminators), Embree traces, MemoryBudget has no effect, and translucent surfaces show
-   * no shadows. Null, the default, or a controller of one process: this process has the whole
-   * scene.
+   * Lights have the technique `raytraced`, and no textures; another technique is an error, "auto"
+   * is not. Receivers are on their triangles (SmoothTerminators), Embree traces, MemoryBudget has
+   * no effect, and translucent surfaces show no shadows. Null, the default, or a controller of one
+   * process: this process has the whole scene.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
