@@ -59,8 +59,8 @@ if(GNOMON_BUILD_EXAMPLES)
   find_package(ZLIB REQUIRED)
 endif()
 
-# What tests use where it is there: VTK's widget for Qt 5 or 6. Debian's VTK names the module
-# without it.
+# What tests use where it is there: VTK's widget for Qt 5 or 6. Debian's VTK names the module also
+# where libvtk9-qt-dev is missing.
 if(GNOMON_BUILD_TESTS AND TARGET VTK::GUISupportQt)
   find_package(VTK 9.1 QUIET OPTIONAL_COMPONENTS GUISupportQt)
   if(VTK_GUISupportQt_FOUND)

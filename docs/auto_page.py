@@ -17,6 +17,8 @@ def share(rows, keeps):
 
 def line(name, rows):
     compared = [row for row in rows if row["best"]]
+    if not compared:
+        raise SystemExit(f"{name}: no place was compared")
     over = [float(row["over best"]) for row in compared]
     maps = [row for row in rows if row["technique"] == "nsm"]
     return (

@@ -125,7 +125,7 @@ bool RenderManager::collectLights(
 //------------------------------------------------------------------------------
 void RenderManager::collectOccluders(const vtkRenderState* s)
 {
-  OtherParts others;
+  OtherProcesses others;
   if (Ranks* const ranks = this->frame_.ranks)
   {
     others.unite = [ranks](const Bounds& own) { return ranks->united(own); };
@@ -146,7 +146,9 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
     report.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
   report.leftOut = this->collector_.leftOut();
   this->names_.clear();
-  if (this->frame_.wishes.keepVisibility || this->frame_.ranks)
+  const bool smooths = std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
+    [](const CastingLight& casting) { return edgeSamplesOf(casting) > 1; });
+  if (this->frame_.ranks ? smooths : this->frame_.wishes.keepVisibility)
   {
     this->names_ = surfaceNames(s->GetRenderer(), this->collector_.records());
   }

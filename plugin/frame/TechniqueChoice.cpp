@@ -344,7 +344,7 @@ std::string TechniqueChoice::tryMap(
     {
       return "the tracer does not return what pixels show, so no map can be probed";
     }
-    // If no point of all looks faces the light, next to nothing can be wrong.
+    // If no point of all looks faces the light, hardly one pixel in 4,000 does.
     choice.isProbed = wrong->asked == 0 || wrong->mostShare() <= limit;
     choice.mayBeCoarser =
       choice.step > 0 && WrongProbes{ wrong->asked, 4 * wrong->wrong }.mostShare() <= limit;
@@ -352,6 +352,11 @@ std::string TechniqueChoice::tryMap(
     if (choice.isProbed)
     {
       return {};
+    }
+    if (wrong->wrong == 0)
+    {
+      return "only " + std::to_string(wrong->asked) +
+        " of the probed pixels face the light, too few to show the error";
     }
     // Wrong pixels lie along edges, and their number is in proportion to the texels' width.
     const double factor = std::max(wrong->share() / limit, 2.0);

@@ -8,7 +8,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -272,7 +275,8 @@ SharedReceivers& VisibilityStage::sharedReceivers()
 
 //------------------------------------------------------------------------------
 /// Shares which surface each pixel shows, once, if lights' edges are smoothed. Surfaces of several
-/// processes are one if their props have the same number in the renderer, and the same cells.
+/// processes are one if their props have the same number in the renderer, and the rest of their
+/// names is the same. A prop's blocks are one.
 void VisibilityStage::shareSurfaces(const std::vector<SurfaceName>& names)
 {
   SharedReceivers& shared = this->sharedReceivers();
@@ -281,12 +285,22 @@ void VisibilityStage::shareSurfaces(const std::vector<SurfaceName>& names)
   if (smooths && shared.surfaceOfPixel().empty())
   {
     ReceiversValue& value = this->frame_.view->receivers;
-    constexpr int kindsOfCells = 6;
-    std::vector<int> numbers;
+    using Name = std::array<std::int64_t, 4>;
+    std::vector<Name> own;
     for (const DrawnSurface& drawn : value.drawnSurfaces)
     {
       const SurfaceName& name = names[drawn.blocks.front().surface];
-      numbers.push_back(kindsOfCells * name.prop + static_cast<int>(name.cells));
+      own.push_back({ name.prop, static_cast<std::int64_t>(name.path), name.glyphSource,
+        static_cast<std::int64_t>(name.cells) });
+    }
+    Ranks::Gathered<Name> all;
+    this->frame_.ranks->gather(own, all);
+    const std::set<Name> different(all.elements.begin(), all.elements.end());
+    std::vector<std::size_t> numbers;
+    for (const Name& name : own)
+    {
+      numbers.push_back(
+        static_cast<std::size_t>(std::distance(different.begin(), different.find(name))));
     }
     shared.shareSurfaces(*this->frame_.ranks, value.images.fragments, numbers);
     this->frame_.endStage("visibility: share surfaces");
@@ -437,8 +451,8 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
     view.layers.darkenBits(this->darkBits_, view.receivers.boxes->receives());
   }
   view.layers.uploadBits();
-  // Other processes' surfaces have other names.
-  const std::vector<SurfaceName> kept = this->frame_.ranks ? std::vector<SurfaceName>() : names;
+  static const std::vector<SurfaceName> none; // other processes' surfaces have other names
+  const std::vector<SurfaceName>& kept = this->frame_.ranks ? none : names;
   bool keeps = this->frame_.wishes.keepVisibility &&
     (frameReport.visibilityComputed > 0 || this->imagesOf_ != &view ||
       this->images_.visibility.empty() || this->imageNames_ != kept);
@@ -604,7 +618,7 @@ void VisibilityStage::trace(
 void VisibilityStage::smoothEdges(CpuScreenTechnique& technique, const ScreenInput& input,
   std::size_t edgeSamples, std::vector<float>& visibility, LightReport& report)
 {
-  const auto smooth = [&](const PictureOfSeveral* several)
+  const auto smooth = [&](const SharedPicture* several)
   {
     this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, several, report);
   };
@@ -616,7 +630,7 @@ void VisibilityStage::smoothEdges(CpuScreenTechnique& technique, const ScreenInp
   }
   const ReceiversValue& value = this->frame_.view->receivers;
   const Drawn drawn(value.images, value.drawnSurfaces, this->occluders_, nullptr, nullptr);
-  const PictureOfSeveral several{ drawn, this->tracer_, value.shared.surfaceOfPixel(),
+  const SharedPicture several{ drawn, this->tracer_, value.shared.surfaceOfPixel(),
     value.shared.pixels(), [ranks](std::vector<float>& numbers) { ranks->reduceToLeast(numbers); },
     [&](const ReceiverPixels& own) -> const ReceiverPixels&
     {

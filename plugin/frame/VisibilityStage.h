@@ -35,7 +35,8 @@ public:
   void findStale();
 
   /// Computes what is stale, and keeps a copy of all if asked to.
-  /// @param names of the snapshot's surfaces, if visibility is kept or several processes draw
+  /// @param names of the snapshot's surfaces, if visibility is kept, or if several processes draw
+  /// smooth edges
   /// @throws std::runtime_error for a tracer that there is not, or has no room
   void compute(const std::vector<SurfaceName>& names);
 

@@ -93,7 +93,7 @@ void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occlu
 
 //------------------------------------------------------------------------------
 void SharedReceivers::shareSurfaces(
-  Ranks& ranks, std::vector<glm::vec2>& fragments, const std::vector<int>& numbers)
+  Ranks& ranks, std::vector<glm::vec2>& fragments, const std::vector<std::size_t>& numbers)
 {
   std::vector<float> shown(fragments.size(), 0.0f);
   for (std::size_t pixel = 0; pixel < fragments.size(); ++pixel)
@@ -103,10 +103,10 @@ void SharedReceivers::shareSurfaces(
     {
       fragment = glm::vec2(0.0f);
     }
-    const auto drawn = static_cast<std::size_t>(std::abs(fragment.x)); // from 1
-    if (drawn > 0 && drawn <= numbers.size())
+    const float drawn = std::abs(fragment.x);                         // from 1
+    if (drawn >= 1.0f && drawn <= static_cast<float>(numbers.size())) // NaN fails
     {
-      shown[pixel] = -1.0f - static_cast<float>(numbers[drawn - 1]);
+      shown[pixel] = -1.0f - static_cast<float>(numbers[static_cast<std::size_t>(drawn) - 1]);
     }
   }
   ranks.reduceToLeast(shown);

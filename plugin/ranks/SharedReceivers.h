@@ -37,7 +37,7 @@ public:
   /// @param numbers by drawn surface, a number that is the same on all ranks, from 0
   /// @throws RankFailure
   void shareSurfaces(
-    Ranks& ranks, std::vector<glm::vec2>& fragments, const std::vector<int>& numbers);
+    Ranks& ranks, std::vector<glm::vec2>& fragments, const std::vector<std::size_t>& numbers);
   /// Forget the receivers, but keep their memory: new memory takes longer than they do.
   void clear()
   {

@@ -11,7 +11,7 @@ namespace gnomon
 
 //------------------------------------------------------------------------------
 SnapshotChange OccluderCollector::collect(
-  vtkRenderer* renderer, bool readsNormals, const OtherParts& others)
+  vtkRenderer* renderer, bool readsNormals, const OtherProcesses& others)
 {
   DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
   this->lookup_.beginFrame(drawn.translucentReceivers);

@@ -42,7 +42,7 @@ public:
   /// @param readsNormals whether surfaces get the normals that VTK shades them with
   /// @param others what other processes hold of the scene
   SnapshotChange collect(
-    vtkRenderer* renderer, bool readsNormals = false, const OtherParts& others = {});
+    vtkRenderer* renderer, bool readsNormals = false, const OtherProcesses& others = {});
 
   const Occluders& occluders() const { return this->surfaces_.occluders(); }
   /// One for each of the snapshot's surfaces.

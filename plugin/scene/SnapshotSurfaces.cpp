@@ -4,7 +4,8 @@
 #include "shadowtech/base/SmoothFacet.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -34,7 +35,7 @@ void takeFacets(const SurfaceRecord& record, Surface& surface)
 
 //------------------------------------------------------------------------------
 SnapshotChange SnapshotSurfaces::update(
-  std::vector<WantedSurface>& wanted, const OtherParts& others)
+  std::vector<WantedSurface>& wanted, const OtherProcesses& others)
 {
   SnapshotChange change;
   bool otherList = wanted.size() != this->records_.size();
@@ -56,10 +57,7 @@ SnapshotChange SnapshotSurfaces::update(
     moved = moved || !record || !isWhere(*record, *surface.prop, surface.block);
   }
 
-  if (others.gather)
-  {
-    change.extracted += this->countInstances(wanted, others);
-  }
+  change.extracted += this->countInstances(wanted, others);
   bool positionsChanged = false;
   bool trianglesChanged = otherList;
   change.any = otherList || moved || change.extracted > 0;
@@ -99,17 +97,18 @@ SnapshotChange SnapshotSurfaces::update(
 }
 
 //------------------------------------------------------------------------------
-/// Count the instances that all processes have of each glyph. Glyphs that are held otherwise than
-/// this asks for are read again.
-/// @return the number of surfaces read
-int SnapshotSurfaces::countInstances(std::vector<WantedSurface>& wanted, const OtherParts& others)
+/// Count the instances that all processes have of each glyph. Read a glyph again if its number
+/// makes another way to hold it cheaper.
+/// @return how many were read again
+int SnapshotSurfaces::countInstances(
+  std::vector<WantedSurface>& wanted, const OtherProcesses& others)
 {
   const auto recordOf = [&](const WantedSurface& surface) -> SurfaceRecord&
   { return surface.fresh ? surface.fresh->record : this->records_[surface.old]; };
   const auto countOf = [&](const WantedSurface& surface)
   {
-    return GlyphCount{ surface.prop->number, static_cast<std::int64_t>(surface.key.path),
-      surface.key.glyphSource, static_cast<std::int64_t>(surface.key.cells),
+    return GlyphCount{ { surface.prop->number, static_cast<std::int64_t>(surface.key.path),
+                         surface.key.glyphSource, static_cast<std::int64_t>(surface.key.cells) },
       static_cast<std::int64_t>(recordOf(surface).modelFromInstance.size()) };
   };
   std::vector<GlyphCount> own;
@@ -120,7 +119,11 @@ int SnapshotSurfaces::countInstances(std::vector<WantedSurface>& wanted, const O
       own.push_back(countOf(surface));
     }
   }
-  const std::vector<GlyphCount> all = others.gather(own);
+  std::map<std::array<std::int64_t, 4>, std::size_t> instancesOf;
+  for (const GlyphCount& count : others.gather ? others.gather(own) : own)
+  {
+    instancesOf[count.glyph] += static_cast<std::size_t>(count.instances);
+  }
   int read = 0;
   for (WantedSurface& surface : wanted)
   {
@@ -128,13 +131,7 @@ int SnapshotSurfaces::countInstances(std::vector<WantedSurface>& wanted, const O
     {
       continue;
     }
-    const GlyphCount counted = countOf(surface);
-    const std::size_t instances = std::accumulate(all.begin(), all.end(), std::size_t(0),
-      [&](std::size_t sum, const GlyphCount& other)
-      {
-        return sum +
-          (other.isSameGlyph(counted) ? static_cast<std::size_t>(other.instances) : std::size_t(0));
-      });
+    const std::size_t instances = instancesOf[countOf(surface).glyph];
     SurfaceRecord& record = recordOf(surface);
     const auto isCheaper = [&](std::size_t count)
     { return areInstancesCheaper(record.trianglesOfSource, count); };
@@ -151,7 +148,7 @@ int SnapshotSurfaces::countInstances(std::vector<WantedSurface>& wanted, const O
 //------------------------------------------------------------------------------
 /// Set the centre to that of the present box; true if it moved.
 bool SnapshotSurfaces::updateCentre(
-  const std::vector<WantedSurface>& wanted, const OtherParts& others)
+  const std::vector<WantedSurface>& wanted, const OtherProcesses& others)
 {
   Bounds boundsWorld;
   for (const WantedSurface& surface : wanted)
@@ -198,6 +195,7 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::updateSurface(
       }
     }
     this->read(wanted, record.shapeTime);
+    wanted.fresh->record.instancesOfAll = record.instancesOfAll;
     ++change.extracted;
     maybeSame = false;
   }

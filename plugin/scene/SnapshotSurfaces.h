@@ -4,6 +4,7 @@
 
 #include "shadowtech/base/Occluders.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,28 +13,22 @@
 namespace gnomon
 {
 
-/// How many instances a process has of a glyph. Glyphs of several processes are one if the rest is
-/// equal.
+/// How many instances a process has of a glyph, in all blocks of a mapper's input. Glyphs of
+/// several processes are one if the rest is equal.
 struct GlyphCount
 {
-  std::int64_t prop; ///< DrawnProp::number
-  std::int64_t path; ///< DrawnProp::path
-  std::int64_t source;
-  std::int64_t cells; ///< SurfaceCells
+  /// DrawnProp::number; path, glyphSource and cells of the SurfaceKey.
+  std::array<std::int64_t, 4> glyph;
   std::int64_t instances;
-
-  bool isSameGlyph(const GlyphCount& other) const
-  {
-    return this->prop == other.prop && this->path == other.path && this->source == other.source &&
-      this->cells == other.cells;
-  }
 };
 
-/// What other processes hold of the scene, from what this one does. Empty: there are no others.
-struct OtherParts
+/// Join what this process holds of the scene with what other processes do. Empty: there are no
+/// others.
+struct OtherProcesses
 {
-  std::function<Bounds(const Bounds&)> unite; ///< the box around all
-  std::function<std::vector<GlyphCount>(const std::vector<GlyphCount>&)> gather; ///< those of all
+  std::function<Bounds(const Bounds&)> unite; ///< returns the box around all
+  /// Returns the counts of all.
+  std::function<std::vector<GlyphCount>(const std::vector<GlyphCount>&)> gather;
 };
 
 /// The result of one update of the snapshot.
@@ -50,8 +45,8 @@ class SnapshotSurfaces
 {
 public:
   /// Make the snapshot hold these surfaces, in this order.
-  /// @param others from all bounds follows the centre, from all counts which glyphs are instances
-  SnapshotChange update(std::vector<WantedSurface>& wanted, const OtherParts& others);
+  /// @param others with whom this process shares the centre, and the number of glyphs
+  SnapshotChange update(std::vector<WantedSurface>& wanted, const OtherProcesses& others);
 
   const Occluders& occluders() const { return this->occluders_; }
   /// Return the records, one for each of the snapshot's surfaces.
@@ -67,8 +62,8 @@ private:
     OtherTriangles ///< waits in WantedSurface::fresh
   };
 
-  int countInstances(std::vector<WantedSurface>& wanted, const OtherParts& others);
-  bool updateCentre(const std::vector<WantedSurface>& wanted, const OtherParts& others);
+  int countInstances(std::vector<WantedSurface>& wanted, const OtherProcesses& others);
+  bool updateCentre(const std::vector<WantedSurface>& wanted, const OtherProcesses& others);
   void read(WantedSurface& wanted, vtkMTimeType time);
   Outcome updateSurface(WantedSurface& wanted, bool recentred, SnapshotChange& change);
   bool transformAgain(const WantedSurface& wanted);

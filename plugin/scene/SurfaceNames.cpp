@@ -50,9 +50,10 @@ std::vector<SurfaceName> surfaceNames(
     [&](const SurfaceRecord& record)
     {
       const auto found = props.find(record.key.viewProp);
-      return found == props.end() ? SurfaceName{}
-                                  : SurfaceName{ found->second.first,
-                                      inputOf(found->second.second, record.key), record.key.cells };
+      return found == props.end()
+        ? SurfaceName{}
+        : SurfaceName{ found->second.first, inputOf(found->second.second, record.key),
+            record.key.cells, record.key.path, record.key.glyphSource };
     });
   return names;
 }

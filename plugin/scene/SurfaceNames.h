@@ -6,6 +6,7 @@
 
 #include "vtkType.h"
 
+#include <cstddef>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -23,10 +24,13 @@ struct SurfaceName
   /// The mapper's input, whose cells the surface's triangles are; null otherwise.
   vtkPolyData* data = nullptr;
   SurfaceCells cells = SurfaceCells::Polygons;
+  std::size_t path = 0; ///< SurfaceKey::path
+  int glyphSource = 0;  ///< SurfaceKey::glyphSource
 
   bool operator==(const SurfaceName& other) const
   {
-    return this->prop == other.prop && this->data == other.data && this->cells == other.cells;
+    return this->prop == other.prop && this->data == other.data && this->cells == other.cells &&
+      this->path == other.path && this->glyphSource == other.glyphSource;
   }
 };
 

@@ -21,7 +21,8 @@ namespace
 {
 
 constexpr std::size_t mostSamples = 64;
-constexpr std::size_t pixelsAtOnce = 256;
+constexpr std::size_t pixelsAtOnce = 256;         ///< of a task
+constexpr std::size_t samplesInMemory = 1u << 20; ///< 35 MB
 constexpr std::size_t probes = 4; ///< samples that decide if a pixel between surfaces needs all
 
 /// Return the Hammersley points of a pixel. Each row and each column holds one sample, so edges
@@ -200,8 +201,8 @@ class SamplePlacing
 {
 public:
   /// @param several null if this process draws the picture alone
-  /// @param orders set to the samples' orders
-  SamplePlacing(const Drawn& drawn, const PictureOfSeveral* several,
+  /// @param orders set to the samples' orders if others draw it, too
+  SamplePlacing(const Drawn& drawn, const SharedPicture* several,
     const std::vector<glm::dvec2>& places, ReceiverPixels& receivers, std::vector<float>& orders)
     : drawn_(drawn)
     , several_(several)
@@ -227,22 +228,16 @@ public:
     this->remaining_ = this->places_.size();
     std::iota(this->missing_.begin(), this->missing_.begin() + this->remaining_, 0);
     const std::optional<Shown> shown = this->shownAt(this->pixel_);
-    if (!shown)
+    if (shown)
     {
-      return false;
+      this->fillAll(*shown, pixel);
     }
-    const PixelRays& rays = this->drawn_.images.rays;
-    const glm::dvec3 direction = rays.direction(this->pixel_.x, this->pixel_.y);
-    const double t =
-      glm::dot(shown->position - rays.origin(this->pixel_.x, this->pixel_.y), direction) /
-      glm::dot(direction, direction);
-    this->shown_ = *shown;
-    this->pixelSide_ = glm::length(rays.originPerRow + t * rays.directionPerRow);
-    const SeenTriangle& own = this->cache_.find(this->drawn_, this->drawn_.images.fragments[pixel]);
-    this->isSolid_ = own.finite && own.solid;
-    this->fill(own, 0.0f);
-    this->fillFromNeighbours(pixel);
-    return this->isAtOutline(pixel);
+    for (std::size_t i = 0; i < this->remaining_; ++i)
+    {
+      leaveUncovered(
+        { 0.0, 0.0, 1, this->blocks_.sample(block, this->missing_[i]) }, this->receivers_);
+    }
+    return shown && this->isAtOutline(pixel);
   }
 
 private:
@@ -251,6 +246,23 @@ private:
   {
     glm::dvec3 position, normal; ///< of the receiver, as the picture has it on a flat triangle
   };
+
+  void fillAll(const Shown& shown, std::uint32_t pixel)
+  {
+    const PixelRays& rays = this->drawn_.images.rays;
+    const glm::dvec3 direction = rays.direction(this->pixel_.x, this->pixel_.y);
+    const double t =
+      glm::dot(shown.position - rays.origin(this->pixel_.x, this->pixel_.y), direction) /
+      glm::dot(direction, direction);
+    this->shown_ = shown;
+    this->mostApart_ = glm::length(rays.originPerRow + t * rays.directionPerRow) +
+      std::ldexp(glm::length(shown.position), -23);
+    const SeenTriangle& own = this->cache_.find(this->drawn_, this->drawn_.images.fragments[pixel]);
+    this->isSolid_ = own.finite && own.solid;
+    this->fill(own, 0.0f);
+    this->fillFromNeighbours(pixel);
+  }
+
   std::optional<Shown> shownAt(const glm::ivec2& at)
   {
     const std::size_t pixel = this->pixelAt(at);
@@ -367,7 +379,7 @@ private:
   {
     constexpr double leastCosine = 0.70710678; // 45 degrees
     return glm::dot(normal, this->shown_.normal) >= leastCosine &&
-      std::abs(glm::dot(position - this->shown_.position, this->shown_.normal)) <= this->pixelSide_;
+      std::abs(glm::dot(position - this->shown_.position, this->shown_.normal)) <= this->mostApart_;
   }
 
   /// Add receivers for the missing samples that lie on a triangle or solid.
@@ -412,7 +424,10 @@ private:
     }
     this->receivers_.surface[to] = this->samples_.surface[i];
     this->receivers_.lifted[to] = this->samples_.lifted[i];
-    this->orders_[to] = order;
+    if (this->several_)
+    {
+      this->orders_[to] = order;
+    }
   }
 
   void add(const SeenTriangle& seen, const Met& met, const glm::dvec2& place, std::size_t sample)
@@ -437,7 +452,7 @@ private:
   }
 
   const Drawn& drawn_;
-  const PictureOfSeveral* several_;
+  const SharedPicture* several_;
   const std::vector<glm::vec2>& surfaces_;
   const std::vector<glm::dvec2>& places_;
   const SampleBlocks blocks_;
@@ -450,8 +465,8 @@ private:
   glm::ivec2 pixel_{ 0 };
   std::size_t block_ = 0;
   Shown shown_{};
-  bool isSolid_ = false;                       ///< the pixel shows a solid of this process
-  double pixelSide_ = 0.0;                     ///< where it is
+  bool isSolid_ = false;   ///< the pixel shows a solid of this process
+  double mostApart_ = 0.0; ///< of planes that go on: a pixel's side, and the position's rounding
   std::array<std::size_t, mostSamples> taken_; ///< the samples of samples_
   std::array<std::size_t, mostSamples> missing_{};
   std::size_t remaining_ = 0; ///< number of missing samples
@@ -485,7 +500,7 @@ EdgePixels findEdgePixels(const ShownSurfaces& surfaces, const std::vector<float
 //------------------------------------------------------------------------------
 void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input,
   const std::vector<std::uint8_t>& classes, std::size_t perPixel, std::vector<float>& visibility,
-  const PictureOfSeveral* several, LightReport& report)
+  const SharedPicture* several, LightReport& report)
 {
   const Drawn drawn = several ? several->drawn : input.receivers.drawn();
   const FreeSegments* const hiders = several ? &several->hiders : drawn.freeSegments;
@@ -493,64 +508,69 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
   EdgePixels edges =
     findEdgePixels({ images.width, images.height, several ? several->surfaces : images.fragments },
       visibility, classes);
-  const auto trace = [&](const std::vector<std::uint32_t>& pixels, std::size_t count, bool drops)
+  // Calls take(pixel, mean of its samples) for pixels with `count` samples each.
+  const auto trace =
+    [&](const std::vector<std::uint32_t>& pixels, std::size_t count, bool drops, const auto& take)
   {
-    this->place(drawn, several, pixels, count);
-    if (several)
+    const std::size_t most = samplesInMemory / count;
+    for (std::size_t first = 0; first < pixels.size(); first += most)
     {
-      this->share(*several);
-    }
-    if (drops && hiders)
-    {
-      this->dropHidden(images, *hiders, several, pixels, count);
-    }
-    Receivers samples(this->receivers_);
-    LightReport ofSamples;
-    technique.computeVisibility(
-      { input.light, input.fitting, input.occluders, samples, input.tracer, input.usesMap,
-        &this->classes_, nullptr, nullptr, input.mapBakes },
-      this->visibility_, ofSamples);
-    report.rays += ofSamples.rays;
-  };
-  std::vector<std::uint32_t>& pixels = edges.ofShadows;
-  if (perPixel > probes && !edges.ofSurfaces.empty())
-  {
-    trace(edges.ofSurfaces, probes, false);
-    for (std::size_t i = 0; i < edges.ofSurfaces.size(); ++i)
-    {
-      const std::uint32_t pixel = edges.ofSurfaces[i];
-      if (this->mean(i, probes, visibility[pixel]) != visibility[pixel])
+      const std::vector<std::uint32_t> some(pixels.begin() + static_cast<std::ptrdiff_t>(first),
+        pixels.begin() + static_cast<std::ptrdiff_t>(std::min(first + most, pixels.size())));
+      this->place(drawn, several, some, count);
+      if (several)
       {
-        pixels.push_back(pixel);
+        this->share(*several);
+      }
+      if (drops && hiders)
+      {
+        this->dropHidden(images, *hiders, several, some, count);
+      }
+      Receivers samples(this->receivers_);
+      LightReport ofSamples;
+      technique.computeVisibility(
+        { input.light, input.fitting, input.occluders, samples, input.tracer, input.usesMap,
+          &this->classes_, nullptr, nullptr, input.mapBakes },
+        this->visibility_, ofSamples);
+      report.rays += ofSamples.rays;
+      for (std::size_t i = 0; i < some.size(); ++i)
+      {
+        take(some[i], this->mean(i, count, visibility[some[i]]));
       }
     }
+  };
+  std::vector<std::uint32_t>& pixels = edges.ofShadows;
+  if (perPixel > probes)
+  {
+    trace(edges.ofSurfaces, probes, false,
+      [&](std::uint32_t pixel, float mean)
+      {
+        if (mean != visibility[pixel])
+        {
+          pixels.push_back(pixel);
+        }
+      });
   }
   else
   {
     pixels.insert(pixels.end(), edges.ofSurfaces.begin(), edges.ofSurfaces.end());
   }
-  if (!pixels.empty())
-  {
-    trace(pixels, perPixel, true);
-  }
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-  {
-    float& ofPixel = visibility[pixels[i]];
-    ofPixel = this->mean(i, perPixel, ofPixel);
-  }
+  trace(pixels, perPixel, true, [&](std::uint32_t pixel, float mean) { visibility[pixel] = mean; });
 }
 
 //------------------------------------------------------------------------------
 /// Compute the samples' receivers on the triangles that this process drew. Samples without a
 /// receiver are not covered.
-void EdgeSamples::place(const Drawn& drawn, const PictureOfSeveral* several,
+void EdgeSamples::place(const Drawn& drawn, const SharedPicture* several,
   const std::vector<std::uint32_t>& pixels, std::size_t perPixel)
 {
   constexpr std::size_t columns = SampleBlocks::columns;
   const std::size_t rows = SampleBlocks(perPixel).rows(pixels.size());
   this->receivers_.resize(static_cast<int>(columns), static_cast<int>(rows));
-  leaveUncovered({ 0.0, 0.0, this->receivers_.size(), 0 }, this->receivers_);
-  this->orders_.assign(this->receivers_.size(), std::numeric_limits<float>::infinity());
+  std::fill(this->receivers_.surface.begin(), this->receivers_.surface.end(),
+    ReceiverPixels::notCovered); // after the last pixel's samples
+  this->orders_.assign(
+    several ? this->receivers_.size() : 0, std::numeric_limits<float>::infinity());
   this->outline_.resize(pixels.size());
   const std::vector<glm::dvec2> places = samplePlaces(perPixel);
   tbb::enumerable_thread_specific<SamplePlacing> placings(
@@ -568,7 +588,7 @@ void EdgeSamples::place(const Drawn& drawn, const PictureOfSeveral* several,
 
 //------------------------------------------------------------------------------
 /// Replace this process's receivers of samples by those of all processes.
-void EdgeSamples::share(const PictureOfSeveral& several)
+void EdgeSamples::share(const SharedPicture& several)
 {
   std::vector<float> least = this->orders_;
   several.reduceToLeast(least);
@@ -585,7 +605,7 @@ void EdgeSamples::share(const PictureOfSeveral& several)
 //------------------------------------------------------------------------------
 /// Drop samples of pixels at outlines that casters hide from the camera.
 void EdgeSamples::dropHidden(const ReceiverImages& images, const FreeSegments& hiders,
-  const PictureOfSeveral* several, const std::vector<std::uint32_t>& pixels, std::size_t perPixel)
+  const SharedPicture* several, const std::vector<std::uint32_t>& pixels, std::size_t perPixel)
 {
   const std::vector<glm::dvec2> places = samplePlaces(perPixel);
   const SampleBlocks blocks(perPixel);

@@ -17,7 +17,7 @@ struct Drawn;
 
 /// A picture that several processes draw, each its own part of the triangles. All of them must call
 /// EdgeSamples::smooth() alike. The functions are collective.
-struct PictureOfSeveral
+struct SharedPicture
 {
   /// What this process drew. Fragments are 0 where the picture shows another process's triangle.
   const Drawn& drawn;
@@ -44,9 +44,8 @@ struct PictureOfSeveral
 ///
 /// Between surfaces most pixels are evenly lit: four samples decide which of them need all samples.
 ///
-/// Where several processes draw the picture, each places samples on its own triangles. The one with
-/// the first of the triangles that hold a sample gives it to the others, and each tests if its own
-/// casters hide it.
+/// Where several processes draw the picture, each tries its own triangles. The process with the
+/// first triangle that holds a sample sends the receiver. Each tests if its casters hide it.
 class EdgeSamples
 {
 public:
@@ -59,22 +58,21 @@ public:
   /// @param report the traced rays are added to it
   void smooth(CpuScreenTechnique& technique, const ScreenInput& input,
     const std::vector<std::uint8_t>& classes, std::size_t perPixel, std::vector<float>& visibility,
-    const PictureOfSeveral* several, LightReport& report);
+    const SharedPicture* several, LightReport& report);
 
   /// Return the bytes cached for the next picture.
   std::size_t bytes() const
   {
-    return this->receivers_.bytes() + bytesOf(this->orders_) + bytesOf(this->hidden_) +
-      bytesOf(this->visibility_) + bytesOf(this->classes_);
+    return this->receivers_.bytes() + bytesOf(this->orders_) + bytesOf(this->outline_) +
+      bytesOf(this->hidden_) + bytesOf(this->visibility_) + bytesOf(this->classes_);
   }
 
 private:
-  void place(const Drawn& drawn, const PictureOfSeveral* several,
+  void place(const Drawn& drawn, const SharedPicture* several,
     const std::vector<std::uint32_t>& pixels, std::size_t perPixel);
-  void share(const PictureOfSeveral& several);
+  void share(const SharedPicture& several);
   void dropHidden(const ReceiverImages& images, const FreeSegments& hiders,
-    const PictureOfSeveral* several, const std::vector<std::uint32_t>& pixels,
-    std::size_t perPixel);
+    const SharedPicture* several, const std::vector<std::uint32_t>& pixels, std::size_t perPixel);
   float mean(std::size_t pixel, std::size_t perPixel, float ofCentre) const;
 
   ReceiverPixels receivers_;          ///< of the samples

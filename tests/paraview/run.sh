@@ -73,6 +73,7 @@ beside_server()
 {
   local processes=$1 options=$2 name=$3 port=11133 server
   shift 3
+  : > "$folder/server.log" # an earlier server's
   # shellcheck disable=SC2086 # the options are words
   with_display mpirun -np "$processes" pvserver --server-port=$port $options \
     > "$folder/server.log" 2>&1 &

@@ -245,6 +245,8 @@ def main():
                     alone = scenario.read_visibility(stage.path(frame))
                     columns = SIZE[0] if frame == "smooth-edges" else None
                     sums.add(frame, ours, alone, report, stage.bound, columns)
+                    if columns and not scenario.mixed_pixels(ours):
+                        sums.faults.append(f"{frame}: no smooth edge")
                     if frame == "screenshot":
                         compare_pictures(stage, shared)
                 scenario.check(f"{stage.name} on {count} processes", not sums.faults, str(sums))

@@ -108,6 +108,12 @@ def read_picture(path):
     return colours.reshape(height, width, -1)[:, :, :3].astype(int)
 
 
+def mixed_pixels(visibility):
+    """Return how many pixels are neither lit nor dark, of all lights."""
+    lights = [values for name, values in visibility.items() if name.startswith("light ")]
+    return sum(int(((values > 0) & (values < 1)).sum()) for values in lights)
+
+
 def all_around(mask):
     """Return where a mask of pixels is true of a pixel and of all of its neighbours."""
     padded = np.pad(mask, 1, constant_values=True)

@@ -53,7 +53,8 @@ mount_chroot "$root" "$project"
 
 echo "$SECONDS s: installing packages"
 # shellcheck disable=SC2046 # the packages are words
-install_inside "$root" $(debian_packages "$project") libvtk9-qt-dev > "$folder/$release-packages.log" 2>&1 ||
+install_inside "$root" $(debian_packages "$project") libvtk9-qt-dev \
+  > "$folder/$release-packages.log" 2>&1 ||
   untested "its packages do not install ($folder/$release-packages.log)"
 # Not in all releases; what takes it is skipped without.
 inside "$root" apt-get install -qq --yes --no-install-recommends -o Dpkg::Use-Pty=0 python3-pyvista \

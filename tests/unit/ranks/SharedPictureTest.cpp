@@ -8,11 +8,14 @@
 
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
+#include <vtkAssembly.h>
 #include <vtkCamera.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
+#include <vtkPlaneSource.h>
 #include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkSphereSource.h>
 
 #include <gmock/gmock.h>
@@ -125,13 +128,18 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SharedEdges,
 TEST_P(SharedEdges, EqualThoseOfOneProcess)
 {
   SplitScene scene(tool::loadScene(std::get<0>(GetParam())), std::get<1>(GetParam()));
-  for (const char* samples : { "16", "4", "64" })
+  const auto smooth = [&](const char* samples)
   {
-    scene.shared().pass->SetSetting("edge_samples", samples);
-    scene.alone().pass->SetSetting("edge_samples", samples);
+    scene.smooth(samples);
     EXPECT_GT(scene.expectSame(), 0u);
-    scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(10.0); });
-  }
+    EXPECT_GT(scene.mixedPixels(), 0u) << samples;
+  };
+  EXPECT_GT(scene.expectSame(), 0u);
+  EXPECT_EQ(scene.mixedPixels(), 0u);
+  smooth("16"); // the receivers stay
+  scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(10.0); });
+  smooth("4");
+  smooth("64");
   EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
@@ -206,37 +214,78 @@ TEST_F(SharedFrames, HoldGlyphsByTheirNumberInAllProcesses)
     actor->SetMapper(mapper);
     view.renderer->AddActor(actor);
   };
-  const auto fill = [&](int first, int end)
+  const auto fill = [&](int first, int end, const std::function<int(int)>& ownerOf)
   {
     for (int i = first; i < end; ++i)
     {
       const double place[] = { 2.0 * std::cos(0.37 * i), 2.0 * std::sin(0.37 * i), 0.001 * i };
       all->InsertNextPoint(place);
-      if (i % ranks == this->own_)
+      if (ownerOf(i) == this->own_)
       {
         own->InsertNextPoint(place);
+        own->Modified();
       }
     }
     all->Modified();
-    own->Modified();
   };
-  fill(0, few);
+  fill(0, few, [&](int i) { return i % ranks; });
   add(this->scene_.shared(), own);
   add(this->scene_.alone(), all);
   this->scene_.expectSame();
   EXPECT_EQ(this->scene_.alone().report().instances, 0u);
   EXPECT_EQ(this->scene_.shared().report().instances, 0u);
-  fill(few, many);
+  const auto expectInstances = [&]
+  {
+    this->scene_.expectSame();
+    EXPECT_EQ(this->scene_.alone().report().instances, static_cast<std::size_t>(many));
+    EXPECT_EQ(
+      this->scene_.shared().report().instances, static_cast<std::size_t>(own->GetNumberOfPoints()));
+  };
+  fill(few, many, [&](int) { return this->last_; }); // the others' data stay as they are
+  const auto changeMapper = [](RankView& view)
+  {
+    auto* mapper = vtkMapper::SafeDownCast(view.renderer->GetActors()->GetLastActor()->GetMapper());
+    mapper->GetInputDataObject(0, 0)->Modified();
+  };
+  changeMapper(this->scene_.alone());
+  if (this->own_ == this->last_)
+  {
+    changeMapper(this->scene_.shared());
+  }
+  expectInstances();
   this->scene_.change(
-    [](vtkRenderer* renderer)
+    [](vtkRenderer* renderer) { renderer->GetActors()->GetLastActor()->SetScale(-1.0, 1.0, 1.0); });
+  expectInstances();
+  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
+}
+
+TEST_F(SharedFrames, SmoothEdgesBetweenPartsOfAnAssembly)
+{
+  constexpr int parts = 5;
+  const auto add = [](RankView& view, const std::function<bool(int)>& has)
+  {
+    vtkNew<vtkAssembly> assembly;
+    for (int part = 0; part < parts; ++part)
     {
-      auto* mapper = vtkMapper::SafeDownCast(renderer->GetActors()->GetLastActor()->GetMapper());
-      mapper->GetInputDataObject(0, 0)->Modified();
-    });
-  this->scene_.expectSame();
-  EXPECT_EQ(this->scene_.alone().report().instances, static_cast<std::size_t>(many));
-  EXPECT_EQ(
-    this->scene_.shared().report().instances, static_cast<std::size_t>(own->GetNumberOfPoints()));
+      vtkNew<vtkPlaneSource> plane;
+      plane->SetOrigin(-1.0 + 0.3 * part, -1.0, 1.0 + 0.2 * part);
+      plane->SetPoint1(0.1 + 0.3 * part, -0.9, 1.0 + 0.2 * part);
+      plane->SetPoint2(-1.1 + 0.3 * part, 0.8, 1.0 + 0.2 * part);
+      plane->Update();
+      vtkNew<vtkPolyData> empty;
+      vtkNew<vtkPolyDataMapper> mapper;
+      mapper->SetInputData(has(part) ? plane->GetOutput() : empty.Get());
+      vtkNew<vtkActor> actor;
+      actor->SetMapper(mapper);
+      assembly->AddPart(actor);
+    }
+    view.renderer->AddViewProp(assembly);
+  };
+  add(this->scene_.shared(), [&](int part) { return part % (this->last_ + 1) == this->own_; });
+  add(this->scene_.alone(), [](int) { return true; });
+  this->scene_.smooth("16");
+  EXPECT_GT(this->scene_.expectSame(), 0u);
+  EXPECT_GT(this->scene_.mixedPixels(), 0u);
   EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 

@@ -215,6 +215,25 @@ void SplitScene::change(const std::function<void(vtkRenderer*)>& of)
 }
 
 //------------------------------------------------------------------------------
+void SplitScene::smooth(const char* edgeSamples)
+{
+  this->shared_->pass->SetSetting("edge_samples", edgeSamples);
+  this->alone_->pass->SetSetting("edge_samples", edgeSamples);
+}
+
+//------------------------------------------------------------------------------
+std::size_t SplitScene::mixedPixels() const
+{
+  std::size_t mixed = 0;
+  for (const std::vector<float>& visibility : this->shared_->pass->GetVisibility().visibility)
+  {
+    mixed += static_cast<std::size_t>(std::count_if(
+      visibility.begin(), visibility.end(), [](float v) { return v > 0.0f && v < 1.0f; }));
+  }
+  return mixed;
+}
+
+//------------------------------------------------------------------------------
 std::size_t SplitScene::expectSame()
 {
   const VisibilityImages& shared = this->shared_->draw();

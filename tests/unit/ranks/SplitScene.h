@@ -66,6 +66,11 @@ public:
   /// Call a function for both views.
   void change(const std::function<void(vtkRenderer*)>& of);
 
+  /// Set the samples of edge pixels in both views.
+  void smooth(const char* edgeSamples);
+  /// Return how many pixels of the shared view are neither lit nor dark.
+  std::size_t mixedPixels() const;
+
   /// Draw both views. The pictures' visibility and receivers must be the same, bit for bit.
   /// @return the number of pixels in shadow
   std::size_t expectSame();
