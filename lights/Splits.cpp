@@ -26,15 +26,4 @@ std::vector<double> splitDistances(const DistanceInterval& visible, int count, d
   return result;
 }
 
-//------------------------------------------------------------------------------
-DistanceInterval splitInterval(
-  const DistanceInterval& possible, double leastReceiver, double greatestReceiver)
-{
-  const double nearest = std::max(possible.nearest, leastReceiver);
-  const double farthest = std::min(possible.farthest, greatestReceiver);
-  const bool receivers = std::isfinite(leastReceiver) && std::isfinite(greatestReceiver) &&
-    leastReceiver <= greatestReceiver;
-  return receivers && nearest <= farthest ? DistanceInterval{ nearest, farthest } : possible;
-}
-
 } // namespace gnomon

@@ -27,11 +27,4 @@ struct DistanceInterval
 /// @param lambda in [0, 1]
 std::vector<double> splitDistances(const DistanceInterval& visible, int count, double lambda);
 
-/// Return the interval to split: the receivers' least and greatest distance, clipped to `possible`
-/// (Lauritzen, Salvi, Lefohn: Sample Distribution Shadow Maps, 2011, section 3.1). Without
-/// receivers (least > greatest, or not finite), return `possible`.
-/// @param possible interval that camera and scene allow
-DistanceInterval splitInterval(
-  const DistanceInterval& possible, double leastReceiver, double greatestReceiver);
-
 } // namespace gnomon

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace gnomon::test
@@ -63,26 +62,6 @@ TEST(Splits, StayFiniteWithoutAPositiveDistance)
       }
     }
   }
-}
-
-TEST(Splits, TakeTheirIntervalFromTheReceivers)
-{
-  const DistanceInterval possible{ 1.0, 100.0 };
-  const auto expectInterval = [&](double least, double greatest, double nearest, double farthest)
-  {
-    const DistanceInterval interval = splitInterval(possible, least, greatest);
-    EXPECT_EQ(interval.nearest, nearest);
-    EXPECT_EQ(interval.farthest, farthest);
-  };
-  expectInterval(5.0, 50.0, 5.0, 50.0);
-  expectInterval(0.5, 500.0, 1.0, 100.0);
-  expectInterval(7.0, 7.0, 7.0, 7.0);
-  // Splits without receivers, and with receivers that cannot be.
-  const double infinity = std::numeric_limits<double>::infinity();
-  expectInterval(infinity, -infinity, 1.0, 100.0);
-  expectInterval(50.0, 5.0, 1.0, 100.0);
-  expectInterval(std::nan(""), 5.0, 1.0, 100.0);
-  expectInterval(200.0, 300.0, 1.0, 100.0);
 }
 
 } // namespace
