@@ -1,4 +1,5 @@
-# Set-up on Debian 12, shared by examples/bunny.sh and tests/run.sh, which source it.
+# Set-up on Debian 12. examples/bunny.sh, tests/run.sh, docs/comparisons.sh and docs/examples.sh
+# source it.
 
 # install_packages [PACKAGE...]: installs what cmake/debian-packages.txt lists, and these packages, as far as this machine lacks
 # them; nothing when it lacks nothing.
