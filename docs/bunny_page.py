@@ -2,12 +2,13 @@
 """Writes the tables of docs/figures.sh from its two runs of `gnomon compare`: all of them into
 docs/results/bunny.md, five rows into README.md."""
 
-import argparse
 import csv
+import sys
 from pathlib import Path
 
 MOTIONS = {"static": "static", "camera_moving": "camera moving", "light_moving": "light moving"}
 PLAIN = "plain VTK"
+BUNNY_PAGE, MAIN_PAGE = Path("docs/results/bunny.md"), Path("README.md")
 BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
 
 # README's rows: what for, the technique, and whether its lights have an area.
@@ -135,30 +136,20 @@ def readme_rows(hard: Run, soft: Run, machine: str) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("hard", type=Path, help="folder of the comparison with the sun as a point")
-    parser.add_argument("soft", type=Path, help="folder of the comparison with the sun as a disk")
-    parser.add_argument("machine", help="what was measured on")
-    parser.add_argument("--page", type=Path, default=Path("docs/results/bunny.md"))
-    parser.add_argument("--readme", type=Path, default=Path("README.md"))
-    options = parser.parse_args()
-    hard, soft = Run(options.hard), Run(options.soft)
-
+    hard, soft, machine = Run(Path(sys.argv[1])), Run(Path(sys.argv[2])), sys.argv[3]
     hard_heads = ["wrong pixels", "false light", "false shadow", "neither lit nor dark"]
-    options.page.parent.mkdir(parents=True, exist_ok=True)
-    options.page.write_text(
+    BUNNY_PAGE.write_text(
         PAGE.format(
             hard=table(hard, hard_heads, hard_errors),
             soft=table(soft, ["mean absolute error", "root mean square"], soft_errors),
-            machine=options.machine,
+            machine=machine,
         ),
         encoding="utf-8",
     )
-    readme = options.readme.read_text(encoding="utf-8")
-    before, rest = readme.split(BEGIN)
+    before, rest = MAIN_PAGE.read_text(encoding="utf-8").split(BEGIN)
     after = rest.split(END)[1]
-    rows = readme_rows(hard, soft, options.machine)
-    options.readme.write_text(f"{before}{BEGIN}\n\n{rows}\n\n{END}{after}", encoding="utf-8")
+    rows = readme_rows(hard, soft, machine)
+    MAIN_PAGE.write_text(f"{before}{BEGIN}\n\n{rows}\n\n{END}{after}", encoding="utf-8")
 
 
 if __name__ == "__main__":
