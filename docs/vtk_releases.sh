@@ -30,14 +30,14 @@ versionsOf() {
 
 # renderBy NAME COMMAND... : the visibility of all scenes and techniques, as $out/NAME.*.exr
 renderBy() {
-  local name=$1 folder="$out" scene technique
+  local name=$1 scene technique
   shift
   for scene in "${scenes[@]}"; do
     for technique in $techniques; do
       rm -f "$out/$name.$scene.$technique".*
       "$@" render "$scene" --technique "$technique" --size "$size" \
-        -o "$folder/$name.$scene.$technique.png" \
-        --visibility "$folder/$name.$scene.$technique.exr" > "$out/log" 2>&1 ||
+        -o "$out/$name.$scene.$technique.png" \
+        --visibility "$out/$name.$scene.$technique.exr" > "$out/log" 2>&1 ||
         echo "$name: $scene by $technique: $(grep error "$out/log" | head -1)" >&2
     done
   done
