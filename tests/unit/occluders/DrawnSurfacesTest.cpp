@@ -306,7 +306,7 @@ protected:
   vtkNew<NumberPass> pass;
 
 private:
-  /// Return the snapshot's triangle for a drawn primitive, found as in projectReceivers.
+  /// Return the snapshot's triangle for a drawn primitive, found as `Receivers` does.
   std::uint32_t find(std::size_t drawnSurface, std::uint32_t primitive) const
   {
     for (const DrawnSurface::Block& block :

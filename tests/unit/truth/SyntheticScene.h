@@ -83,7 +83,7 @@ struct View
 };
 View makeView(const Occluders& occluders, const Camera& camera);
 
-/// Run makeView() and projectReceivers().
+/// Return the receivers of makeView().
 ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera);
 
 /// A receiver that a test places, centred.
