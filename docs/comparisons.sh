@@ -10,6 +10,13 @@ prepare()
   build_gnomon
 }
 
+# buildTests TARGET... : builds these of the tests and benchmarks in build/release, after prepare
+buildTests()
+{
+  cmake --preset release -DGNOMON_BUILD_TESTS=ON > build/configure.log
+  cmake --build --preset release --target "$@"
+}
+
 # compareOnce FOLDER SCENE OPTION... : `gnomon compare` into the folder, unless the same program did just that before
 compareOnce()
 {

@@ -7,8 +7,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source docs/comparisons.sh
 prepare
-cmake --preset release -DGNOMON_BUILD_TESTS=ON > build/configure.log
-cmake --build --preset release --target gnomon_benchmark_fitting gnomon_test_lights
+buildTests gnomon_benchmark_fitting gnomon_test_lights
 
 out=out/conclusions
 mkdir -p "$out"

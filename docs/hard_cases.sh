@@ -5,5 +5,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source docs/comparisons.sh
 prepare
+buildTests gnomon_hard_cases
 
 build/release/bin/gnomon_hard_cases --known tests/hard/red_cells.tsv -o docs/results
