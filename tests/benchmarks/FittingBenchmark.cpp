@@ -4,6 +4,7 @@
 // gnomon_benchmark_fitting [SIDE [FRAMES]], the side of the receivers' image in pixels.
 
 #include "SyntheticScene.h"
+#include "Timing.h"
 
 #include "lights/SettingsTable.h"
 
@@ -17,12 +18,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <vtkNew.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
-#include <iomanip>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -35,52 +33,6 @@ namespace
 {
 
 constexpr int mapSizeTexels = 1024;
-
-/// In milliseconds.
-struct Time
-{
-  double wall = 0.0;
-  double processor = 0.0; ///< of all threads; meaningful with software OpenGL
-};
-
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-struct Task
-{
-  std::string name;
-  std::function<void()> run;
-  std::vector<double> wall = {};
-  std::vector<double> processor = {};
-
-  Time medians() const { return { median(this->wall), median(this->processor) }; }
-};
-
-Time now()
-{
-  timespec wall;
-  timespec processor;
-  clock_gettime(CLOCK_MONOTONIC, &wall);
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &processor);
-  const auto milliseconds = [](const timespec& time)
-  { return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec); };
-  return { milliseconds(wall), milliseconds(processor) };
-}
-
-void measure(Task& task)
-{
-  glFinish();
-  const Time begin = now();
-  task.run();
-  glFinish();
-  const Time end = now();
-  task.wall.push_back(end.wall - begin.wall);
-  task.processor.push_back(end.processor - begin.processor);
-}
 
 void fill(GlTexture& texture, int side, const std::vector<glm::vec4>& texels)
 {
@@ -165,23 +117,35 @@ void run(int side, int frames)
   const LightViews plainViews = fitLightViews(plain, fitting);
   fitting.camera = view;
 
-  std::vector<Task> tasks;
-  tasks.push_back({ "map of " + std::to_string(mapSizeTexels), [&] {
-                     technique.bake({ plain, plainViews, occluders, buffers, shaders });
-                   } });
+  std::vector<Way> ways;
+  const auto add = [&](const std::string& name, const std::function<void()>& work)
+  {
+    ways.push_back({ name,
+      [work]
+      {
+        work();
+        glFinish();
+      } });
+  };
+  add("map of " + std::to_string(mapSizeTexels),
+    [&] {
+      technique.bake({ plain, plainViews, occluders, buffers, shaders });
+    });
   ShadowLight second = plain;
   second.of<DepthMapSettings>().surface = DepthSurface::Second;
   ShadowLight midpoint = plain;
   midpoint.of<DepthMapSettings>().surface = DepthSurface::Midpoint;
   Compare secondMap;
   Compare midpointMap;
-  tasks.push_back({ "the same, second depths", [&] {
-                     secondMap.bake({ second, plainViews, occluders, buffers, shaders });
-                   } });
-  tasks.push_back({ "the same, midpoints", [&] {
-                     midpointMap.bake({ midpoint, plainViews, occluders, buffers, shaders });
-                   } });
-  const auto add = [&](const std::string& name, ShadowLight light, const char* projection)
+  add("the same, second depths",
+    [&] {
+      secondMap.bake({ second, plainViews, occluders, buffers, shaders });
+    });
+  add("the same, midpoints",
+    [&] {
+      midpointMap.bake({ midpoint, plainViews, occluders, buffers, shaders });
+    });
+  const auto addFit = [&](const std::string& name, ShadowLight light, const char* projection)
   {
     findSetting("projection")->set(light, projection);
     light.fit = ViewFit::Frame;
@@ -189,47 +153,27 @@ void run(int side, int frames)
     light.mapSizeTexels = mapSizeTexels;
     const LightViews views = fitLightViews(light, fitting);
     auto fit = std::make_shared<ReceiverFit>();
-    tasks.push_back({ name,
+    add(name,
       [&, light, views, fit]
       {
         fit->compute(light, views, { images.fragments.name(), images.points.name(), side, side },
           glm::inverse(view.viewFromCentred), shaders);
-      } });
+      });
   };
-  add("fit of a sun", plain, "uniform");
+  addFit("fit of a sun", plain, "uniform");
   const glm::mat4x3 across(glm::lookAt(glm::dvec3(0.0), plain.directionWorld, camera.up) *
     glm::inverse(view.viewFromCentred));
   std::array<glm::vec3, 2> corners{};
-  tasks.push_back(
-    { "its bounds on the CPU", [&] { corners = boundsOnCpu(images.pointsView, across); } });
-  add("fit of a sun, lispsm", plain, "lispsm");
-  add("fit of a sun, pssm", plain, "pssm");
-  add("fit of a spot", spotLight({ 4.0, -2.0, 5.0 }, glm::dvec3(0.0), 40.0), "uniform");
-  add("fit of a point light", pointLight({ 1.5, -1.0, 3.0 }), "uniform");
+  add("its bounds on the CPU", [&] { corners = boundsOnCpu(images.pointsView, across); });
+  addFit("fit of a sun, lispsm", plain, "lispsm");
+  addFit("fit of a sun, pssm", plain, "pssm");
+  addFit("fit of a spot", spotLight({ 4.0, -2.0, 5.0 }, glm::dvec3(0.0), 40.0), "uniform");
+  addFit("fit of a point light", pointLight({ 1.5, -1.0, 3.0 }), "uniform");
 
-  for (int frame = 0; frame < frames; ++frame)
-  {
-    for (Task& task : tasks)
-    {
-      if (frame == 0)
-      {
-        task.run(); // builds programs
-      }
-      measure(task);
-    }
-  }
-  const Time map = tasks.front().medians();
-  std::cout << std::fixed << std::setprecision(2) << glGetString(GL_RENDERER) << ", " << side
-            << " x " << side << ", " << frames << " frames\n"
-            << std::setw(32) << "ms" << std::setw(8) << "x map" << std::setw(16) << "processor ms"
-            << std::setw(8) << "x map\n";
-  for (const Task& task : tasks)
-  {
-    const Time time = task.medians();
-    std::cout << std::left << std::setw(24) << task.name << std::right << std::setw(8) << time.wall
-              << std::setw(8) << time.wall / map.wall << std::setw(16) << time.processor
-              << std::setw(8) << time.processor / map.processor << "\n";
-  }
+  takeTurns(ways, frames);
+  std::cout << glGetString(GL_RENDERER) << ", " << side << " x " << side << ", " << frames
+            << " frames\n";
+  printTimes(ways, "map");
   std::cout << "the box is " << glm::length(corners[1] - corners[0]) << " across\n";
 }
 

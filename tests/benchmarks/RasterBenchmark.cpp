@@ -3,10 +3,10 @@
 // after all casters have moved.
 
 #include "BenchmarkMain.h"
-#include "FrameTiming.h"
 #include "Machine.h"
 #include "Scene.h"
 #include "SyntheticScene.h"
+#include "Timing.h"
 
 #include "plugin/scene/OccluderCollector.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
@@ -18,9 +18,6 @@
 #include <vtkNew.h>
 
 #include <cstdint>
-#include <ctime>
-#include <functional>
-#include <iomanip>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -71,73 +68,6 @@ private:
   ShadowLight light_;
 };
 
-/// In milliseconds.
-struct Time
-{
-  double wall;
-  /// CPU time of all threads. It tells more than wall time on a busy machine with software OpenGL.
-  double processor;
-};
-
-Time now()
-{
-  const auto millisecondsOf = [](clockid_t clock)
-  {
-    timespec time;
-    clock_gettime(clock, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-  };
-  return { millisecondsOf(CLOCK_MONOTONIC), millisecondsOf(CLOCK_PROCESS_CPUTIME_ID) };
-}
-
-/// One of the ways that take turns.
-struct Way
-{
-  std::string name;
-  std::function<void()> run;
-  std::vector<double> wall = {};
-  std::vector<double> processor = {};
-
-  Time medians() const { return { tool::median(this->wall), tool::median(this->processor) }; }
-};
-
-/// Time all ways in turn.
-void takeTurns(std::vector<Way>& ways, int repetitions)
-{
-  for (int repetition = 0; repetition <= repetitions; ++repetition)
-  {
-    for (Way& way : ways)
-    {
-      const Time begin = now();
-      way.run();
-      const Time end = now();
-      if (repetition > 0) // the first one builds programs
-      {
-        way.wall.push_back(end.wall - begin.wall);
-        way.processor.push_back(end.processor - begin.processor);
-      }
-    }
-  }
-}
-
-/// Print each way's times, and their ratio to the first way's.
-void print(const std::vector<Way>& ways)
-{
-  const std::string perFirst = "x " + ways.front().name;
-  std::cout << std::setw(36) << "ms" << std::setw(10) << perFirst << std::setw(16) << "processor ms"
-            << std::setw(10) << perFirst << "\n";
-  const Time first = ways.front().medians();
-  for (const Way& way : ways)
-  {
-    const Time time = way.medians();
-    std::cout << "  " << std::left << std::setw(24) << way.name << std::right
-              << std::setprecision(2) << std::setw(10) << time.wall << std::setw(10)
-              << time.wall / first.wall << std::setw(16) << time.processor << std::setw(10)
-              << time.processor / first.processor << "\n";
-  }
-  std::cout << std::flush;
-}
-
 /// Return the same casters, all of them turned.
 Occluders turned(Occluders occluders)
 {
@@ -171,7 +101,7 @@ void runEdges(const Subject& subject, const std::string& name, int repetitions)
     } });
   takeTurns(ways, repetitions);
   std::cout << name << ", edges, seams and parts\n";
-  print(ways);
+  printTimes(ways, ways.front().name);
 }
 
 void runMaps(const Subject& subject, const std::string& name, int sizeTexels, Covering covering,
@@ -200,7 +130,7 @@ void runMaps(const Subject& subject, const std::string& name, int sizeTexels, Co
   std::cout << name << ", " << CasterPlacements(subject.occluders()).triangleCount()
             << " triangles, map " << sizeTexels << ", "
             << (covering == Covering::Triangle ? "crsm" : "crsma") << "\n";
-  print(ways);
+  printTimes(ways, ways.front().name);
 }
 
 int runAll(int argc, char** argv)
@@ -227,8 +157,7 @@ int runAll(int argc, char** argv)
   window->Initialize();
   window->MakeCurrent();
   std::cout << tool::openGlName(window) << "; " << tool::processorName() << "; medians of "
-            << options.repetitions << "\n"
-            << std::fixed;
+            << options.repetitions << "\n";
   ShaderLibrary shaders;
   const Covering covering = options.technique == "crsm" ? Covering::Triangle : Covering::Ring;
   for (const std::string& name : options.scenes)

@@ -3,6 +3,7 @@
 // bunny on a plane, directional light, 1024 x 1024.
 
 #include "SyntheticScene.h"
+#include "Timing.h"
 
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/exact/ConservativeMaps.h"
@@ -153,13 +154,6 @@ double milliseconds(const Function& function)
   function();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
     .count();
-}
-
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The stage and the bare loops take turns, so other load on the machine affects all alike.
