@@ -29,7 +29,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -418,17 +417,6 @@ std::string describe(const Options& options)
     << "\nframes; in brackets, multiples of plain VTK's. Bytes are those of the triangles' copy on "
        "the CPU and\nthe GPU, and of Embree's structure.";
   return text.str();
-}
-
-/// Return the command line, without the program's folder.
-std::string commandOf(int argc, char** argv)
-{
-  std::string text = std::filesystem::path(argv[0]).filename().string();
-  for (int i = 1; i < argc; ++i)
-  {
-    text += std::string(" ") + argv[i];
-  }
-  return text;
 }
 
 /// Initialise OpenGL, too: otherwise the first contender would pay for that.

@@ -23,7 +23,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -363,17 +362,6 @@ std::string pageOf(const std::vector<SceneResult>& results, const std::string& c
 //------------------------------------------------------------------------------
 // The program
 
-/// Return the command line, without the program's folder.
-std::string commandOf(int argc, char** argv)
-{
-  std::string text = std::filesystem::path(argv[0]).filename().string();
-  for (int i = 1; i < argc; ++i)
-  {
-    text += std::string(" ") + argv[i];
-  }
-  return text;
-}
-
 /// Compare this many shadow rays, in splits of equal size.
 SceneResult study(const std::string& name, const Options& options, std::uint64_t rays)
 {
@@ -420,7 +408,7 @@ int run(int argc, char** argv)
   }
   if (!options.markdown.empty())
   {
-    tool::writeText(options.markdown, pageOf(results, commandOf(argc, argv)));
+    tool::writeText(options.markdown, pageOf(results, tool::commandOf(argc, argv)));
   }
   const std::string fault = faultOf(sumOf(results));
   if (!fault.empty())
