@@ -7,6 +7,8 @@
 #include "Html.h"
 #include "Text.h"
 
+#include "lights/SettingsTable.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <set>
@@ -32,16 +34,6 @@ Look lookOf(Outcome outcome)
     { Outcome::Broken, { "broken", "#d03b3b" } }, { Outcome::Refused, { "refused", "#c9c9c9" } },
     { Outcome::None, { "none", "#f0f0f0" } } };
   return looks.at(outcome);
-}
-
-std::string join(const std::vector<std::string>& parts)
-{
-  std::string text;
-  for (const std::string& part : parts)
-  {
-    text += (text.empty() ? "" : ", ") + part;
-  }
-  return text;
 }
 
 /// Return a cell's result as text.
@@ -84,7 +76,7 @@ std::string svgOf(const std::vector<Cell>& cells)
     svg << "<text x=\"" << left - 6 << "\" y=\"" << top + side * static_cast<int>(i) + 12
         << "\" text-anchor=\"end\">" << tool::escape(rows()[i].name) << "</text>\n<text x=\""
         << width - right + 6 << "\" y=\"" << top + side * static_cast<int>(i) + 12
-        << "\" font-size=\"9\">" << tool::escape(join(rows()[i].cases)) << "</text>\n";
+        << "\" font-size=\"9\">" << tool::escape(listOf(rows()[i].cases)) << "</text>\n";
   }
   for (const Cell& cell : cells)
   {
