@@ -226,6 +226,21 @@ ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direct
 }
 
 //------------------------------------------------------------------------------
+ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& directions)
+{
+  return [=](const glm::dvec2& floor)
+  {
+    double value = isUnder(floor, box) ? -1.0 : 0.0;
+    for (const glm::dvec3& direction : directions)
+    {
+      const bool lit = !hitsBox(floor, -direction, box.lower, box.upper);
+      value += value >= 0.0 && lit ? 127.5 / glm::length(direction) : 0.0;
+    }
+    return value;
+  };
+}
+
+//------------------------------------------------------------------------------
 FloorCheck checkFloor(
   const PassScene& scene, const Picture& picture, const ExactFloor& exact, double band)
 {

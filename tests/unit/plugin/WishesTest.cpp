@@ -65,9 +65,6 @@ protected:
   int mapSize = 1024;
 };
 
-/// Stands on the floor; its shadow from the slanting sun is x in [1, 3].
-const Box standing{ { -1.0, -1.0, 0.0 }, { 1.0, 1.0, 2.0 } };
-
 /// Return the picture with pixels white unless their red is dark: for lamps, whose light falls off.
 Picture litOrDark(Picture picture)
 {
@@ -133,12 +130,12 @@ TEST_F(Wishes, darkAtContact)
 {
   PassScene scene(200, 200);
   scene.addFloor(100.0);
-  scene.addBox(standing.lower, standing.upper);
+  scene.addBox(standingBox.lower, standingBox.upper);
   scene.addSun(slantingSun);
   scene.lookDown(4.0);
   this->mapSize = 2048;
   this->judge(
-    scene, [&] { return wrongPixels(scene, standing, 100.0, 0.3); }, 600);
+    scene, [&] { return wrongPixels(scene, standingBox, 100.0, 0.3); }, 600);
 }
 
 //------------------------------------------------------------------------------
@@ -173,7 +170,8 @@ TEST_F(Wishes, resolutionWhereTheCameraLooks)
 TEST_F(Wishes, physicallyBasedUnderASpot)
 {
   PassScene scene(200, 200);
-  for (vtkActor* actor : { scene.addFloor(10.0), scene.addBox(standing.lower, standing.upper) })
+  for (vtkActor* actor :
+    { scene.addFloor(10.0), scene.addBox(standingBox.lower, standingBox.upper) })
   {
     actor->GetProperty()->SetInterpolationToPBR();
     actor->GetProperty()->SetRoughness(1.0);
@@ -183,7 +181,7 @@ TEST_F(Wishes, physicallyBasedUnderASpot)
   scene.lookDown(4.0);
   const auto wrong = [&]
   {
-    return checkFloor(scene, litOrDark(scene.render()), floorUnderLamp(standing, lamp), 0.1)
+    return checkFloor(scene, litOrDark(scene.render()), floorUnderLamp(standingBox, lamp), 0.1)
       .wrong();
   };
   this->judge(scene, wrong, 1000);
@@ -194,13 +192,13 @@ TEST_F(Wishes, pointLightsCast)
 {
   PassScene scene(200, 200);
   scene.addFloor(10.0);
-  scene.addBox(standing.lower, standing.upper);
+  scene.addBox(standingBox.lower, standingBox.upper);
   const glm::dvec3 lamp(-6.0, 0.0, 8.0);
   scene.addSpot(lamp, glm::dvec3(0.0), allDirections);
   scene.lookDown(4.0);
   const auto wrong = [&]
   {
-    return checkFloor(scene, litOrDark(scene.render()), floorUnderLamp(standing, lamp), 0.1)
+    return checkFloor(scene, litOrDark(scene.render()), floorUnderLamp(standingBox, lamp), 0.1)
       .wrong();
   };
   this->judge(scene, wrong, 1000);
@@ -211,7 +209,7 @@ TEST_F(Wishes, spotsOf90DegreesCast)
 {
   PassScene scene(200, 200);
   scene.addFloor(10.0);
-  scene.addBox(standing.lower, standing.upper);
+  scene.addBox(standingBox.lower, standingBox.upper);
   const glm::dvec3 lamp(-6.0, 0.0, 8.0);
   vtkLight* spot = scene.addSpot(lamp, glm::dvec3(0.0), 90.0);
   scene.lookDown(4.0);
@@ -221,8 +219,8 @@ TEST_F(Wishes, spotsOf90DegreesCast)
     for (const double coneAngle : { 90.0, 120.0 })
     {
       spot->SetConeAngle(coneAngle);
-      all +=
-        checkFloor(scene, litOrDark(scene.render()), floorUnderLamp(standing, lamp), 0.1).wrong();
+      all += checkFloor(scene, litOrDark(scene.render()), floorUnderLamp(standingBox, lamp), 0.1)
+               .wrong();
     }
     return all;
   };
@@ -294,7 +292,7 @@ TEST_F(Wishes, castersOutsideTheViewCastTheSame)
 {
   PassScene scene(200, 200);
   scene.addFloor(100.0);
-  scene.addBox(standing.lower, standing.upper);
+  scene.addBox(standingBox.lower, standingBox.upper);
   scene.addSun(slantingSun);
   this->mapSize = 2048;
   const auto change = [&]
@@ -365,9 +363,9 @@ TEST_F(Wishes, severalShadowsOfChosenDirections)
 {
   PassScene scene(200, 200);
   scene.addFloor(10.0);
-  scene.addBox(standing.lower, standing.upper);
-  const std::array<glm::dvec3, 3> directions = { { { 1.0, 0.0, -1.0 }, { -1.0, 1.0, -1.0 },
-    { 0.0, -1.0, -1.0 } } };
+  scene.addBox(standingBox.lower, standingBox.upper);
+  const std::vector<glm::dvec3> directions = { { 1.0, 0.0, -1.0 }, { -1.0, 1.0, -1.0 },
+    { 0.0, -1.0, -1.0 } };
   std::array<vtkLight*, 3> lights = {};
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
@@ -375,16 +373,7 @@ TEST_F(Wishes, severalShadowsOfChosenDirections)
     lights[i]->SetIntensity(0.5);
   }
   scene.lookDown(5.0); // the camera's x, y and z are the world's
-  const ExactFloor exact = [&](const glm::dvec2& floor)
-  {
-    double value = isUnder(floor, standing) ? -1.0 : 0.0;
-    for (const glm::dvec3& direction : directions)
-    {
-      const bool lit = !hitsBox(floor, -direction, standing.lower, standing.upper);
-      value += value >= 0.0 && lit ? 127.5 / glm::length(direction) : 0.0;
-    }
-    return value;
-  };
+  const ExactFloor exact = floorUnderHalfSuns(standingBox, directions);
   const auto wrong = [&] { return checkFloor(scene, scene.render(), exact, 0.2).wrong(); };
   EXPECT_EQ(wrong(), 0u);
   for (vtkLight* light : lights)
@@ -511,7 +500,7 @@ TEST_F(Wishes, ambientOcclusionStaysOn)
 {
   PassScene scene(200, 200);
   scene.addFloor(10.0);
-  scene.addBox(standing.lower, standing.upper);
+  scene.addBox(standingBox.lower, standingBox.upper);
   scene.addSun(slantingSun);
   scene.lookDown(4.0);
   scene.usePlain();
@@ -557,7 +546,7 @@ TEST_F(Wishes, gridReceives)
   vtkProperty* look = scene.add(ground)->GetProperty();
   look->EdgeVisibilityOn();
   look->SetEdgeColor(1.0, 0.0, 0.0);
-  scene.addBox(standing.lower, standing.upper);
+  scene.addBox(standingBox.lower, standingBox.upper);
   scene.addSun(slantingSun);
   scene.lookDown(4.0);
   this->mapSize = 2048;
@@ -567,7 +556,7 @@ TEST_F(Wishes, gridReceives)
   {
     const glm::dvec2 cell = glm::abs(floor / 2.0 - glm::round(floor / 2.0)) * 2.0;
     const bool isLine = std::min(cell.x, cell.y) < 0.1;
-    return isLine ? -1.0 : floorUnderSun(standing, 100.0)(floor);
+    return isLine ? -1.0 : floorUnderSun(standingBox, 100.0)(floor);
   };
   const auto wrong = [&]
   {
