@@ -3,6 +3,7 @@
 #include "PassScene.h"
 
 #include "Scene.h"
+#include "SyntheticScene.h"
 
 #include "lights/LightSpace.h"
 #include "lights/vtkGnomonLightKeys.h"
@@ -60,7 +61,7 @@ public:
     const glm::dvec3& light = this->light_.positionWorld;
     const glm::dmat3 faceFromLight = gnomon::cubeFaceFromLight(gnomon::cubeFaceOf(point - light));
     const glm::dvec3 inFace = faceFromLight * (point - light);
-    gnomon::ReceiverPixels pixels;
+    std::vector<PlacedReceiver> row;
     for (int y = -steps; y <= steps; ++y)
     {
       for (int x = -steps; x <= steps; ++x)
@@ -69,34 +70,17 @@ public:
           inFace.x / inFace.z + reach * x / steps, inFace.y / inFace.z + reach * y / steps, 1.0);
         const glm::dvec3 way = glm::transpose(faceFromLight) * slopes;
         const double along = glm::dot(normal, point - light) / glm::dot(normal, way);
-        add(pixels, light + along * way - this->collector_.occluders().centreWorld, normal);
+        row.push_back(
+          { light + along * way - this->collector_.occluders().centreWorld, normal, 1e-5f });
       }
     }
     std::vector<float> visibility;
-    this->tracer_.trace(this->light_, this->collector_.occluders(), pixels, visibility);
+    this->tracer_.trace(this->light_, this->collector_.occluders(), rowOf(row), visibility);
     return *std::min_element(visibility.begin(), visibility.end()) <
       *std::max_element(visibility.begin(), visibility.end());
   }
 
 private:
-  static void add(
-    gnomon::ReceiverPixels& pixels, const glm::dvec3& centred, const glm::dvec3& normal)
-  {
-    const glm::vec3 position(centred);
-    const glm::vec3 direction(normal);
-    pixels.positionX.push_back(position.x);
-    pixels.positionY.push_back(position.y);
-    pixels.positionZ.push_back(position.z);
-    pixels.normalX.push_back(direction.x);
-    pixels.normalY.push_back(direction.y);
-    pixels.normalZ.push_back(direction.z);
-    pixels.offset.push_back(1e-5f);
-    pixels.surface.push_back(0);
-    pixels.lifted.push_back(0);
-    pixels.width = static_cast<int>(pixels.surface.size());
-    pixels.height = 1;
-  }
-
   gnomon::OccluderCollector collector_;
   gnomon::EmbreeTracer tracer_;
   gnomon::ShadowLight light_;
