@@ -28,15 +28,11 @@ std::size_t VisibilityValue::bytes() const
 //------------------------------------------------------------------------------
 std::size_t ViewValues::bytesOfImages() const
 {
-  std::size_t bytes = this->receivers.target.bytes() + this->receivers.deferred.bytes() +
+  return this->receivers.target.bytes() + this->receivers.deferred.bytes() +
     bytesOf(this->receivers.images.fragments) + bytesOf(this->receivers.fragmentsBefore) +
     this->receivers.pixels.bytes() + this->receivers.shared.bytes() + this->layers.bytes() +
-    (this->receivers.boxes ? this->receivers.boxes->bytes() : 0);
-  for (const VisibilityValue& value : this->visibility)
-  {
-    bytes += value.bytes();
-  }
-  return bytes;
+    (this->receivers.boxes ? this->receivers.boxes->bytes() : 0) +
+    bytesOfAll(this->visibility, &VisibilityValue::bytes);
 }
 
 //------------------------------------------------------------------------------
@@ -62,23 +58,14 @@ ViewValues& RendererViews::of(vtkRenderer* renderer)
 //------------------------------------------------------------------------------
 std::size_t RendererViews::bytesOfImages() const
 {
-  std::size_t bytes = 0;
-  for (const View& view : this->views_)
-  {
-    bytes += view.values.bytesOfImages();
-  }
-  return bytes;
+  return bytesOfAll(this->views_, [](const View& view) { return view.values.bytesOfImages(); });
 }
 
 //------------------------------------------------------------------------------
 std::size_t RendererViews::bytesOfMaps() const
 {
-  std::size_t bytes = 0;
-  for (const View& view : this->views_)
-  {
-    bytes += gnomon::bytesOfMaps(view.values.techniques);
-  }
-  return bytes;
+  return bytesOfAll(
+    this->views_, [](const View& view) { return gnomon::bytesOfMaps(view.values.techniques); });
 }
 
 } // namespace gnomon

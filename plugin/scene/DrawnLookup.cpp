@@ -127,18 +127,11 @@ void DrawnLookup::beginFrame(const std::vector<const vtkProp*>& translucentRecei
 //------------------------------------------------------------------------------
 std::size_t DrawnLookup::bytes() const
 {
-  std::size_t bytes = bytesOf(this->held_) + bytesOfTable(this->heldAt_) +
-    bytesOfTable(this->answers_) + bytesOfTable(this->translucentReceivers_) +
-    bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_);
-  for (const HeldSurfaces& held : this->held_)
-  {
-    bytes += bytesOf(held);
-  }
-  for (const DrawnSurface& drawn : this->drawnSurfaces_)
-  {
-    bytes += bytesOf(drawn.blocks);
-  }
-  return bytes;
+  return bytesOf(this->held_) + bytesOfTable(this->heldAt_) + bytesOfTable(this->answers_) +
+    bytesOfTable(this->translucentReceivers_) + bytesOfTable(this->taken_) +
+    bytesOf(this->drawnSurfaces_) + bytesOfAll(this->held_, bytesOf<HeldSurface>) +
+    bytesOfAll(
+      this->drawnSurfaces_, [](const DrawnSurface& drawn) { return bytesOf(drawn.blocks); });
 }
 
 //------------------------------------------------------------------------------

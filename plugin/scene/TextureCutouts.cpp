@@ -318,12 +318,9 @@ TextureCutout TextureCutouts::find(
 //------------------------------------------------------------------------------
 std::size_t TextureCutouts::bytes() const
 {
-  std::size_t bytes = bytesOfTable(this->known_);
-  for (const auto& [texture, known] : this->known_)
-  {
-    bytes += known.mask ? known.mask->bytes() : 0;
-  }
-  return bytes;
+  return bytesOfTable(this->known_) +
+    bytesOfAll(this->known_,
+      [](const auto& entry) { return entry.second.mask ? entry.second.mask->bytes() : 0; });
 }
 
 //------------------------------------------------------------------------------

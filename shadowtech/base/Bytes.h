@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <numeric>
 #include <vector>
 
 namespace gnomon
@@ -11,6 +13,15 @@ template <typename Value>
 std::size_t bytesOf(const std::vector<Value>& vector)
 {
   return vector.capacity() * sizeof(Value);
+}
+
+/// Return the sum of bytes over a container's elements.
+/// @param bytesOfOne a function or member function
+template <typename Container, typename BytesOfOne>
+std::size_t bytesOfAll(const Container& container, const BytesOfOne& bytesOfOne)
+{
+  return std::accumulate(container.begin(), container.end(), std::size_t{ 0 },
+    [&](std::size_t sum, const auto& one) { return sum + std::invoke(bytesOfOne, one); });
 }
 
 /// Return the bytes on the heap of a hash table of the standard library. Each node has a pointer to

@@ -104,12 +104,8 @@ ReceiverBoxes::ReceiverBoxes(const ReceiverPixels& receivers, const Occluders& o
 //------------------------------------------------------------------------------
 std::size_t ReceiverBoxes::bytes() const
 {
-  std::size_t bytes = bytesOf(this->receives_);
-  for (const Level& level : this->levels_)
-  {
-    bytes += bytesOf(level.boxesCentred);
-  }
-  return bytes;
+  return bytesOf(this->receives_) +
+    bytesOfAll(this->levels_, [](const Level& level) { return bytesOf(level.boxesCentred); });
 }
 
 } // namespace gnomon

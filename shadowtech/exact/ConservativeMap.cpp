@@ -359,12 +359,7 @@ void ConservativeMap::ask(const ReceiverPixels& receivers,
 //------------------------------------------------------------------------------
 std::size_t ConservativeMap::bytes() const
 {
-  std::size_t bytes = bytesOf(this->texels_);
-  for (const std::vector<TexelBounds>& level : this->levels_)
-  {
-    bytes += bytesOf(level);
-  }
-  return bytes;
+  return bytesOf(this->texels_) + bytesOfAll(this->levels_, bytesOf<TexelBounds>);
 }
 
 } // namespace gnomon

@@ -71,12 +71,8 @@ void ConservativeMaps::ofPixels(const ReceiverTile& tile, std::vector<Certainty>
 //------------------------------------------------------------------------------
 std::size_t ConservativeMaps::bytes() const
 {
-  std::size_t bytes = this->edges_.bytes() + this->triangles_.bytes() + bytesOf(this->onCaster_);
-  for (const ConservativeMap& map : this->maps_)
-  {
-    bytes += map.bytes();
-  }
-  return bytes;
+  return this->edges_.bytes() + this->triangles_.bytes() + bytesOf(this->onCaster_) +
+    bytesOfAll(this->maps_, &ConservativeMap::bytes);
 }
 
 } // namespace gnomon

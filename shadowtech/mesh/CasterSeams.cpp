@@ -282,12 +282,7 @@ const Seam* CasterSeams::at(std::size_t surface, std::uint32_t edge) const
 //------------------------------------------------------------------------------
 std::size_t CasterSeams::bytes() const
 {
-  std::size_t bytes = bytesOf(this->bySurface_);
-  for (const std::vector<Seam>& seams : this->bySurface_)
-  {
-    bytes += bytesOf(seams);
-  }
-  return bytes;
+  return bytesOf(this->bySurface_) + bytesOfAll(this->bySurface_, bytesOf<Seam>);
 }
 
 } // namespace gnomon

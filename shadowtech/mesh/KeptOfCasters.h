@@ -66,12 +66,8 @@ public:
 
   std::size_t bytes() const
   {
-    std::size_t bytes = bytesOfTable(this->kept_) + bytesOf(this->bySurface_);
-    for (const auto& entry : this->kept_)
-    {
-      bytes += entry.second.found.bytes();
-    }
-    return bytes;
+    return bytesOfTable(this->kept_) + bytesOf(this->bySurface_) +
+      bytesOfAll(this->kept_, [](const auto& entry) { return entry.second.found.bytes(); });
   }
 
 private:

@@ -4,6 +4,7 @@
 #include "lights/LightSamples.h"
 #include "lights/LightSpace.h"
 #include "lights/SettingsTable.h"
+#include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/ChannelView.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/Occluders.h"
@@ -103,12 +104,8 @@ void Sampled::bake(const MapInput& input)
 //------------------------------------------------------------------------------
 std::size_t Sampled::bytesOfMaps() const
 {
-  std::size_t bytes = this->centre_.bytesOfMaps() + this->sum_.bytes();
-  for (const Compare& map : this->batch_)
-  {
-    bytes += map.bytesOfMaps();
-  }
-  return bytes;
+  return this->centre_.bytesOfMaps() + this->sum_.bytes() +
+    bytesOfAll(this->batch_, &Compare::bytesOfMaps);
 }
 
 //------------------------------------------------------------------------------

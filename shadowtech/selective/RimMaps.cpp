@@ -2,6 +2,7 @@
 
 #include "lights/LightAt.h"
 #include "lights/LightSpace.h"
+#include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/ShadowRay.h"
 
 #include <algorithm>
@@ -71,12 +72,7 @@ bool RimMaps::cutsTexture(const glm::vec3& normal, const glm::vec3& toCentre) co
 //------------------------------------------------------------------------------
 std::size_t RimMaps::bytes() const
 {
-  std::size_t bytes = 0;
-  for (const Point& point : this->points_)
-  {
-    bytes += point.maps.bytes();
-  }
-  return bytes;
+  return bytesOfAll(this->points_, [](const Point& point) { return point.maps.bytes(); });
 }
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 #include "shadowtech/selective/TriangleMaps.h"
 
+#include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/TextureMemory.h"
 
 namespace gnomon
@@ -55,12 +56,7 @@ std::optional<PlaceOnMaps> TriangleMaps::find(
 //------------------------------------------------------------------------------
 std::size_t TriangleMaps::bytes() const
 {
-  std::size_t bytes = 0;
-  for (const TriangleMap& map : this->maps_)
-  {
-    bytes += map.bytes();
-  }
-  return bytes;
+  return bytesOfAll(this->maps_, &TriangleMap::bytes);
 }
 
 } // namespace gnomon

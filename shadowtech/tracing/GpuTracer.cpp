@@ -1,5 +1,6 @@
 #include "shadowtech/tracing/GpuTracer.h"
 
+#include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/TextureMemory.h"
 
@@ -273,12 +274,7 @@ void GpuTracer::trace(const TracedRay* rays, std::size_t count, ShaderLibrary& s
 //------------------------------------------------------------------------------
 std::size_t GpuTracer::bytesOnGpu() const
 {
-  std::size_t bytes = this->bytesOfScene_;
-  for (const RayBatch& batch : this->batches_)
-  {
-    bytes += batch.bytesOnGpu();
-  }
-  return bytes;
+  return this->bytesOfScene_ + bytesOfAll(this->batches_, &RayBatch::bytesOnGpu);
 }
 
 } // namespace gnomon
