@@ -99,11 +99,7 @@ void vtkGnomonEGLRenderWindow::CreateAWindow()
 /// @param error empty: there is none
 void vtkGnomonEGLRenderWindow::TellOfContext(const std::string& error)
 {
-  const std::string news = this->Complaints->news(nullptr, gnomon::Topic::Context, error);
-  if (!news.empty())
-  {
-    vtkErrorMacro(<< news);
-  }
+  this->Complaints->tellError(this, nullptr, gnomon::Topic::Context, error);
 }
 
 //------------------------------------------------------------------------------

@@ -94,17 +94,6 @@ struct vtkGnomonLightSamplingPass::Internals
   gnomon::ViewCount viewCount;
   double progress = 1.0; ///< of the last frame that was no selection's
   gnomon::Complaints complaints;
-
-  /// @param error empty: there is none
-  void tellError(vtkGnomonLightSamplingPass* self, vtkRenderer* renderer, gnomon::Topic topic,
-    const std::string& error)
-  {
-    const std::string news = this->complaints.news(renderer, topic, error);
-    if (!news.empty())
-    {
-      vtkErrorWithObjectMacro(self, << news);
-    }
-  }
 };
 
 //------------------------------------------------------------------------------
@@ -168,20 +157,20 @@ double vtkGnomonLightSamplingPass::DrawMeanOrAlone(const vtkRenderState* s)
   try
   {
     const std::string whyNot = internal.context.enter(this, renderer, { 4, 3 });
-    internal.tellError(this, renderer, gnomon::Topic::Context, whyNot);
+    internal.complaints.tellError(this, renderer, gnomon::Topic::Context, whyNot);
     if (whyNot.empty())
     {
       this->UpdateLightGeometry(renderer); // head lights follow the camera
       internal.lights =
         pointedLights(internal.lightManager.collectAreas(renderer, {}), this->Samples);
       const double shown = this->DrawMean(s);
-      internal.tellError(this, renderer, gnomon::Topic::Frame, "");
+      internal.complaints.tellError(this, renderer, gnomon::Topic::Frame, "");
       return shown;
     }
   }
   catch (const std::exception& error)
   {
-    internal.tellError(this, renderer, gnomon::Topic::Frame,
+    internal.complaints.tellError(this, renderer, gnomon::Topic::Frame,
       std::string("The delegate draws alone: ") + error.what() + ".");
   }
   internal.shown.reset();

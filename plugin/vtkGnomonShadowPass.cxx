@@ -122,17 +122,6 @@ struct vtkGnomonShadowPass::Internals
   gnomon::RenderManager& managerOf(vtkRenderer* renderer);
   gnomon::Ranks* updateRanks(vtkMultiProcessController* controller);
   gnomon::RenderManager& manager() { return *this->renderers.front().manager; }
-
-  /// @param error empty: there is none
-  void tellError(
-    vtkGnomonShadowPass* self, vtkRenderer* renderer, gnomon::Topic topic, const std::string& error)
-  {
-    const std::string news = this->complaints.news(renderer, topic, error);
-    if (!news.empty())
-    {
-      vtkErrorWithObjectMacro(self, << news);
-    }
-  }
 };
 
 //------------------------------------------------------------------------------
@@ -303,7 +292,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   {
     whyNot = error.what();
   }
-  this->Internal->tellError(this, renderer, gnomon::Topic::Context, whyNot);
+  this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Context, whyNot);
   if (!whyNot.empty())
   {
     this->RenderPlain(s, ranks ? "a process cannot draw shadows" : "OpenGL 3.2 is not available");
@@ -380,7 +369,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       this->TellOfResolution(s, manager.endShading());
     }
     manager.endFrame();
-    this->Internal->tellError(this, renderer, gnomon::Topic::Frame, "");
+    this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Frame, "");
     this->Internal->shadowed = true;
     this->Internal->progress = leastProgress(manager.report());
     if (goesOn)
@@ -401,7 +390,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     {
       ranks->fail(error.what());
     }
-    this->Internal->tellError(this, renderer, gnomon::Topic::Frame,
+    this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Frame,
       std::string("The scene is drawn without shadows: ") + error.what());
     manager.abandonFrame();
     failed = true;
@@ -554,7 +543,7 @@ void vtkGnomonShadowPass::TellOfRoute(vtkRenderer* renderer, bool isTaken)
       " route was asked for, but " + this->Internal->manager().report().routeReason +
       "; this frame takes the image route.";
   }
-  this->Internal->tellError(this, renderer, gnomon::Topic::Route, error);
+  this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Route, error);
 }
 
 //------------------------------------------------------------------------------
@@ -570,7 +559,7 @@ void vtkGnomonShadowPass::TellOfResolution(const vtkRenderState* s, bool isRecei
       this->Internal->manager().report().routeReason +
       ". Let such a pass have this one as its delegate instead.";
   }
-  this->Internal->tellError(this, s->GetRenderer(), gnomon::Topic::Resolution, error);
+  this->Internal->complaints.tellError(this, s->GetRenderer(), gnomon::Topic::Resolution, error);
 }
 
 //------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 #include "plugin/frame/Complaints.h"
 
+#include <vtkObject.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
@@ -45,6 +46,17 @@ std::string Complaints::news(vtkRenderer* renderer, Topic topic, const std::stri
   }
   texts = this->news(renderer, topic, texts);
   return texts.empty() ? std::string() : texts.front();
+}
+
+//------------------------------------------------------------------------------
+void Complaints::tellError(
+  vtkObject* teller, vtkRenderer* renderer, Topic topic, const std::string& error)
+{
+  const std::string news = this->news(renderer, topic, error);
+  if (!news.empty())
+  {
+    vtkErrorWithObjectMacro(teller, << news);
+  }
 }
 
 } // namespace gnomon

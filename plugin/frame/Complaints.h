@@ -8,6 +8,7 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkObject;
 class vtkRenderer;
 VTK_ABI_NAMESPACE_END
 
@@ -39,6 +40,10 @@ public:
 
   /// The same for one text at most; empty for none.
   std::string news(vtkRenderer* renderer, Topic topic, const std::string& text);
+
+  /// Let an object report an error, if the error is news.
+  /// @param error empty for none
+  void tellError(vtkObject* teller, vtkRenderer* renderer, Topic topic, const std::string& error);
 
 private:
   struct Complaint
