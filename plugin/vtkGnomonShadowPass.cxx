@@ -1,5 +1,6 @@
 #include "vtkGnomonShadowPass.h"
 
+#include "lights/SettingsTable.h"
 #include "plugin/frame/Complaints.h"
 #include "plugin/frame/FrameWishes.h"
 #include "plugin/frame/Motion.h"
@@ -520,12 +521,8 @@ void vtkGnomonShadowPass::TellOfLights(vtkRenderer* renderer)
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::TellWhatIsLeftOut(vtkRenderer* renderer)
 {
-  std::string kinds;
-  for (const std::string& kind : this->Internal->complaints.news(
-         renderer, gnomon::Topic::LeftOut, this->Internal->manager().report().leftOut))
-  {
-    kinds += (kinds.empty() ? "" : ", ") + kind;
-  }
+  const std::string kinds = gnomon::listOf(this->Internal->complaints.news(
+    renderer, gnomon::Topic::LeftOut, this->Internal->manager().report().leftOut));
   if (!kinds.empty())
   {
     vtkWarningMacro("Visible and lit, but without shadows: "
