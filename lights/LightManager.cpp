@@ -159,10 +159,8 @@ LitArea readArea(vtkLight* light, const ShadowSettings& settings,
   {
     return { ballArea(half.x), std::nullopt };
   }
-  glm::dvec3 position;
-  glm::dvec3 focalPoint;
-  light->GetTransformedPosition(&position.x);
-  light->GetTransformedFocalPoint(&focalPoint.x);
+  const glm::dvec3 position = glm::make_vec3(light->GetTransformedPosition());
+  const glm::dvec3 focalPoint = glm::make_vec3(light->GetTransformedFocalPoint());
   const double distance = glm::distance(position, focalPoint);
   if (!(distance > 0.0) || !std::isfinite(distance))
   {
@@ -288,10 +286,8 @@ std::string whyWithoutPlace(vtkLight* light)
   {
     return "its cone is empty";
   }
-  glm::dvec3 position;
-  glm::dvec3 focalPoint;
-  light->GetTransformedPosition(&position.x);
-  light->GetTransformedFocalPoint(&focalPoint.x);
+  const glm::dvec3 position = glm::make_vec3(light->GetTransformedPosition());
+  const glm::dvec3 focalPoint = glm::make_vec3(light->GetTransformedFocalPoint());
   if (kindOf(light) == LightKind::Point)
   {
     return !isFinite(position) ? "its position is not finite"
@@ -334,14 +330,11 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
   ShadowLight result;
   static_cast<ShadowSettings&>(result) = settings;
   result.kind = kindOf(light);
-  glm::dvec3 position;
-  glm::dvec3 focalPoint;
-  light->GetTransformedPosition(&position.x);
-  light->GetTransformedFocalPoint(&focalPoint.x);
-  result.positionWorld = position;
+  result.positionWorld = glm::make_vec3(light->GetTransformedPosition());
   if (result.kind != LightKind::Point) // which may lack one
   {
-    result.directionWorld = glm::normalize(focalPoint - position);
+    result.directionWorld =
+      glm::normalize(glm::make_vec3(light->GetTransformedFocalPoint()) - result.positionWorld);
   }
   result.coneAngleDegrees = result.kind == LightKind::Spot ? light->GetConeAngle() : 0.0;
   result.box = readBox(light);
