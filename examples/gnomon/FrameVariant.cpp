@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "SettingOptions.h"
 
+#include "plugin/frame/Clock.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
@@ -18,7 +19,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <iterator>
 #include <sstream>
@@ -257,11 +257,10 @@ bool FrameVariant::awaitsMap() const
 double drawTimed(vtkRenderWindow* window)
 {
   window->MakeCurrent();
-  const auto start = std::chrono::steady_clock::now();
+  const double start = steadyMilliseconds();
   window->Render();
   window->WaitForCompletion();
-  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  return time.count();
+  return steadyMilliseconds() - start;
 }
 
 //------------------------------------------------------------------------------
