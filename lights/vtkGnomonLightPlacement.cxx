@@ -9,6 +9,7 @@
 #include "vtkPoints.h"
 
 #include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +19,6 @@ vtkStandardNewMacro(vtkGnomonLightPlacement);
 
 namespace
 {
-
-glm::dvec3 toGlm(const double point[3])
-{
-  return { point[0], point[1], point[2] };
-}
 
 gnomon::Bounds toBounds(const double bounds[6])
 {
@@ -38,7 +34,8 @@ bool isFinite(const glm::dvec3& point)
 /// direction.
 std::optional<glm::dvec3> travelOf(vtkLight* light)
 {
-  const glm::dvec3 arm = toGlm(light->GetFocalPoint()) - toGlm(light->GetPosition());
+  const glm::dvec3 arm =
+    glm::make_vec3(light->GetFocalPoint()) - glm::make_vec3(light->GetPosition());
   const double length = glm::length(arm);
   if (!(length > 0.0) || !std::isfinite(length))
   {
@@ -91,7 +88,7 @@ void shineOnSphere(vtkLight* light, const glm::dvec3& centre, double radius)
 //------------------------------------------------------------------------------
 void vtkGnomonLightPlacement::ShineOnSphere(vtkLight* light, const double center[3], double radius)
 {
-  shineOnSphere(light, toGlm(center), radius);
+  shineOnSphere(light, glm::make_vec3(center), radius);
 }
 
 //------------------------------------------------------------------------------
@@ -108,7 +105,7 @@ void vtkGnomonLightPlacement::ShineOnPoints(vtkLight* light, vtkPoints* points)
   gnomon::Bounds box;
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const glm::dvec3 point = toGlm(points->GetPoint(i));
+    const glm::dvec3 point = glm::make_vec3(points->GetPoint(i));
     if (!isFinite(point))
     {
       vtkErrorWithObjectMacro(
@@ -121,7 +118,7 @@ void vtkGnomonLightPlacement::ShineOnPoints(vtkLight* light, vtkPoints* points)
   double radius = 0.0; // without points it stays 0: an error
   for (vtkIdType i = 0; i < count; ++i)
   {
-    radius = std::max(radius, glm::length(toGlm(points->GetPoint(i)) - centre));
+    radius = std::max(radius, glm::length(glm::make_vec3(points->GetPoint(i)) - centre));
   }
   shineOnSphere(light, centre, radius);
 }
@@ -138,7 +135,7 @@ void vtkGnomonLightPlacement::MakeKeyLight(
   glm::dvec3 from(0.0);
   for (int row = 0; row < 3; ++row)
   {
-    from += fromView[row] * toGlm(rows[row]);
+    from += fromView[row] * glm::make_vec3(rows[row]);
   }
   if (!isFinite(from))
   {
@@ -174,8 +171,8 @@ void vtkGnomonLightPlacement::SetPitchAndYaw(
   const double yaw = glm::radians(yawDegrees);
   const glm::dvec3 travel(
     -std::cos(pitch) * std::sin(yaw), std::sin(pitch), -std::cos(pitch) * std::cos(yaw));
-  const glm::dvec3 position = toGlm(light->GetPosition());
-  const glm::dvec3 focalPoint = toGlm(light->GetFocalPoint());
+  const glm::dvec3 position = glm::make_vec3(light->GetPosition());
+  const glm::dvec3 focalPoint = glm::make_vec3(light->GetFocalPoint());
   const glm::dvec3 arm = glm::length(focalPoint - position) * travel;
   light->GetPositional() ? place(light, position, position + arm)
                          : place(light, focalPoint - arm, focalPoint);
