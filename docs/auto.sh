@@ -10,8 +10,7 @@ prepare
 
 scenes="${SCENES:-bunny horse cat posts plates panels screens pole stack long-cube letter cups \
 office terrain props trees-side atrium}"
-cmake --preset release -DGNOMON_BUILD_TESTS=ON > build/configure.log
-cmake --build --preset release --target gnomon_benchmark_auto
+buildTests gnomon_benchmark_auto
 # shellcheck disable=SC2086
 build/release/bin/gnomon_benchmark_auto $scenes --places "${PLACES:-200}" \
   --compared "${COMPARED:-12}" > out/auto.csv

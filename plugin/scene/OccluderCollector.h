@@ -71,8 +71,8 @@ public:
   /// vtkOpenGLRenderPass::SetShaderParameters.
   HookedSurface drawn(vtkAbstractMapper* mapper, vtkProp* prop);
 
-  /// How primitive numbers of drawn surfaces lead to the snapshot (see projectReceivers). Entries
-  /// are added by drawn(), and stay until the next collect().
+  /// How primitive numbers of drawn surfaces lead to the snapshot (Receivers.h). Entries are added
+  /// by drawn(), and stay until the next collect().
   const std::vector<DrawnSurface>& drawnSurfaces() const { return this->lookup_.drawnSurfaces(); }
 
 private:
