@@ -35,12 +35,13 @@ def milliseconds(view, number):
 class Case:
     """A shadow view's lights and settings, drawn in turn with a plain view."""
 
-    def __init__(self, name, view, plain, lights, size):
+    def __init__(self, name, view, plain, lights, size, edge_samples=1):
         self.name = name
         for of in (view, plain):
             for number, light in enumerate(of.AdditionalLights):
                 light.Enable = int(number < lights)
         view.LightSize = size
+        view.EdgeSamples = edge_samples
         pairs = []
         for number in range(WARM + FRAMES):
             pairs.append((milliseconds(plain, number), milliseconds(view, number)))
@@ -120,6 +121,7 @@ def main():
     view.LightSamples = 16
     cases = [
         Case("a sun", view, plain, 1, 0.0),
+        Case("a sun, 16 samples at edges", view, plain, 1, 0.0, edge_samples=16),
         Case("three lights", view, plain, 3, 0.0),
         Case("an area light of 16 samples", view, plain, 1, 1.0),
     ]
