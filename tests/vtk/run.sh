@@ -1,5 +1,6 @@
 #!/bin/bash
-# Builds Gnomon with the VTK of a Debian release and passes its quick tests, in a chroot. Runs as
+# Builds Gnomon with the VTK of a Debian release and passes its quick tests and those of all
+# examples, in a chroot. Runs as
 # root and needs debootstrap. VTK is 9.1 in bookworm, 9.3 in trixie and newer in sid.
 #
 #   tests/vtk/run.sh [--fresh] bookworm|trixie|sid
@@ -67,9 +68,11 @@ inside "$root" sh -c 'cd /src && cmake --preset ci -B /build' > "$log" 2>&1 || {
   cat "$log" >&2
   exit 1
 }
-inside "$root" cmake --build /build --target gnomon_quick_tests
+inside "$root" cmake --build /build --target gnomon_quick_tests examples/all
 
 echo "$SECONDS s: testing"
 inside "$root" ctest --test-dir /build --label-regex '^quick$' --no-tests=error \
   --output-on-failure --parallel "$(nproc)" --timeout 1200
+inside "$root" ctest --test-dir /build --tests-regex '^(Example|Python)' --output-on-failure \
+  --parallel "$(nproc)"
 echo "$SECONDS s: $release passed"
