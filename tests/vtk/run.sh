@@ -1,7 +1,7 @@
 #!/bin/bash
 # Builds Gnomon with the VTK of a Debian release and passes its quick tests and those of all
-# examples, in a chroot. Runs as
-# root and needs debootstrap. VTK is 9.1 in bookworm, 9.3 in trixie and newer in sid.
+# examples, in a chroot. Runs as root and needs debootstrap. VTK is 9.1 in bookworm, 9.3 in trixie
+# and newer in sid.
 #
 #   tests/vtk/run.sh [--fresh] bookworm|trixie|sid
 #
