@@ -39,7 +39,7 @@ def main():
     print(
         "The camera moves by small steps from random places. The error is the share of wrong pixels in\n"
         "the last frame; 0.50 % is allowed. At the first places `auto` is compared with single\n"
-        "techniques. The best one, known only afterwards, is the fastest that keeps the error there\n"
+        "techniques. The best one, known afterwards, is the fastest that keeps the error there\n"
         "with maps that are baked already: `nsm`, `lispsm`, `tsm` or `pssm` with maps of several\n"
         "sizes, `silhouette` or `raytraced`. Times are medians of ten frames, of all ways in turns."
     )

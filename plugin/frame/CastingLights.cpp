@@ -283,6 +283,13 @@ std::size_t edgeSamplesOf(const CastingLight& casting)
 }
 
 //------------------------------------------------------------------------------
+bool smoothsEdges(const CastingLights& lights)
+{
+  return std::any_of(lights.begin(), lights.end(),
+    [](const CastingLight& casting) { return edgeSamplesOf(casting) > 1; });
+}
+
+//------------------------------------------------------------------------------
 bool canDrawMaps()
 {
   return GNOMON_HAS_GL(VERSION_4_3);

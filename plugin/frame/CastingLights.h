@@ -130,6 +130,9 @@ private:
   int bits_ = 0;
 };
 
+/// True if any light has several shadow rays for pixels at edges.
+bool smoothsEdges(const CastingLights& lights);
+
 /// Return a light's entry in the report.
 LightReport& reportOf(FrameReport& report, const ShadowLight& light);
 

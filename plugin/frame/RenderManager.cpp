@@ -146,9 +146,7 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
     report.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
   report.leftOut = this->collector_.leftOut();
   this->names_.clear();
-  const bool smooths = std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
-    [](const CastingLight& casting) { return edgeSamplesOf(casting) > 1; });
-  if (this->frame_.ranks ? smooths : this->frame_.wishes.keepVisibility)
+  if (this->frame_.ranks ? smoothsEdges(this->frame_.lights) : this->frame_.wishes.keepVisibility)
   {
     this->names_ = surfaceNames(s->GetRenderer(), this->collector_.records());
   }

@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
@@ -274,30 +273,23 @@ SharedReceivers& VisibilityStage::sharedReceivers()
 }
 
 //------------------------------------------------------------------------------
-/// Shares which surface each pixel shows, once, if lights' edges are smoothed. Surfaces of several
-/// processes are one if their props have the same number in the renderer, and the rest of their
-/// names is the same. A prop's blocks are one.
+/// Shares which surface each pixel shows, once, if lights' edges are smoothed.
 void VisibilityStage::shareSurfaces(const std::vector<SurfaceName>& names)
 {
   SharedReceivers& shared = this->sharedReceivers();
-  const bool smooths = std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
-    [](const CastingLight& casting) { return edgeSamplesOf(casting) > 1; });
-  if (smooths && shared.surfaceOfPixel().empty())
+  if (smoothsEdges(this->frame_.lights) && shared.surfaceOfPixel().empty())
   {
     ReceiversValue& value = this->frame_.view->receivers;
-    using Name = std::array<std::int64_t, 4>;
-    std::vector<Name> own;
+    std::vector<SharedName> own;
     for (const DrawnSurface& drawn : value.drawnSurfaces)
     {
-      const SurfaceName& name = names[drawn.blocks.front().surface];
-      own.push_back({ name.prop, static_cast<std::int64_t>(name.path), name.glyphSource,
-        static_cast<std::int64_t>(name.cells) });
+      own.push_back(names[drawn.blocks.front().surface].shared);
     }
-    Ranks::Gathered<Name> all;
+    Ranks::Gathered<SharedName> all;
     this->frame_.ranks->gather(own, all);
-    const std::set<Name> different(all.elements.begin(), all.elements.end());
+    const std::set<SharedName> different(all.elements.begin(), all.elements.end());
     std::vector<std::size_t> numbers;
-    for (const Name& name : own)
+    for (const SharedName& name : own)
     {
       numbers.push_back(
         static_cast<std::size_t>(std::distance(different.begin(), different.find(name))));

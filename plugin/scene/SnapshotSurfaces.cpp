@@ -4,7 +4,6 @@
 #include "shadowtech/base/SmoothFacet.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -107,8 +106,7 @@ int SnapshotSurfaces::countInstances(
   { return surface.fresh ? surface.fresh->record : this->records_[surface.old]; };
   const auto countOf = [&](const WantedSurface& surface)
   {
-    return GlyphCount{ { surface.prop->number, static_cast<std::int64_t>(surface.key.path),
-                         surface.key.glyphSource, static_cast<std::int64_t>(surface.key.cells) },
+    return GlyphCount{ sharedName(surface.prop->number, surface.key),
       static_cast<std::int64_t>(recordOf(surface).modelFromInstance.size()) };
   };
   std::vector<GlyphCount> own;
@@ -119,7 +117,7 @@ int SnapshotSurfaces::countInstances(
       own.push_back(countOf(surface));
     }
   }
-  std::map<std::array<std::int64_t, 4>, std::size_t> instancesOf;
+  std::map<SharedName, std::size_t> instancesOf;
   for (const GlyphCount& count : others.gather ? others.gather(own) : own)
   {
     instancesOf[count.glyph] += static_cast<std::size_t>(count.instances);

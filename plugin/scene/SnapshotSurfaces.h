@@ -4,7 +4,6 @@
 
 #include "shadowtech/base/Occluders.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,12 +12,10 @@
 namespace gnomon
 {
 
-/// How many instances a process has of a glyph, in all blocks of a mapper's input. Glyphs of
-/// several processes are one if the rest is equal.
+/// How many instances a process has of a glyph, in all blocks of a mapper's input.
 struct GlyphCount
 {
-  /// DrawnProp::number; path, glyphSource and cells of the SurfaceKey.
-  std::array<std::int64_t, 4> glyph;
+  SharedName glyph;
   std::int64_t instances;
 };
 

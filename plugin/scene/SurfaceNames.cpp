@@ -53,7 +53,7 @@ std::vector<SurfaceName> surfaceNames(
       return found == props.end()
         ? SurfaceName{}
         : SurfaceName{ found->second.first, inputOf(found->second.second, record.key),
-            record.key.cells, record.key.path, record.key.glyphSource };
+            record.key.cells, sharedName(found->second.first, record.key) };
     });
   return names;
 }

@@ -6,7 +6,6 @@
 
 #include "vtkType.h"
 
-#include <cstddef>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -24,13 +23,12 @@ struct SurfaceName
   /// The mapper's input, whose cells the surface's triangles are; null otherwise.
   vtkPolyData* data = nullptr;
   SurfaceCells cells = SurfaceCells::Polygons;
-  std::size_t path = 0; ///< SurfaceKey::path
-  int glyphSource = 0;  ///< SurfaceKey::glyphSource
+  SharedName shared{};
 
   bool operator==(const SurfaceName& other) const
   {
     return this->prop == other.prop && this->data == other.data && this->cells == other.cells &&
-      this->path == other.path && this->glyphSource == other.glyphSource;
+      this->shared == other.shared;
   }
 };
 

@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -45,6 +46,15 @@ struct SurfaceKey
       this->glyphSource == other.glyphSource && this->cells == other.cells;
   }
 };
+
+/// A surface's identity in all processes that draw a picture. All blocks of a prop are one.
+using SharedName = std::array<std::int64_t, 4>;
+/// @param prop the view prop's number in vtkRenderer::GetViewProps()
+inline SharedName sharedName(int prop, const SurfaceKey& key)
+{
+  return { prop, static_cast<std::int64_t>(key.path), key.glyphSource,
+    static_cast<std::int64_t>(key.cells) };
+}
 
 struct SurfaceKeyHash
 {
