@@ -1,8 +1,8 @@
 #!/bin/bash
 # Measures how well `auto` chooses while the camera moves, and writes docs/results/auto.md and
 # docs/results/auto.csv: 200 random places in each of 17 scenes, 512 x 512 pixels; at COMPARED of
-# them all techniques are timed. The table has a line for each of these, and for each place where
-# the error was not kept. PLACES and SCENES ask for others.
+# them `auto` is timed beside single techniques. The table has a line for each of these, and for
+# each place where the error was not kept. PLACES and SCENES ask for others.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source docs/comparisons.sh

@@ -26,7 +26,7 @@ constexpr int framesPerProbe = 16;
 constexpr int framesPerProbeOfMoved = 4;
 
 /// The most sets of pixels that are probed to decide whether a map keeps the error.
-constexpr int mostLooks = 4;
+constexpr std::size_t mostLooks = 4;
 
 /// The largest side to which an error limit enlarges a map.
 constexpr int mostTexels = 4096;
@@ -244,9 +244,7 @@ std::string TechniqueChoice::whyNoMaps() const
   {
     return "the visibility is kept";
   }
-  constexpr std::size_t mostProbes =
-    static_cast<std::size_t>(mostLooks) * Probes::across * Probes::across;
-  if (WrongProbes{ mostProbes, 0 }.mostShare() > wishes.maximumError)
+  if (WrongProbes{ mostLooks * Probes::count, 0 }.mostShare() > wishes.maximumError)
   {
     return "probes cannot show an error as small as the limit";
   }
@@ -371,12 +369,14 @@ std::string TechniqueChoice::tryMap(
 }
 
 //------------------------------------------------------------------------------
-/// Probe a light's map until it is clear on which side of a limit its error is.
+/// Probe a light's map until it is clear on which side of a limit its error is. If the light shines
+/// on a small part of the picture, look there.
 /// @return nothing if the tracer does not see the pixels
 std::optional<WrongProbes> TechniqueChoice::probe(const CastingLight& casting, double limit)
 {
   WrongProbes all;
-  for (int looks = 0; looks < mostLooks; ++looks)
+  bool isAimed = false;
+  for (std::size_t looks = 0; looks < mostLooks; ++looks)
   {
     this->looked_ = this->looked_ && looks == 0;
     if (!this->look())
@@ -392,6 +392,16 @@ std::optional<WrongProbes> TechniqueChoice::probe(const CastingLight& casting, d
     {
       break;
     }
+    if (!isAimed && wrong.asked > 0 && wrong.asked < Probes::count / 4)
+    {
+      this->probes_.aimAtFacing();
+      isAimed = true;
+    }
+  }
+  if (isAimed)
+  {
+    this->probes_.aimEverywhere();
+    this->looked_ = false;
   }
   this->frame_.report.probes += static_cast<std::int64_t>(all.asked);
   return all;
@@ -417,7 +427,7 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
     }
     const double error = this->probes_.rmsOf(
       samplesOf(choice.step), casting.light, this->occluders_, this->visibility_.shadowTracer());
-    this->frame_.report.probes += Probes::across * Probes::across / 4;
+    this->frame_.report.probes += static_cast<std::int64_t>(Probes::count) / 4;
     choice.sinceProbed = 0;
     choice.isProbed = error <= limit;
     choice.mayBeCoarser = choice.step > 0 && 2.0 * error <= limit;

@@ -12,16 +12,15 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 namespace gnomon
 {
 namespace
 {
 
-constexpr std::size_t probeCount = static_cast<std::size_t>(Probes::across) * Probes::across;
-
 /// Return element `number` of a sequence spread evenly over [0, 1) (Roberts 2018).
-double spread(std::uint32_t number, double step)
+double spread(std::size_t number, double step)
 {
   const double value = number * step;
   return value - std::floor(value);
@@ -52,15 +51,20 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
   const glm::dvec3 eyeCentred = camera.eyeCentred();
   const glm::dvec3 lookCentred = camera.directionCentred();
   const glm::dvec2 moved(spread(number, 0.7548776662466927), spread(number, 0.5698402909980532));
+  const std::size_t partCount = this->parts_.empty() ? count : this->parts_.size();
   // In lengths of the direction, which are distances across the view (PixelRays).
   const auto nearest = static_cast<float>(camera.nearDistance());
   const auto farthest = static_cast<float>(camera.farDistance());
   this->receivers_.resize(across, across);
   const auto lookAt = [&](std::size_t i)
   {
-    const glm::dvec2 part(i % across, i / across);
+    const glm::dvec2 part(this->partOf(i) % across, this->partOf(i) / across);
+    // Points of one part are spread by steps that no look has.
+    const std::size_t inPart = i / partCount;
+    const glm::dvec2 within = glm::fract(
+      moved + glm::dvec2(spread(inPart, 0.6180339887498949), spread(inPart, 0.4142135623730950)));
     const glm::dvec2 pixel =
-      glm::floor((part + moved) / static_cast<double>(across) * glm::dvec2(sizePixels));
+      glm::floor((part + within) / static_cast<double>(across) * glm::dvec2(sizePixels));
     const glm::dvec3 origin = rays.origin(pixel.x, pixel.y);
     const glm::dvec3 direction = rays.direction(pixel.x, pixel.y);
     const std::optional<CasterHits::Hit> hit =
@@ -89,7 +93,7 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
     this->receivers_.offset[i] =
       shadowRayOffset(noise, static_cast<float>(pixelSide.x + pixelSide.y * depth));
   };
-  tbb::parallel_for(std::size_t(0), probeCount, lookAt);
+  tbb::parallel_for(std::size_t(0), count, lookAt);
 }
 
 //------------------------------------------------------------------------------
@@ -97,10 +101,10 @@ WrongProbes Probes::wrongOf(const PointwiseTechnique& technique, const ShadowLig
   const ReceiverSpace& space, const Occluders& occluders, ShadowTracer& tracer,
   ShaderLibrary& shaders)
 {
-  std::vector<glm::vec4> fragments(probeCount, glm::vec4(0.0f));
-  std::vector<glm::vec4> points(probeCount, glm::vec4(0.0f));
+  std::vector<glm::vec4> fragments(count, glm::vec4(0.0f));
+  std::vector<glm::vec4> points(count, glm::vec4(0.0f));
   const glm::dmat4 viewFromCentred = glm::inverse(space.centredFromView);
-  for (std::size_t i = 0; i < probeCount; ++i)
+  for (std::size_t i = 0; i < count; ++i)
   {
     if (this->receivers_.surface[i] != ReceiverPixels::notCovered)
     {
@@ -122,7 +126,7 @@ WrongProbes Probes::wrongOf(const PointwiseTechnique& technique, const ShadowLig
     light, occluders, Receivers(this->receivers_), this->traced_, nullptr, &this->classes_);
 
   WrongProbes probes;
-  for (std::size_t i = 0; i < probeCount; ++i)
+  for (std::size_t i = 0; i < count; ++i)
   {
     if (this->classes_[i] == static_cast<std::uint8_t>(TracedClass::Traced))
     {
@@ -134,12 +138,34 @@ WrongProbes Probes::wrongOf(const PointwiseTechnique& technique, const ShadowLig
 }
 
 //------------------------------------------------------------------------------
+void Probes::aimAtFacing()
+{
+  std::set<std::size_t> aimed;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (this->classes_[i] == static_cast<std::uint8_t>(TracedClass::Traced))
+    {
+      const int x = static_cast<int>(this->partOf(i) % across);
+      const int y = static_cast<int>(this->partOf(i) / across);
+      for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, across - 1); ++ny)
+      {
+        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, across - 1); ++nx)
+        {
+          aimed.insert(static_cast<std::size_t>(ny) * across + static_cast<std::size_t>(nx));
+        }
+      }
+    }
+  }
+  this->parts_.assign(aimed.begin(), aimed.end());
+}
+
+//------------------------------------------------------------------------------
 double Probes::rmsOf(
   int few, const ShadowLight& light, const Occluders& occluders, ShadowTracer& tracer)
 {
   // Each point has all of the light's rays, so every fourth point is enough.
   ReceiverPixels some = this->receivers_;
-  for (std::size_t i = 0; i < probeCount; ++i)
+  for (std::size_t i = 0; i < count; ++i)
   {
     const bool isTaken = i % 2 == 0 && i / across % 2 == 0;
     some.surface[i] = isTaken ? some.surface[i] : ReceiverPixels::notCovered;
@@ -150,24 +176,25 @@ double Probes::rmsOf(
   sparse.lightSamples = few;
   tracer.traceArea(sparse, occluders, receivers, this->asked_);
   double squares = 0.0;
-  std::size_t count = 0;
+  std::size_t answers = 0;
   for (std::size_t i = 0; i < this->traced_.size(); ++i)
   {
-    if (this->classes_[i % probeCount] == static_cast<std::uint8_t>(TracedClass::Traced))
+    if (this->classes_[i % count] == static_cast<std::uint8_t>(TracedClass::Traced))
     {
       const auto off = static_cast<double>(this->asked_[i] - this->traced_[i]);
       squares += off * off;
-      ++count;
+      ++answers;
     }
   }
-  return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
+  return answers > 0 ? std::sqrt(squares / static_cast<double>(answers)) : 0.0;
 }
 
 //------------------------------------------------------------------------------
 std::size_t Probes::bytes() const
 {
   return this->receivers_.bytes() + this->target_.bytes() + this->layers_.bytes() +
-    bytesOf(this->traced_) + bytesOf(this->asked_) + bytesOf(this->classes_);
+    bytesOf(this->traced_) + bytesOf(this->asked_) + bytesOf(this->classes_) +
+    bytesOf(this->parts_);
 }
 
 } // namespace gnomon

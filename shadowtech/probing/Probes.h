@@ -45,9 +45,10 @@ struct WrongProbes
 class Probes
 {
 public:
-  static constexpr int across = 64; ///< points along each side of the picture
+  static constexpr int across = 64; ///< parts along each side of the picture
+  static constexpr std::size_t count = std::size_t(across) * across; ///< of the points of a look
 
-  /// Find the points: one in each part of the picture.
+  /// Find the points, as many in each part of the picture that is aimed at.
   /// @param number another number moves the points within their parts
   void look(const CameraView& camera, const glm::ivec2& sizePixels, const Occluders& occluders,
     const CasterHits& hits, std::uint32_t number);
@@ -59,6 +60,14 @@ public:
     const ReceiverSpace& space, const Occluders& occluders, ShadowTracer& tracer,
     ShaderLibrary& shaders);
 
+  /// Aim further looks at all 64 x 64 parts of the picture, one point in each.
+  void aimEverywhere() { this->parts_.clear(); }
+
+  /// Aim further looks at the parts where wrongOf() found a point that faces the light (at least
+  /// one), and at their neighbours. More points then face the light. They miss what is small and
+  /// apart from all points found.
+  void aimAtFacing();
+
   /// Return the root mean square error of an area light's visibility with fewer samples.
   /// @param few the number of samples; fewer than the light has
   double rmsOf(int few, const ShadowLight& light, const Occluders& occluders, ShadowTracer& tracer);
@@ -66,6 +75,13 @@ public:
   std::size_t bytes() const;
 
 private:
+  /// Return the number of the part that a point is in.
+  std::size_t partOf(std::size_t point) const
+  {
+    return this->parts_.empty() ? point : this->parts_[point % this->parts_.size()];
+  }
+
+  std::vector<std::size_t> parts_; ///< aimed at; empty: all
   ReceiverPixels receivers_;
   ReceiverTarget target_;
   VisibilityLayers layers_;

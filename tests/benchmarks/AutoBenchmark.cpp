@@ -20,11 +20,13 @@
 #include <atomic>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace gnomon::tool
@@ -36,6 +38,7 @@ struct Options
 {
   std::vector<std::string> scenes;
   int places = 20;
+  int first = 0;     ///< earlier places are skipped
   int compared = 20; ///< the first of them, at which `auto` is compared
   unsigned int seed = 1;
   int sidePixels = 512;
@@ -46,6 +49,12 @@ struct Options
 constexpr int timedFrames = 10;
 constexpr int framesBefore = 3;
 constexpr double stepDegrees = 0.2;
+
+/// Single techniques are timed if their first frame at a place takes at most this factor longer
+/// than the fastest. After some timed frames, only the fastest of them go on.
+constexpr double slowerAtFirst = 2.0;
+constexpr std::size_t framesOfAll = 3;
+constexpr std::size_t fastest = 2;
 
 /// The error that the pass allows by default.
 constexpr double allowedShare = 0.005;
@@ -114,7 +123,7 @@ void wander(vtkCamera* camera, std::mt19937& random)
   camera->Dolly(between(0.6, 1.8));
 }
 
-/// All ways to draw a scene. The last is `auto`; the one before it is ray tracing, the truth.
+/// All ways to draw a scene. The last is `auto`.
 class Ways
 {
 public:
@@ -127,72 +136,41 @@ public:
     }
     this->runners_.push_back(
       std::make_unique<Runner>(VariantSpec{ automaticTechnique, 1024 }, scene, sidePixels));
+    for (const auto& runner : this->runners_) // compile and bake what is the same at all places
+    {
+      runner->draw();
+      runner->visibility();
+    }
   }
 
   Runner& automatic() { return *this->runners_.back(); }
 
-  /// Draw frames while the camera moves by small steps.
-  /// @param compares true if all ways draw, in turns; else `auto` alone does
-  void move(vtkCamera* camera, bool compares)
+  /// Draw frames by `auto` while the camera moves by small steps, then print its choice in the last
+  /// frame and that frame's error.
+  void check(int place, vtkCamera* camera)
   {
-    for (const auto& runner : this->runners_)
-    {
-      runner->milliseconds.clear();
-    }
-    this->step(camera, 0, compares);
-    this->interactive(vtkGnomonShadowPass::INTERACTIVE_ON);
-    for (int step = 1; step <= lastStep; ++step)
-    {
-      this->step(camera, step, compares);
-    }
-    this->report_ = this->automatic().variant.pass()->GetReport();
-    this->interactive(vtkGnomonShadowPass::INTERACTIVE_OFF);
+    this->move(camera);
+    const LightReport chosen = this->chosen();
+    this->truth_ = this->visibility(*this->single("raytraced"), camera);
+    this->printChoice(place, chosen, this->error(chosen, camera));
+    std::cout << ",,,,," << std::endl;
   }
 
-  /// Print the choice of the last frame of move(), and the single techniques at that place.
-  void print(int place, vtkCamera* camera, bool compares)
+  /// Do the same in turns with the single techniques that keep the error in the last frame, and
+  /// print the fastest of these, too.
+  void compare(int place, vtkCamera* camera)
   {
-    LightReport chosen;
-    for (const LightReport& light : this->report_.lights)
-    {
-      chosen = light.casts ? light : chosen;
-    }
-    const VisibilityImages truth = this->visibility(this->runners_.size() - 2, camera);
-    double best = 0.0;
-    std::string bestName;
-    double error = std::nan(""); // unless a single technique equals the choice
-    for (std::size_t i = 0; i + 1 < this->runners_.size(); ++i)
-    {
-      const VariantSpec& spec = this->runners_[i]->variant.spec();
-      const bool isChosen = spec.technique == chosen.technique &&
-        (spec.technique != "nsm" || spec.mapSizeTexels == chosen.mapSizeTexels);
-      if (!compares && !isChosen)
-      {
-        continue;
-      }
-      const VisibilityError off =
-        measureError(this->visibility(i, camera), truth, this->scene_.lights);
-      const double share = off.share(off.wrongPixels());
-      const double milliseconds = median(this->runners_[i]->milliseconds);
-      if (compares && share <= allowedShare && (bestName.empty() || milliseconds < best))
-      {
-        best = milliseconds;
-        bestName = spec.name();
-      }
-      error = isChosen ? share : error;
-    }
-    std::cout << this->scene_.name << "," << place << "," << chosen.technique << ","
-              << chosen.mapSizeTexels << "," << error;
-    if (compares)
-    {
-      const double own = median(this->automatic().milliseconds);
-      std::cout << "," << own << "," << best << "," << own / best << "," << bestName << ",\""
-                << this->report_.choice << "\"" << std::endl;
-    }
-    else
-    {
-      std::cout << ",,,,," << std::endl;
-    }
+    this->findRivals(camera);
+    this->move(camera);
+    const LightReport chosen = this->chosen();
+    this->printChoice(place, chosen, this->error(chosen, camera));
+    const Runner* const best =
+      *std::min_element(this->rivals_.begin(), this->rivals_.end(), isFaster);
+    this->rivals_.clear();
+    const double own = median(this->automatic().milliseconds);
+    const double least = median(best->milliseconds);
+    std::cout << "," << own << "," << least << "," << own / least << ","
+              << best->variant.spec().name() << ",\"" << this->report_.choice << "\"" << std::endl;
   }
 
 private:
@@ -200,32 +178,136 @@ private:
 
   void interactive(int wish) { this->automatic().variant.pass()->SetInteractive(wish); }
 
-  /// Draw a frame of each way, or of `auto` alone.
-  void step(vtkCamera* camera, int step, bool compares)
+  static bool isFaster(const Runner* a, const Runner* b)
   {
-    for (std::size_t i = compares ? 0 : this->runners_.size() - 1; i < this->runners_.size(); ++i)
+    return median(a->milliseconds) < median(b->milliseconds);
+  }
+
+  /// Find the single techniques that keep the error in the last frame of a motion and may be the
+  /// fastest. Each draws a frame here.
+  void findRivals(vtkCamera* camera)
+  {
+    this->truth_ = this->visibility(*this->single("raytraced"), camera);
+    std::vector<std::pair<double, Runner*>> drawn;
+    for (std::size_t i = 0; i + 1 < this->runners_.size(); ++i)
     {
       Runner& runner = *this->runners_[i];
-      runner.place(camera, step * stepDegrees);
-      const double milliseconds = runner.draw();
-      if (step > framesBefore)
+      runner.milliseconds.clear();
+      runner.place(camera, 0.0);
+      drawn.emplace_back(runner.draw(), &runner);
+    }
+    std::sort(drawn.begin(), drawn.end());
+    this->rivals_.clear();
+    double most = std::numeric_limits<double>::infinity();
+    for (const auto& [milliseconds, runner] : drawn)
+    {
+      if (milliseconds <= most && this->wrongShare(*runner, camera) <= allowedShare)
       {
-        runner.milliseconds.push_back(milliseconds);
+        most = std::min(most, slowerAtFirst * milliseconds);
+        this->rivals_.push_back(runner);
       }
     }
   }
 
-  /// Return the visibility of the last frame of move().
-  VisibilityImages visibility(std::size_t way, vtkCamera* camera)
+  /// Draw frames by the rivals and by `auto`.
+  void move(vtkCamera* camera)
   {
-    Runner& runner = *this->runners_[way];
+    this->automatic().milliseconds.clear();
+    for (int step = 0; step <= lastStep; ++step)
+    {
+      if (step >= framesBefore)
+      {
+        for (Runner* const rival : this->rivals_)
+        {
+          this->draw(*rival, camera, step);
+        }
+      }
+      this->draw(this->automatic(), camera, step);
+      this->interactive(vtkGnomonShadowPass::INTERACTIVE_ON);
+      this->dropSlowRivals();
+    }
+    this->report_ = this->automatic().variant.pass()->GetReport();
+    this->interactive(vtkGnomonShadowPass::INTERACTIVE_OFF);
+  }
+
+  void draw(Runner& runner, vtkCamera* camera, int step)
+  {
+    runner.place(camera, step * stepDegrees);
+    const double milliseconds = runner.draw();
+    if (step > framesBefore)
+    {
+      runner.milliseconds.push_back(milliseconds);
+    }
+  }
+
+  void dropSlowRivals()
+  {
+    if (this->rivals_.size() > fastest && this->rivals_.front()->milliseconds.size() == framesOfAll)
+    {
+      std::sort(this->rivals_.begin(), this->rivals_.end(), isFaster);
+      this->rivals_.resize(fastest);
+    }
+  }
+
+  /// Return what the last casting light had in the last frame that moved.
+  LightReport chosen() const
+  {
+    LightReport chosen;
+    for (const LightReport& light : this->report_.lights)
+    {
+      chosen = light.casts ? light : chosen;
+    }
+    return chosen;
+  }
+
+  /// @return null if there is none
+  Runner* single(const std::string& technique, int mapSizeTexels = 0) const
+  {
+    for (std::size_t i = 0; i + 1 < this->runners_.size(); ++i)
+    {
+      const VariantSpec& spec = this->runners_[i]->variant.spec();
+      if (spec.technique == technique &&
+        (technique != "nsm" || spec.mapSizeTexels == mapSizeTexels))
+      {
+        return this->runners_[i].get();
+      }
+    }
+    return nullptr;
+  }
+
+  void printChoice(int place, const LightReport& chosen, double error) const
+  {
+    std::cout << this->scene_.name << "," << place << "," << chosen.technique << ","
+              << chosen.mapSizeTexels << "," << error;
+  }
+
+  /// Return the visibility of the last frame of a motion.
+  static VisibilityImages visibility(Runner& runner, vtkCamera* camera)
+  {
     runner.place(camera, lastStep * stepDegrees);
     return runner.visibility();
   }
 
+  /// Return the error of a choice, or NaN if no single technique equals it.
+  double error(const LightReport& chosen, vtkCamera* camera) const
+  {
+    Runner* const single = this->single(chosen.technique, chosen.mapSizeTexels);
+    return single ? this->wrongShare(*single, camera) : std::nan("");
+  }
+
+  /// Return the share of wrong pixels in the last frame of a motion.
+  double wrongShare(Runner& runner, vtkCamera* camera) const
+  {
+    const VisibilityError off =
+      measureError(visibility(runner, camera), this->truth_, this->scene_.lights);
+    return off.share(off.wrongPixels());
+  }
+
   const Scene& scene_;
   std::vector<std::unique_ptr<Runner>> runners_;
-  FrameReport report_; ///< of auto's last frame that moved
+  std::vector<Runner*> rivals_; ///< drawn in turns with `auto`
+  VisibilityImages truth_;      ///< of the last frame at this place
+  FrameReport report_;          ///< of auto's last frame that moved
 };
 
 void compareWithSingles(const Scene& scene, const Options& options)
@@ -239,9 +321,10 @@ void compareWithSingles(const Scene& scene, const Options& options)
     vtkNew<vtkCamera> camera;
     camera->DeepCopy(start);
     wander(camera, random);
-    const bool compares = place < options.compared;
-    ways.move(camera, compares);
-    ways.print(place, camera, compares);
+    if (place >= options.first)
+    {
+      place < options.compared ? ways.compare(place, camera) : ways.check(place, camera);
+    }
   }
 }
 
@@ -332,6 +415,9 @@ int run(int argc, char** argv)
   app.add_option("SCENES", options.scenes, "Scenes: built-in names or scene files")->required();
   app.add_option("--places", options.places, "Places of the camera in each scene")
     ->check(CLI::Range(1, 100000))
+    ->capture_default_str();
+  app.add_option("--first", options.first, "The first of them that is measured, from 0")
+    ->check(CLI::Range(0, 100000))
     ->capture_default_str();
   app
     .add_option("--compared", options.compared,

@@ -145,6 +145,39 @@ TEST_F(ProbesTest, areASampleOfThePicture)
   }
 }
 
+// Looks aimed at what faces the light find more of it, with the same visibility.
+TEST_F(ProbesTest, aimedLooksFindMoreOfWhatFacesTheLight)
+{
+  ProbedScene scene(probedScenes()[0]);
+  const ShadowLight light = spotLight({ 2.0, 1.0, 5.0 }, { -0.5, -0.4, 0.0 }, 6.0);
+  const auto sum = [&](std::uint32_t first)
+  {
+    WrongProbes all;
+    for (std::uint32_t number = first; number < first + 4; ++number)
+    {
+      scene.look(this->probes_, number);
+      const WrongProbes lit = this->probes_.wrongOf(
+        Constant("1.0"), light, scene.space(), scene.occluders, scene.tracer, this->library_);
+      all.asked += lit.asked;
+      all.wrong += lit.wrong;
+    }
+    return all;
+  };
+  const WrongProbes everywhere = sum(0);
+  this->probes_.aimAtFacing();
+  const WrongProbes aimed = sum(4);
+  EXPECT_GT(aimed.asked, 4 * everywhere.asked);
+  EXPECT_LT(aimed.asked, 4 * Probes::count);
+  const double share = scene.shadowShare(light);
+  EXPECT_GT(share, 0.1);
+  EXPECT_LT(share, 0.9);
+  EXPECT_NEAR(aimed.share(), share, 0.03);
+
+  this->probes_.aimEverywhere();
+  EXPECT_EQ(sum(0).asked, everywhere.asked);
+  EXPECT_EQ(sum(0).wrong, everywhere.wrong);
+}
+
 TEST_F(ProbesTest, fewerSamplesHaveALargerError)
 {
   ProbedScene scene(probedScenes()[0]);
