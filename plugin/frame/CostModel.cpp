@@ -15,9 +15,12 @@ namespace
 
 constexpr double millisecondsOfNanoseconds = 1e-6;
 
+/// Frames among which the triangles of a map that is reused are shared.
+constexpr double framesOfMap = 30.0;
+
 double costOfPlain(const FrameCounters& counters, const CostFactors& factors)
 {
-  return static_cast<double>(counters.triangles) * factors.drawTriangle +
+  return static_cast<double>(counters.drawn) * factors.drawTriangle +
     static_cast<double>(counters.pixels) * factors.drawPixel;
 }
 
@@ -136,29 +139,29 @@ CostFactors readFactors(const std::string& path)
 //------------------------------------------------------------------------------
 double costByMaps(const FrameCounters& counters, const CostFactors& factors)
 {
-  const auto triangles = static_cast<double>(counters.triangles);
   const double asked = static_cast<double>(counters.pixels) * factors.askPixel;
-  const double baked =
-    triangles * factors.bakeTriangle + static_cast<double>(counters.texels) * factors.bakeTexel;
+  const double triangles = static_cast<double>(counters.triangles) * factors.bakeTriangle;
+  const double texels = static_cast<double>(counters.texels) * factors.bakeTexel;
   return millisecondsOfNanoseconds *
     (costOfPlain(counters, factors) + static_cast<double>(counters.lights) * asked +
-      static_cast<double>(counters.movedLights) * baked);
+      static_cast<double>(counters.movedLights) * (triangles + texels) +
+      static_cast<double>(counters.newMaps) * triangles / framesOfMap);
 }
 
 //------------------------------------------------------------------------------
 double costByRays(const FrameCounters& counters, const CostFactors& factors)
 {
-  const auto triangles = static_cast<double>(counters.triangles);
+  const auto drawn = static_cast<double>(counters.drawn);
   const auto pixels = static_cast<double>(counters.pixels);
   double nanoseconds = costOfPlain(counters, factors) + pixels * factors.fetchPixel;
   if (counters.viewMoved)
   {
-    nanoseconds += triangles * factors.receiverTriangle + pixels * factors.receiverPixel;
+    nanoseconds += drawn * factors.receiverTriangle + pixels * factors.receiverPixel;
   }
   const auto traced =
     static_cast<double>(counters.viewMoved ? counters.lights : counters.movedLights);
   nanoseconds += pixels * traced * factors.tracePixel;
-  nanoseconds += counters.castersMoved ? triangles * factors.refitTriangle : 0.0;
+  nanoseconds += counters.castersMoved ? drawn * factors.refitTriangle : 0.0;
   return millisecondsOfNanoseconds * nanoseconds;
 }
 

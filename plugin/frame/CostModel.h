@@ -49,11 +49,13 @@ CostFactors readFactors(const std::string& path);
 /// Counts that determine the costs of a frame.
 struct FrameCounters
 {
-  std::size_t triangles = 0;
+  std::size_t drawn = 0;     ///< triangles and solids that VTK draws
+  std::size_t triangles = 0; ///< that a map draws, those of solids' meshes among them
   std::size_t pixels = 0;
   std::size_t texels = 0;      ///< of one light's map
   std::size_t lights = 0;      ///< with hard shadows
   std::size_t movedLights = 0; ///< lights whose maps are stale
+  std::size_t newMaps = 0;     ///< lights whose maps are perhaps not baked yet, and then reused
   bool viewMoved = false;      ///< the camera or what it sees
   bool castersMoved = false;
 };

@@ -123,6 +123,11 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& har
   counters.castersMoved = this->casters_.first != 0 && casters != this->casters_;
   counters.viewMoved = counters.castersMoved || view != this->view_;
   counters.triangles = this->frame_.report.triangles;
+  for (const Surface& surface : this->occluders_.surfaces)
+  {
+    counters.drawn +=
+      surface.drawnCount() * std::max<std::size_t>(surface.centredFromSource.size(), 1);
+  }
   counters.pixels =
     static_cast<std::size_t>(this->frame_.size.x) * static_cast<std::size_t>(this->frame_.size.y);
   counters.lights = hard.size();
@@ -147,6 +152,7 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& har
       const std::size_t views = static_cast<std::size_t>(std::max(mostViews(light), 1));
       counters.texels = std::max(counters.texels, side * side * views);
       counters.movedLights += moved ? 1 : 0;
+      counters.newMaps += !moved && !choice.isProbed ? 1 : 0;
     }
     known[light.sceneIndex] = choice;
   }
@@ -262,10 +268,6 @@ std::string TechniqueChoice::whyNoMaps() const
   if (std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(), isOther))
   {
     return "another light's technique works on the whole screen";
-  }
-  if (this->occluders_.castsSolids())
-  {
-    return "maps do not know casters that are spheres or cylinders";
   }
   if (std::any_of(
         this->occluders_.surfaces.begin(), this->occluders_.surfaces.end(), isUnseenReceiver))
@@ -414,7 +416,7 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
   const double limit = this->frame_.wishes.maximumSoftError;
   LightChoice& choice = this->lights_[casting.light.sceneIndex];
   choice.samples = 0;
-  if (!casting.light.area || limit == 0.0 || this->occluders_.castsSolids())
+  if (!casting.light.area || limit == 0.0)
   {
     return;
   }

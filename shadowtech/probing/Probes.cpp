@@ -4,6 +4,7 @@
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/PixelRays.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/base/Solid.h"
 #include "shadowtech/tracing/ShadowTracer.h"
 
 #include <tbb/parallel_for.h>
@@ -76,13 +77,24 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
     {
       return;
     }
-    const glm::vec3 position(origin + static_cast<double>(hit->at) * direction);
-    const glm::vec3 unturned = glm::normalize(hit->normalCentred);
-    const glm::vec3 normal = glm::dot(unturned, glm::vec3(direction)) > 0.0f ? -unturned : unturned;
+    glm::vec3 position(origin + static_cast<double>(hit->at) * direction);
+    glm::vec3 normal;
+    float noise = 0.0f;
+    if (hit->solid)
+    {
+      const SolidPoint point = seenPoint(*hit->solid, origin, direction);
+      position = point.position;
+      normal = point.normal;
+      noise = noiseOf(*hit->solid, point);
+    }
+    else
+    {
+      normal = glm::normalize(hit->normalCentred);
+      normal = glm::dot(normal, glm::vec3(direction)) > 0.0f ? -normal : normal;
+      // Rounding of the ray and of its length is of the size of the storage noise.
+      noise = 4.0f * storageNoise(normal, glm::abs(position) + glm::abs(glm::vec3(eyeCentred)));
+    }
     const double depth = glm::dot(glm::dvec3(position) - eyeCentred, lookCentred);
-    // Rounding of the ray and of its length is of the size of the storage noise.
-    const float noise =
-      4.0f * storageNoise(normal, glm::abs(position) + glm::abs(glm::vec3(eyeCentred)));
     this->receivers_.surface[i] = hit->surface;
     this->receivers_.positionX[i] = position.x;
     this->receivers_.positionY[i] = position.y;

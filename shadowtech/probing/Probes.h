@@ -40,8 +40,7 @@ struct WrongProbes
 };
 
 /// Compares a cheap visibility with traced visibility at some pixels, before the picture is drawn.
-/// Camera rays find the receivers. They miss surfaces that do not cast, and solids, and hit the
-/// surface behind.
+/// Camera rays find the receivers. They miss surfaces that do not cast, and hit the surface behind.
 class Probes
 {
 public:

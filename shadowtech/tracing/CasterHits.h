@@ -8,8 +8,10 @@
 namespace gnomon
 {
 
-/// Finds the casting triangles on a ray, front and back faces alike. Rays pass through holes that
-/// textures cut, and through solids.
+struct PlacedSolid;
+
+/// Finds the casters on a ray, front and back faces alike. Rays pass through holes that textures
+/// cut.
 class CasterHits
 {
 public:
@@ -21,10 +23,12 @@ public:
     std::uint32_t triangle;  ///< of the snapshot; for an instance, of its source
     float at;                ///< in lengths of the ray's direction
     glm::vec3 normalCentred; ///< of any length, on either side
+    /// The solid that is hit instead of a triangle, until the casters change. If set, the triangle
+    /// and the normal are invalid.
+    const PlacedSolid* solid = nullptr;
   };
 
-  /// Return the nearest hit; none if the ray meets no triangle. Called from several threads at
-  /// once.
+  /// Return the nearest hit; none if the ray meets no caster. Called from several threads at once.
   /// @param origin, direction centred; direction of any length
   /// @param after, until the interval in which hits count, in lengths of the direction
   virtual std::optional<Hit> nearest(

@@ -89,9 +89,6 @@ void rejectBackFacesAndHoles(const RTCFilterFunctionNArguments* arguments)
   rejectHoles(arguments);
 }
 
-/// Miss solids: only occlusion queries hit them.
-void meetNoSolid(const RTCIntersectFunctionNArguments* /*arguments*/) {}
-
 /// Return the filter of hits on a surface; null if every hit counts.
 RTCFilterFunctionN filterOf(const Surface& surface)
 {
@@ -139,6 +136,18 @@ void boundSolid(const RTCBoundsFunctionArguments* arguments)
   box.upper_z = static_cast<float>(bounds.upper.z);
 }
 
+glm::dvec3 originOf(RTCRayN* rays, unsigned int count, unsigned int i)
+{
+  return { RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i),
+    RTCRayN_org_z(rays, count, i) };
+}
+
+glm::dvec3 directionOf(RTCRayN* rays, unsigned int count, unsigned int i)
+{
+  return { RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
+    RTCRayN_dir_z(rays, count, i) };
+}
+
 /// Test ray by ray, so that each ray has the same answer alone as in a packet.
 void occludeBySolid(const RTCOccludedFunctionNArguments* arguments)
 {
@@ -150,14 +159,43 @@ void occludeBySolid(const RTCOccludedFunctionNArguments* arguments)
     {
       continue;
     }
-    const glm::dvec3 origin(RTCRayN_org_x(arguments->ray, count, i),
-      RTCRayN_org_y(arguments->ray, count, i), RTCRayN_org_z(arguments->ray, count, i));
-    const glm::dvec3 direction(RTCRayN_dir_x(arguments->ray, count, i),
-      RTCRayN_dir_y(arguments->ray, count, i), RTCRayN_dir_z(arguments->ray, count, i));
     float& far = RTCRayN_tfar(arguments->ray, count, i);
-    if (blocks(casters.solids[arguments->primID], casters.oneSided, origin, direction, far))
+    if (blocks(casters.solids[arguments->primID], casters.oneSided,
+          originOf(arguments->ray, count, i), directionOf(arguments->ray, count, i), far))
     {
       far = -std::numeric_limits<float>::infinity();
+    }
+  }
+}
+
+/// Shorten rays to where they enter a solid, or leave it if they begin inside.
+void meetSolid(const RTCIntersectFunctionNArguments* arguments)
+{
+  const auto& casters = *static_cast<const CastingSolids*>(arguments->geometryUserPtr);
+  const unsigned int count = arguments->N;
+  RTCRayN* const rays = RTCRayHitN_RayN(arguments->rayhit, count);
+  RTCHitN* const hits = RTCRayHitN_HitN(arguments->rayhit, count);
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    if (!arguments->valid[i])
+    {
+      continue;
+    }
+    const std::optional<Crossing> crossing = crossingOf(
+      casters.solids[arguments->primID], originOf(rays, count, i), directionOf(rays, count, i));
+    if (!crossing)
+    {
+      continue;
+    }
+    const double near = RTCRayN_tnear(rays, count, i);
+    float& far = RTCRayN_tfar(rays, count, i);
+    const double at = crossing->enters > near ? crossing->enters : crossing->leaves;
+    if (at > near && at < far)
+    {
+      far = static_cast<float>(at);
+      RTCHitN_geomID(hits, count, i) = arguments->geomID;
+      RTCHitN_primID(hits, count, i) = arguments->primID;
+      RTCHitN_instID(hits, count, i, 0) = RTC_INVALID_GEOMETRY_ID;
     }
   }
 }
@@ -414,6 +452,7 @@ struct EmbreeTracer::Impl
   {
     std::uint32_t surface;       ///< Occluders::surfaces index
     std::uint32_t firstTriangle; ///< of the surface in the snapshot
+    const CastingSolids* solids; ///< null if it casts triangles
   };
   std::vector<Named> named;
   std::uint64_t topologyVersion = 0;
@@ -503,7 +542,7 @@ Caster EmbreeTracer::Impl::makeSolids(const Surface& surface) const
   rtcSetGeometryUserData(geometry, caster.solids.get());
   rtcSetGeometryBoundsFunction(geometry, boundSolid, nullptr);
   rtcSetGeometryOccludedFunction(geometry, occludeBySolid);
-  rtcSetGeometryIntersectFunction(geometry, meetNoSolid);
+  rtcSetGeometryIntersectFunction(geometry, meetSolid);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcCommitGeometry(geometry);
   caster.attached = { rtcAttachGeometry(this->scene.get(), geometry) };
@@ -605,7 +644,8 @@ void EmbreeTracer::Impl::nameSurfaces(const Occluders& occluders)
     for (const unsigned int attached : caster->second.attached)
     {
       this->named.resize(std::max<std::size_t>(this->named.size(), attached + 1u));
-      this->named[attached] = { static_cast<std::uint32_t>(i), surface.firstTriangle };
+      this->named[attached] = { static_cast<std::uint32_t>(i), surface.firstTriangle,
+        caster->second.solids.get() };
     }
   }
 }
@@ -753,6 +793,11 @@ std::optional<CasterHits::Hit> EmbreeTracer::nearest(
   }
   const bool isInstance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
   const Impl::Named& named = impl.named[isInstance ? query.hit.instID[0] : query.hit.geomID];
+  if (named.solids)
+  {
+    return Hit{ named.surface, 0, query.ray.tfar, glm::vec3(0.0f),
+      &named.solids->solids[query.hit.primID] };
+  }
   return Hit{ named.surface, named.firstTriangle + query.hit.primID, query.ray.tfar,
     impl.normalOf(query.hit) };
 }

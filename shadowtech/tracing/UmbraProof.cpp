@@ -175,7 +175,7 @@ bool UmbraProof::visitHits(const Ray& ray, const Visit& visit) const
       return false;
     }
     const Surface& surface = this->occluders_.surfaces[hit->surface];
-    const bool isWhole = !surface.cutout && !surface.isInstanced();
+    const bool isWhole = !surface.cutout && !surface.isInstanced(); // solids are instances
     if (isWhole && visit(hit->triangle))
     {
       return true;

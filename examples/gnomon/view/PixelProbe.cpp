@@ -45,8 +45,10 @@ std::string whyDark(const LightSight& sight, const LightSights& sights, const Em
         return "";
       }
       const Surface& surface = occluders.surfaces[hit->surface];
-      return "behind " + nameOf(sights.snapshot().propOf(hit->surface)) + ", triangle " +
-        std::to_string(hit->triangle - surface.firstTriangle) + ", " +
+      const std::string triangle = hit->solid
+        ? ""
+        : "triangle " + std::to_string(hit->triangle - surface.firstTriangle) + ", ";
+      return "behind " + nameOf(sights.snapshot().propOf(hit->surface)) + ", " + triangle +
         fourDigits(hit->at * glm::length(ray.direction)) + " away";
     });
 }

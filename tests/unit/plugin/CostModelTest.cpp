@@ -78,7 +78,7 @@ TEST(CostModel, costsGrowWithWhatThereIs)
 {
   const CostFactors factors = defaultFactors(true);
   FrameCounters counters;
-  counters.triangles = 70000;
+  counters.drawn = counters.triangles = 70000;
   counters.pixels = 1 << 20;
   counters.texels = 1 << 20;
   counters.lights = 1;
@@ -89,7 +89,14 @@ TEST(CostModel, costsGrowWithWhatThereIs)
   counters.viewMoved = false;
   counters.movedLights = 1;
   EXPECT_LT(costByRays(counters, factors), costByMaps(counters, factors)) << "a map is drawn anew";
+  counters.movedLights = 0;
+  counters.viewMoved = true;
+  counters.triangles = 20000000; // the meshes of 70,000 solids
+  counters.newMaps = 1;
+  EXPECT_LT(costByRays(counters, factors), costByMaps(counters, factors))
+    << "30 frames do not pay for such a map";
+  counters.movedLights = 1;
   counters.castersMoved = true;
-  counters.triangles = 10000000;
+  counters.drawn = counters.triangles = 10000000;
   EXPECT_GT(costByMaps(counters, factors), 800.0) << "ms";
 }

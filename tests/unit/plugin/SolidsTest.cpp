@@ -5,6 +5,7 @@
 
 #include "plugin/vtkGnomonPropKeys.h"
 
+#include <vtkActorCollection.h>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
@@ -495,6 +496,26 @@ TEST_F(SolidsTest, mapsShowThemWithoutAcne)
     }
     EXPECT_EQ(darkSolids, 0u);
     EXPECT_LT(wrong, kept.coverage.size() / 100);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// While the picture moves, `auto` takes a map. It is probed on the solids, too: without the floor
+/// there is nothing else.
+TEST_F(SolidsTest, movingPicturesHaveMapsProbedOnSolids)
+{
+  for (const bool hasFloor : { true, false })
+  {
+    SolidsScene scene(8, 10);
+    scene.addSun({ 0.5, 0.3, -1.0 });
+    vtkActorCollection* const actors = scene.renderer->GetActors();
+    actors->InitTraversal();
+    actors->GetNextActor()->SetVisibility(hasFloor);
+    scene.pass->SetTechnique("auto");
+    scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+    scene.render();
+    EXPECT_GT(scene.report().probes, 300) << hasFloor;
+    EXPECT_TRUE(!hasFloor || scene.report().lights[0].technique == "nsm") << scene.report().choice;
   }
 }
 

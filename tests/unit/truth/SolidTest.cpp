@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <utility>
@@ -448,4 +449,60 @@ TEST(SolidTracing, theTracerAnswersAsTheyDo)
       EXPECT_LT(dark, 2000);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+/// A ray meets the solid that it enters first, or leaves first if it begins inside.
+TEST(SolidTracing, raysMeetTheNearest)
+{
+  RandomSolids random(7);
+  std::vector<glm::mat4x3> spheres, cylinders;
+  for (int i = 0; i < 100; ++i)
+  {
+    spheres.push_back(random.matrix(Solid::Sphere, 30.0));
+    cylinders.push_back(random.matrix(Solid::Cylinder, 30.0));
+  }
+  const Occluders occluders =
+    occludersOf({ { Solid::Sphere, spheres }, { Solid::Cylinder, cylinders } });
+  EmbreeTracer tracer;
+  tracer.update(occluders);
+  int met = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const glm::vec3 origin(random.vector(30.0));
+    const glm::vec3 direction(random.direction());
+    double nearest = std::numeric_limits<double>::infinity();
+    std::uint32_t surfaceMet = 0;
+    for (std::uint32_t surface = 0; surface < 2; ++surface)
+    {
+      for (const glm::mat4x3& matrix : occluders.surfaces[surface].centredFromSource)
+      {
+        const std::optional<Crossing> crossing =
+          crossingOf(placedSolid(occluders.surfaces[surface].solid, matrix), origin, direction);
+        const double at = !crossing ? -1.0
+          : crossing->enters > 0.0  ? crossing->enters
+                                    : crossing->leaves;
+        if (at > 0.0 && at < nearest)
+        {
+          nearest = at;
+          surfaceMet = surface;
+        }
+      }
+    }
+    const auto hit =
+      tracer.nearest(origin, direction, 0.0f, std::numeric_limits<float>::infinity());
+    ASSERT_EQ(hit.has_value(), std::isfinite(nearest));
+    if (hit)
+    {
+      ++met;
+      EXPECT_NEAR(hit->at, nearest, 1e-6 * nearest);
+      EXPECT_EQ(hit->surface, surfaceMet);
+      ASSERT_NE(hit->solid, nullptr);
+      const glm::dvec3 point = glm::dvec3(origin) + nearest * glm::dvec3(direction);
+      EXPECT_NEAR(depthIn(*hit->solid, point), 0.0, 1e-6);
+      EXPECT_FALSE(tracer.nearest(origin, direction, 0.0f, 0.999f * hit->at));
+    }
+  }
+  EXPECT_GT(met, 100);
+  EXPECT_LT(met, 1900);
 }
