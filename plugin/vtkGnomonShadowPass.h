@@ -239,8 +239,8 @@ public:
   /**
    * The errors that "auto" allows while the picture moves. MaximumError is the share of wrong
    * pixels of hard shadows, among pixels that face the light. MaximumSoftError is the root mean
-   * square error of the visibility of area lights. 0 is exact. Rays check maps at 4,096 to 16,384
-   * pixels, so a MaximumError below 0.00025 cannot be proved and is exact, too. Numbers outside of
+   * square error of the visibility of area lights. 0 is exact. Rays check maps at 4,096 to 32,768
+   * pixels, so a MaximumError below 0.000125 cannot be proved and is exact, too. Numbers outside of
    * [0, 1] are an error and change nothing. Default 0.005 and 0.03.
    */
   virtual void SetMaximumError(double share);

@@ -26,7 +26,7 @@ constexpr int framesPerProbe = 16;
 constexpr int framesPerProbeOfMoved = 4;
 
 /// The most sets of pixels that are probed to decide whether a map keeps the error.
-constexpr std::size_t mostLooks = 4;
+constexpr std::size_t mostLooks = 8;
 
 /// The largest side to which an error limit enlarges a map.
 constexpr int mostTexels = 4096;
