@@ -41,8 +41,8 @@ def main():
         "the last frame; 0.50 % is allowed. At the first places `auto` is compared with single\n"
         "techniques. The best one, known afterwards, is the fastest that keeps the error there\n"
         "with maps that are baked already: `nsm`, `lispsm`, `tsm` or `pssm` with maps of several\n"
-        "sizes, `silhouette` or `raytraced`. Times are medians of ten frames, of `auto` and the two\n"
-        "fastest single techniques in turns."
+        "sizes, `silhouette` or `raytraced`. Times are medians of ten frames, of `auto` and the\n"
+        "two fastest single techniques in turns."
     )
     print()
     print(
