@@ -18,8 +18,8 @@
 #define GNOMON_VTK_HAS_BLOCK_HELPERS (VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 5, 0))
 #define GNOMON_VTK_HAS_BLOCK_BATCHES (VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0))
 
-// The library that loads OpenGL's functions: GLEW, or glad from 9.4. GNOMON_HAS_GL(VERSION_4_3) and
-// GNOMON_HAS_GL(ARB_buffer_storage) are true if the context has them.
+// The library that loads OpenGL's functions: GLEW, or glad from 9.4. GNOMON_HAS_GL(VERSION_4_3) is
+// true if the context has that version.
 #define GNOMON_VTK_HAS_GLAD (VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0))
 #if GNOMON_VTK_HAS_GLAD
 #define GNOMON_VTK_GL_HEADER <vtk_glad.h>

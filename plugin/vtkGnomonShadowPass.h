@@ -76,7 +76,7 @@ public:
    * "auto" shows exact shadows in every picture at rest: `silhouette`, of area lights `penumbra`.
    * While the picture moves (see Interactive) it takes what MaximumError, MaximumSoftError and
    * TimeBudget allow: plain maps in place of rays for hard shadows, fewer samples of area lights.
-   * Where the GPU traces, moving pictures have rays, too. GetReport() says what it took, and why.
+   * GetReport() says what it took, and why.
    */
   virtual void SetTechnique(const char* name);
   const char* GetTechnique() const;
@@ -147,32 +147,6 @@ public:
    */
   vtkSetClampMacro(Route, int, ROUTE_AUTO, ROUTE_DEFERRED);
   vtkGetMacro(Route, int);
-  ///@}
-
-  /**
-   * Who traces shadow rays for techniques that do. EMBREE: the CPU. GPU: compute shaders. AUTO: the
-   * GPU where OpenGL draws by hardware and has what it takes, else Embree.
-   */
-  enum TracerType
-  {
-    TRACER_AUTO = 0,
-    TRACER_EMBREE = 1,
-    TRACER_GPU = 2
-  };
-
-  ///@{
-  /**
-   * The tracer to take, for all lights alike: exact techniques show the same to the last bit with
-   * one and the same tracer; of different ones, rays that pass an edge to within a rounding may
-   * differ, less than one in a million. Only the tracer that is taken has an acceleration
-   * structure.
-   *
-   * Asking for GPU where OpenGL cannot, or has no room for the scene, is an error, and the scene is
-   * drawn without shadows. With AUTO Embree takes over there, and the report says why. Default
-   * TRACER_AUTO.
-   */
-  vtkSetClampMacro(Tracer, int, TRACER_AUTO, TRACER_GPU);
-  vtkGetMacro(Tracer, int);
   ///@}
 
   /**
@@ -367,7 +341,7 @@ public:
   ///@}
 
   /**
-   * What the last frame did: lights and reasons, route, tracer, counters, times, memory
+   * What the last frame did: lights and reasons, route, counters, times, memory
    * (vtkGnomonFrameReport.h).
    */
   const gnomon::FrameReport& GetReport() const;
@@ -433,7 +407,6 @@ protected:
   ~vtkGnomonShadowPass() override;
 
   int Route = ROUTE_AUTO;
-  int Tracer = TRACER_AUTO;
   int Rasterizer = RASTERIZER_AUTO;
   bool SmoothTerminators = true;
   int Interactive = INTERACTIVE_AUTO;

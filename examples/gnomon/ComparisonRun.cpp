@@ -127,7 +127,6 @@ std::vector<VariantSpec> listVariants(
       leftOut.push_back(text + " is left out: " + error.what() + ".");
       continue;
     }
-    spec.tracer = plan.tracer;
     spec.rasterizer = plan.rasterizer;
     spec.pointwise = info->isPointwise();
     for (int size : info->bakesMap() ? plan.mapSizesTexels : std::vector<int>{ 0 })
@@ -554,9 +553,8 @@ void describeScene(ComparisonResults& results, const Scene& scene, const FrameRe
 }
 
 /// Return the settings that the numbers depend on.
-/// @param truth report of the ray-traced frame
 std::vector<std::pair<std::string, std::string>> listSettings(
-  const ComparisonPlan& plan, const FrameReport& truth, vtkRenderWindow* window)
+  const ComparisonPlan& plan, vtkRenderWindow* window)
 {
   std::vector<std::pair<std::string, std::string>> settings = {
     { "Window",
@@ -568,7 +566,6 @@ std::vector<std::pair<std::string, std::string>> listSettings(
           std::to_string(measuredFrames(plan)) + " by stage; " +
           "camera and lights turn by 0.05 degrees per frame"
                       : "none" },
-    { "Tracer of shadow rays", truth.tracer + " (" + truth.tracerReason + ")" },
     { "Gnomon", GNOMON_VERSION },
     { "VTK", vtkVersion::GetVTKVersion() },
     { "OpenGL", openGlName(window) },
@@ -696,7 +693,7 @@ ComparisonResults runComparison(
   results.height = plan.height;
   results.truth = truthVariant->result.name;
   results.soft = isSoft(*truthVariant);
-  results.settings = listSettings(plan, truthVariant->pass()->GetReport(), truthVariant->window());
+  results.settings = listSettings(plan, truthVariant->window());
   for (const std::unique_ptr<Variant>& variant : variants)
   {
     results.variants.push_back(std::move(variant->result));

@@ -51,7 +51,6 @@ struct RenderOptions
   std::string size = "1024x1024";
   std::map<std::string, std::string> settings; ///< of all lights, by name; empty values: not given
   std::string route = "auto";
-  int tracer = vtkGnomonShadowPass::TRACER_AUTO;
   int rasterizer = vtkGnomonShadowPass::RASTERIZER_AUTO;
   bool shadeSamples = false;
   std::vector<std::string> lights;
@@ -292,7 +291,6 @@ std::map<std::string, std::string> makeHeader(
   std::map<std::string, std::string> header;
   header["scene"] = options.scene;
   header["route"] = report.route;
-  header["tracer"] = report.tracer.empty() ? "none" : report.tracer;
   header["wall_milliseconds"] = std::to_string(report.wallMilliseconds);
   for (const StageTime& stage : report.stages)
   {
@@ -380,7 +378,6 @@ void render(const RenderOptions& options)
       : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE
       : options.route == "deferred"           ? vtkGnomonShadowPass::ROUTE_DEFERRED
                                               : vtkGnomonShadowPass::ROUTE_AUTO);
-  shadows->SetTracer(options.tracer);
   shadows->SetRasterizer(options.rasterizer);
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
   const bool givesVisibility = !options.visibility.empty() || !options.classes.empty();
@@ -495,7 +492,6 @@ void addRenderCommand(CLI::App& app)
       "How visibility reaches the picture: inline, image, deferred, auto")
     ->check(CLI::IsMember({ "inline", "image", "deferred", "auto" }))
     ->capture_default_str();
-  addTracerOption(*command, options->tracer);
   addRasterizerOption(*command, options->rasterizer);
   command->add_flag("--shade-samples", options->shadeSamples,
     "Shade from each point of an area light (--light-samples points, --progressive of them per "

@@ -79,17 +79,6 @@ void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& va
 }
 
 //------------------------------------------------------------------------------
-void addTracerOption(CLI::App& command, int& tracer)
-{
-  static const std::map<std::string, int> tracers = { { "auto", vtkGnomonShadowPass::TRACER_AUTO },
-    { "embree", vtkGnomonShadowPass::TRACER_EMBREE }, { "gpu", vtkGnomonShadowPass::TRACER_GPU } };
-  addChoice(command, "--tracer", tracers, tracer,
-    "Tracer of shadow rays: embree (the CPU), gpu (compute shaders), auto (the GPU if OpenGL runs "
-    "in "
-    "hardware)");
-}
-
-//------------------------------------------------------------------------------
 void addRasterizerOption(CLI::App& command, int& rasterizer)
 {
   static const std::map<std::string, int> rasterizers = {

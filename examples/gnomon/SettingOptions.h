@@ -30,10 +30,6 @@ std::string headingOf(const SettingsTable& table);
 void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& values,
   const std::vector<std::string>& without = {});
 
-/// Add the option "--tracer" to a command.
-/// @param tracer receives a vtkGnomonShadowPass::TracerType; must outlive the command
-void addTracerOption(CLI::App& command, int& tracer);
-
 /// Add the option "--rasterizer" to a command.
 /// @param rasterizer receives a vtkGnomonShadowPass::RasterizerType; must outlive the command
 void addRasterizerOption(CLI::App& command, int& rasterizer);

@@ -47,7 +47,7 @@ Json describe(const StudyCase& of, const ComparisonPlan& plan)
   return { { "scene", of.scene }, { "view", of.view }, { "version", GNOMON_VERSION },
     { "techniques", plan.techniques }, { "settings", plan.settings },
     { "map_sizes", plan.mapSizesTexels }, { "width", plan.width }, { "height", plan.height },
-    { "frames", plan.frames }, { "truth_samples", plan.truthSamples }, { "tracer", plan.tracer },
+    { "frames", plan.frames }, { "truth_samples", plan.truthSamples },
     { "rasterizer", plan.rasterizer } };
 }
 

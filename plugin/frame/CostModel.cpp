@@ -1,5 +1,6 @@
 #include "plugin/frame/CostModel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
@@ -25,6 +26,16 @@ double costOfPlain(const FrameCounters& counters, const CostFactors& factors)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool isSoftwareRenderer(const std::string& renderer)
+{
+  // The software renderers of Mesa, Google and Microsoft.
+  const std::array<const char*, 7> names = { "llvmpipe", "softpipe", "SWR", "Software Rasterizer",
+    "SwiftShader", "GDI Generic", "Microsoft Basic Render" };
+  return std::any_of(names.begin(), names.end(),
+    [&](const char* name) { return renderer.find(name) != std::string::npos; });
+}
 
 //------------------------------------------------------------------------------
 CostFactors defaultFactors(bool software)

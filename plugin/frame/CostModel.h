@@ -27,6 +27,9 @@ struct CostFactors
   double refitTriangle; ///< Embree refits its structure to moved casters
 };
 
+/// True if OpenGL draws on the CPU, by the name of its renderer (GL_RENDERER).
+bool isSoftwareRenderer(const std::string& renderer);
+
 /// Return the factors of llvmpipe on two cores. For hardware OpenGL they are a guess, not measured:
 /// drawing costs a twentieth, tracing on the CPU costs the same. `gnomon calibrate` measures a
 /// machine.

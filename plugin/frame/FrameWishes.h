@@ -16,14 +16,6 @@ enum class RouteWish
   Deferred
 };
 
-/// Requested tracer of rays.
-enum class TracerWish
-{
-  Auto,
-  Embree,
-  Gpu
-};
-
 /// Requested rasterizer of conservative maps.
 enum class RasterizerWish
 {
@@ -36,7 +28,6 @@ enum class RasterizerWish
 struct FrameWishes
 {
   RouteWish route = RouteWish::Auto;
-  TracerWish tracer = TracerWish::Auto;
   RasterizerWish rasterizer = RasterizerWish::Auto;
   bool keepVisibility = false; ///< true if visibility is asked for as data
   bool measureStages = false;

@@ -628,8 +628,8 @@ void RenderManager::endFrame()
   report.newPrograms =
     programs.library.compiles() + programs.shaders.newPrograms() - this->newProgramsBefore_;
   report.bytesOccluders =
-    this->collector_.bytes() + this->buffers_.bytes() + this->visibility_.tracer().bytesOfTable();
-  report.bytesBvh = this->visibility_.tracer().bytes();
+    this->collector_.bytes() + this->buffers_.bytes() + this->visibility_.bytesOfTable();
+  report.bytesBvh = this->visibility_.bytesOfTracer();
   this->frame_.lights.giveBack(this->frame_.view->techniques);
   report.bytesMaps = this->frame_.lights.bytesOfMaps() + this->views_.bytesOfMaps();
   if (this->frame_.route != Route::Inline)

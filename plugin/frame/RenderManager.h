@@ -87,7 +87,7 @@ public:
 
   /// visibility (image route): fills the layers of the lights whose visibility is another one than
   /// the view has, and keeps a copy if asked to.
-  /// @throws std::runtime_error for a tracer that there is not, or has no room
+  /// @throws std::runtime_error if there is no tracer
   void computeVisibility() { this->visibility_.compute(this->names_); }
 
   /// shading and receivers (deferred route): between the two calls VTK draws its opaque props, lit

@@ -55,8 +55,6 @@ Json jsonOf(const FrameReport& report)
   json["route_reason"] = report.routeReason;
   json["choice"] = report.choice;
   json["probes"] = report.probes;
-  json["tracer"] = report.tracer;
-  json["tracer_reason"] = report.tracerReason;
   json["numbers_checked"] = report.numbersChecked;
   json["numbers_wrong"] = report.numbersWrong;
   json["numbers_by_geometry_shaders"] = report.numbersByGeometryShaders;

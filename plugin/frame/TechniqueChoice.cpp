@@ -3,8 +3,6 @@
 #include "plugin/scene/ShownView.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/tracing/GpuTracer.h"
-#include "shadowtech/tracing/ShadowTracer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -274,10 +272,6 @@ std::string TechniqueChoice::whyNoMaps() const
   {
     return "a surface shows shadows but casts none, so probes miss it";
   }
-  if (this->visibility_.tracerChoice().gpu)
-  {
-    return "the GPU tracer does not return what pixels show, so no map can be probed";
-  }
   return {};
 }
 
@@ -330,7 +324,7 @@ std::string TechniqueChoice::tryMap(
     {
       return {};
     }
-    std::optional<WrongProbes> wrong;
+    WrongProbes wrong;
     try
     {
       bake(casting);
@@ -340,30 +334,26 @@ std::string TechniqueChoice::tryMap(
     {
       return error.what();
     }
-    if (!wrong)
-    {
-      return "the tracer does not return what pixels show, so no map can be probed";
-    }
     // If no point of all looks faces the light, hardly one pixel in 4,000 does.
-    choice.isProbed = wrong->asked == 0 || wrong->mostShare() <= limit;
+    choice.isProbed = wrong.asked == 0 || wrong.mostShare() <= limit;
     choice.mayBeCoarser =
-      choice.step > 0 && WrongProbes{ wrong->asked, 4 * wrong->wrong }.mostShare() <= limit;
+      choice.step > 0 && WrongProbes{ wrong.asked, 4 * wrong.wrong }.mostShare() <= limit;
     choice.sinceProbed = 0;
     if (choice.isProbed)
     {
       return {};
     }
-    if (wrong->wrong == 0)
+    if (wrong.wrong == 0)
     {
-      return "only " + std::to_string(wrong->asked) +
+      return "only " + std::to_string(wrong.asked) +
         " of the probed pixels face the light, too few to show the error";
     }
     // Wrong pixels lie along edges, and their number is in proportion to the texels' width.
-    const double factor = std::max(wrong->share() / limit, 2.0);
+    const double factor = std::max(wrong.share() / limit, 2.0);
     const int step = choice.step + static_cast<int>(std::log2(factor));
     if (step > mostSteps)
     {
-      return "of " + std::to_string(wrong->asked) + " pixels " + std::to_string(wrong->wrong) +
+      return "of " + std::to_string(wrong.asked) + " pixels " + std::to_string(wrong.wrong) +
         " are wrong with a map of " + std::to_string(casting.light.mapSizeTexels) + " texels";
     }
     choice.step = step;
@@ -373,21 +363,17 @@ std::string TechniqueChoice::tryMap(
 //------------------------------------------------------------------------------
 /// Probe a light's map until it is clear on which side of a limit its error is. If the light shines
 /// on a small part of the picture, look there.
-/// @return nothing if the tracer does not see the pixels
-std::optional<WrongProbes> TechniqueChoice::probe(const CastingLight& casting, double limit)
+WrongProbes TechniqueChoice::probe(const CastingLight& casting, double limit)
 {
   WrongProbes all;
   bool isAimed = false;
   for (std::size_t looks = 0; looks < mostLooks; ++looks)
   {
     this->looked_ = this->looked_ && looks == 0;
-    if (!this->look())
-    {
-      return {};
-    }
+    this->look();
     const WrongProbes wrong =
       this->probes_.wrongOf(*casting.own.as<PointwiseTechnique>(), casting.light,
-        this->frame_.space, this->occluders_, this->visibility_.shadowTracer(), this->shaders_);
+        this->frame_.space, this->occluders_, this->visibility_.tracer(), this->shaders_);
     all.asked += wrong.asked;
     all.wrong += wrong.wrong;
     if (all.mostShare() <= limit || all.share() > limit)
@@ -423,12 +409,9 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
   const int all = casting.light.lightSamples;
   while (samplesOf(choice.step) < all && !(choice.isProbed && choice.sinceProbed < framesPerProbe))
   {
-    if (!this->look())
-    {
-      return;
-    }
+    this->look();
     const double error = this->probes_.rmsOf(
-      samplesOf(choice.step), casting.light, this->occluders_, this->visibility_.shadowTracer());
+      samplesOf(choice.step), casting.light, this->occluders_, this->visibility_.tracer());
     this->frame_.report.probes += static_cast<std::int64_t>(Probes::count) / 4;
     choice.sinceProbed = 0;
     choice.isProbed = error <= limit;
@@ -449,22 +432,15 @@ void TechniqueChoice::refine(CastingLight& casting)
 
 //------------------------------------------------------------------------------
 /// Find pixels to probe: the same ones for all probes of a frame, unless `looked_` is false.
-/// @return false if the tracer does not see them
-bool TechniqueChoice::look()
+void TechniqueChoice::look()
 {
   if (!this->looked_)
   {
     this->visibility_.updateTracer();
-    const CasterHits* const hits = this->visibility_.shadowTracer().casterHits();
-    if (!hits)
-    {
-      return false;
-    }
-    this->probes_.look(
-      this->frame_.camera, this->frame_.size, this->occluders_, *hits, this->looks_++);
+    this->probes_.look(this->frame_.camera, this->frame_.size, this->occluders_,
+      this->visibility_.tracer(), this->looks_++);
     this->looked_ = true;
   }
-  return true;
 }
 
 //------------------------------------------------------------------------------

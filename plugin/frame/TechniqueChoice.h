@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -69,10 +68,10 @@ private:
   std::string whyNoMaps() const;
   std::string whyRaysAreFast(double byMaps, double byRays) const;
   std::string tryMap(CastingLight& casting, const std::function<void(CastingLight&)>& bake);
-  std::optional<WrongProbes> probe(const CastingLight& casting, double limit);
+  WrongProbes probe(const CastingLight& casting, double limit);
   void takeSamples(CastingLight& casting);
   void refine(CastingLight& casting);
-  bool look();
+  void look();
 
   Frame& frame_;
   const Occluders& occluders_;

@@ -2,7 +2,6 @@
 
 #include "plugin/frame/KeptVisibility.h"
 #include "shadowtech/base/SeenTriangle.h"
-#include "shadowtech/tracing/GpuTracer.h"
 #include "shadowtech/tracing/RefinementSettings.h"
 
 #include <tbb/parallel_for.h>
@@ -10,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -21,13 +21,6 @@ namespace gnomon
 {
 namespace
 {
-
-/// What draws, by the name that OpenGL gives it.
-std::string rendererName()
-{
-  const GLubyte* name = glGetString(GL_RENDERER);
-  return name ? reinterpret_cast<const char*>(name) : "";
-}
 
 /// Where a light is, and what it is.
 auto placeOf(const ShadowLight& light)
@@ -93,7 +86,6 @@ VisibilityStage::VisibilityStage(
   , occluders_(occluders)
   , buffers_(buffers)
   , shaders_(shaders)
-  , tracer_(buffers, shaders)
 {
 }
 
@@ -107,10 +99,6 @@ ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
   key.add("its technique", std::pair(&casting.own.estimator(), casting.light.fittedToReceivers));
   key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light));
   key.add("its layer", std::pair(casting.layer, casting.bit));
-  if (info.evaluation == Evaluation::ScreenCpu)
-  {
-    key.add("the tracer", this->frame_.wishes.tracer);
-  }
   if (info.conservativeMap)
   {
     key.add("the rasterizer", this->frame_.wishes.rasterizer); // which the report names
@@ -199,33 +187,27 @@ void VisibilityStage::agreeOnStale()
 }
 
 //------------------------------------------------------------------------------
-TracerChoice VisibilityStage::tracerChoice() const
-{
-  return chooseTracer(
-    this->frame_.wishes.tracer, GpuTracer::whyUnsupported(), rendererName(), this->frame_.ranks);
-}
-
-//------------------------------------------------------------------------------
 void VisibilityStage::updateTracer()
 {
-  const TracerChoice choice = this->tracerChoice();
-  const ShadowTracer::Update update = this->tracer_.update(choice, this->occluders_);
-  this->frame_.report.bvhBuilds += update.builds;
-  this->frame_.report.bvhRefits += update.refits;
-  this->frame_.endStage("visibility: build");
-}
-
-//------------------------------------------------------------------------------
-/// States in the report which tracer the frame's visibility is from, and why.
-void VisibilityStage::tellTracer()
-{
-  this->frame_.report.tracer = this->tracer_.taken().gpu ? "gpu" : "embree";
-  this->frame_.report.tracerReason = this->tracer_.taken().reason;
-  if (!this->tracer_.gpuFailure().empty())
+  if (!this->tracer_)
   {
-    this->frame_.report.notes.push_back(
-      "Embree traces rays, as tracing on the GPU failed: " + this->tracer_.gpuFailure() + ".");
+    this->tracer_.emplace();
   }
+  Ranks* const ranks = this->frame_.ranks;
+  this->tracer_->share(ranks ? [ranks](std::vector<std::uint64_t>& bits) { ranks->uniteBits(bits); }
+                             : SharedTracer::UniteBits());
+  try
+  {
+    const EmbreeTracer::Update update = this->tracer_->update(this->occluders_);
+    this->frame_.report.bvhBuilds += update.builds;
+    this->frame_.report.bvhRefits += update.refits;
+  }
+  catch (const std::exception&)
+  {
+    this->tracer_.reset(); // it has a part of the casters
+    throw;
+  }
+  this->frame_.endStage("visibility: build");
 }
 
 //------------------------------------------------------------------------------
@@ -306,7 +288,7 @@ Receivers& VisibilityStage::ownReceivers()
   ReceiversValue& value = this->frame_.view->receivers;
   // Where no technique traces, the tracer is not updated, and may hold an older snapshot.
   const FreeSegments* const freeSegments =
-    this->tracesOnCpu() ? this->tracer_.freeSegments() : nullptr;
+    this->tracesOnCpu() && this->tracer_ ? &*this->tracer_ : nullptr;
   if (!value.onCpu || value.onCpu->freeSegments() != freeSegments)
   {
     if (value.numberOfImages != value.number)
@@ -358,7 +340,7 @@ void VisibilityStage::storeReceivers()
   if (++value.framesTraced > patience || images > 1)
   {
     const ReceiverPixels& pixels = receivers.all();
-    if (!value.boxes && this->tracer_.casterHits())
+    if (!value.boxes)
     {
       value.boxes.emplace(pixels, this->occluders_);
     }
@@ -371,8 +353,7 @@ void VisibilityStage::storeReceivers()
 void VisibilityStage::judge()
 {
   const std::optional<ReceiverBoxes>& boxes = this->frame_.view->receivers.boxes;
-  const CasterHits* const hits = this->tracer_.casterHits();
-  if (!boxes || !hits)
+  if (!boxes)
   {
     return;
   }
@@ -383,7 +364,7 @@ void VisibilityStage::judge()
       if (casting.isStale && isOnCpu(casting) && casting.own.info().exact &&
         !casting.light.texture && edgeSamplesOf(casting) == 1)
       {
-        this->verdicts_[i].emplace(casting.light, this->occluders_, *boxes, *hits);
+        this->verdicts_[i].emplace(casting.light, this->occluders_, *boxes, *this->tracer_);
       }
     });
   this->frame_.endStage("visibility: judge tiles");
@@ -409,10 +390,6 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
       this->storeReceivers();
       this->judge();
     }
-  }
-  if (this->tracesOnCpu())
-  {
-    this->tellTracer();
   }
   this->darkBits_.clear();
   auto value = view.visibility.begin();
@@ -481,8 +458,8 @@ TracedTiles* VisibilityStage::beginTiles(
   const TechniqueInfo& info = casting.own.info();
   const bool isDecidedByMap = info.conservativeMap && casting.own.usesMap();
   // Of a single surface nothing stays where it was.
-  if (!info.exact || isDecidedByMap || edgeSamplesOf(casting) > 1 || this->tracer_.taken().gpu ||
-    this->frame_.ranks || occluders.surfaces.size() < 2)
+  if (!info.exact || isDecidedByMap || edgeSamplesOf(casting) > 1 || this->frame_.ranks ||
+    occluders.surfaces.size() < 2)
   {
     value.dropTiles();
     return nullptr;
@@ -587,9 +564,8 @@ void VisibilityStage::trace(
     layers.readBit(casting.bit, visibility);
   }
   const ScreenInput input{ traced, casting.own.fitting(), this->surfacesOfReceivers(), onCpu,
-    this->tracer_.tracer(), casting.own.usesMap(),
-    classes || edgeSamples == 1 ? classes : &classesForEdges, tiles, verdicts,
-    this->frame_.report.mapBakes };
+    *this->tracer_, casting.own.usesMap(), classes || edgeSamples == 1 ? classes : &classesForEdges,
+    tiles, verdicts, this->frame_.report.mapBakes };
   namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });
   this->frame_.endStage("visibility: trace");
   if (edgeSamples > 1)
@@ -622,7 +598,7 @@ void VisibilityStage::smoothEdges(CpuScreenTechnique& technique, const ScreenInp
   }
   const ReceiversValue& value = this->frame_.view->receivers;
   const Drawn drawn(value.images, value.drawnSurfaces, this->occluders_, nullptr, nullptr);
-  const SharedPicture several{ drawn, this->tracer_, value.shared.surfaceOfPixel(),
+  const SharedPicture several{ drawn, *this->tracer_, value.shared.surfaceOfPixel(),
     value.shared.pixels(), [ranks](std::vector<float>& numbers) { ranks->reduceToLeast(numbers); },
     [&](const ReceiverPixels& own) -> const ReceiverPixels&
     {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "plugin/frame/Frame.h"
-#include "plugin/frame/FrameTracer.h"
 #include "plugin/frame/ValueKey.h"
 #include "plugin/scene/SurfaceNames.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
@@ -10,6 +9,7 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/tracing/EdgeSamples.h"
+#include "shadowtech/tracing/SharedTracer.h"
 #include "shadowtech/tracing/TileVerdicts.h"
 #include "shadowtech/tracing/TracedTiles.h"
 
@@ -37,7 +37,7 @@ public:
   /// Computes what is stale, and keeps a copy of all if asked to.
   /// @param names of the snapshot's surfaces, if visibility is kept, or if several processes draw
   /// smooth edges
-  /// @throws std::runtime_error for a tracer that there is not, or has no room
+  /// @throws std::runtime_error if there is no tracer
   void compute(const std::vector<SurfaceName>& names);
 
   ///@{
@@ -46,23 +46,27 @@ public:
   void dropImages();
   ///@}
 
-  /// Which tracer traces in this frame.
-  /// @throws std::runtime_error for a tracer that there is not
-  TracerChoice tracerChoice() const;
   /// Brings the tracer up to date with the snapshot; compute() does so where anything is traced.
+  /// The first call makes it.
+  /// @throws std::runtime_error if there is no tracer
   void updateTracer();
-  const FrameTracer& tracer() const { return this->tracer_; }
-  ShadowTracer& shadowTracer() { return this->tracer_.tracer(); } ///< of the last update
+  EmbreeTracer& tracer() { return *this->tracer_; } ///< of the last update
+
+  ///@{
+  /// The tracer's bytes; 0 if nothing was traced.
+  std::size_t bytesOfTracer() const { return this->tracer_ ? this->tracer_->bytes() : 0; }
+  std::size_t bytesOfTable() const { return this->tracer_ ? this->tracer_->bytesOfTable() : 0; }
+  ///@}
   std::size_t bytesOfRays() const
   {
-    return this->tracer_.bytesOfRays() + this->edges_.bytes() + this->sharedSamples_.bytes();
+    return (this->tracer_ ? this->tracer_->bytesOfRays() : 0) + this->edges_.bytes() +
+      this->sharedSamples_.bytes();
   }
 
 private:
   ValueKey keyOf(const CastingLight& casting) const;
   bool classifies() const;
   void agreeOnStale();
-  void tellTracer();
   bool tracesOnCpu() const;
   Receivers& receiversOnCpu();
   Receivers& ownReceivers();
@@ -85,7 +89,7 @@ private:
   const Occluders& occluders_;
   OccluderBuffers& buffers_;
   ShaderLibrary& shaders_;
-  FrameTracer tracer_;
+  std::optional<SharedTracer> tracer_; ///< all lights' and views'
   EdgeSamples edges_;
   SharedReceivers sharedSamples_; ///< of edges, if several processes draw the picture
   std::vector<float> onCpu_;      ///< a light's; kept, as new memory costs more than old

@@ -49,10 +49,6 @@ public:
   /// Return the number of casting surfaces that no view can see.
   int countUnseen(const std::vector<LightView>& views) const;
 
-  /// Return the buffer of all positions of the snapshot, three floats each; 0 before the first
-  /// update.
-  GLuint positions() const { return this->positions_.name(); }
-
   /// Return the bytes on the GPU and of the cached lists of surfaces.
   std::size_t bytes() const;
 

@@ -16,7 +16,7 @@ namespace
 [[gnu::target_clones("avx2", "default")]]
 #endif
 void meetSpan(const SeenTriangle& seen,
-  const PixelRays& rays, const Span& span, ReceiverPixels& receivers, std::uint8_t* inside)
+  const PixelRays& rays, const PixelSpan& span, ReceiverPixels& receivers, std::uint8_t* inside)
 {
   const double y = span.y;
   const auto component = [&](const glm::dvec3& first, const glm::dvec3& perColumn,
@@ -65,7 +65,7 @@ void meetSpan(const SeenTriangle& seen,
 
 //------------------------------------------------------------------------------
 void projectFlat(
-  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers)
+  const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span, ReceiverPixels& receivers)
 {
   std::array<std::uint8_t, ReceiverTile::mostColumns> inside;
   meetSpan(seen, rays, span, receivers, inside.data());
@@ -105,7 +105,7 @@ void projectFlat(
 }
 
 //------------------------------------------------------------------------------
-void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const Span& span,
+void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const PixelSpan& span,
   ReceiverPixels& receivers)
 {
   using Row = std::array<float, ReceiverTile::mostColumns>;
@@ -146,7 +146,7 @@ void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const 
 
 //------------------------------------------------------------------------------
 void projectSolid(
-  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers)
+  const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span, ReceiverPixels& receivers)
 {
   for (std::size_t j = 0; j < span.count; ++j)
   {
@@ -176,7 +176,7 @@ void projectSolid(
 
 //------------------------------------------------------------------------------
 void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const FreeSegments* freeSegments,
-  const Span& span, ReceiverPixels& receivers)
+  const PixelSpan& span, ReceiverPixels& receivers)
 {
   projectFlat(seen, rays, span, receivers);
   if (seen.smoothNormals)
@@ -186,7 +186,7 @@ void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const FreeSegm
 }
 
 //------------------------------------------------------------------------------
-void leaveUncovered(const Span& span, ReceiverPixels& receivers)
+void leaveUncovered(const PixelSpan& span, ReceiverPixels& receivers)
 {
   for (const auto plane : ReceiverPixels::planes)
   {

@@ -13,7 +13,7 @@ namespace gnomon
 {
 
 /// Places in a row of the picture, one pixel apart, that show the same triangle.
-struct Span
+struct PixelSpan
 {
   double x, y;       ///< of the first one, in the picture; whole numbers are pixels' centres
   std::size_t count; ///< at most ReceiverTile::mostColumns
@@ -43,25 +43,25 @@ inline TrianglePoint meetTriangle(
 }
 
 /// Compute the receivers of a span that shows a triangle, on the triangle.
-void projectFlat(
-  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers);
+void projectFlat(const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span,
+  ReceiverPixels& receivers);
 
 /// Compute the receivers of a span that shows a triangle.
 /// @param freeSegments not null if the triangle has smooth normals
 void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const FreeSegments* freeSegments,
-  const Span& span, ReceiverPixels& receivers);
+  const PixelSpan& span, ReceiverPixels& receivers);
 
 /// Compute the receivers of a span that shows a solid.
-void projectSolid(
-  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers);
+void projectSolid(const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span,
+  ReceiverPixels& receivers);
 
 /// Start the shadow rays of receivers on a triangle above the curved surface, and give these
 /// receivers that surface's normal, unless a caster lies in between.
 /// @param span only its indices into the arrays count
-void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const Span& span,
+void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const PixelSpan& span,
   ReceiverPixels& receivers);
 
 /// Mark a span's pixels as not covered.
-void leaveUncovered(const Span& span, ReceiverPixels& receivers);
+void leaveUncovered(const PixelSpan& span, ReceiverPixels& receivers);
 
 } // namespace gnomon

@@ -23,7 +23,7 @@ namespace
 {
 
 /// Return the part of a span that begins `skipped` places in.
-Span partOf(const Span& span, std::size_t skipped, std::size_t count)
+PixelSpan partOf(const PixelSpan& span, std::size_t skipped, std::size_t count)
 {
   return { span.x + static_cast<double>(skipped), span.y, count, span.first + skipped };
 }
@@ -42,7 +42,7 @@ public:
   {
   }
 
-  void make(const SeenTriangle& seen, const Span& span)
+  void make(const SeenTriangle& seen, const PixelSpan& span)
   {
     if (seen.solid)
     {
@@ -66,19 +66,19 @@ private:
   /// Spans with fewer pixels are projected: asking about their halves would not be cheaper.
   static constexpr std::size_t shortestAsked = 12;
 
-  void project(const SeenTriangle& seen, const Span& span)
+  void project(const SeenTriangle& seen, const PixelSpan& span)
   {
     projectSpan(seen, this->rays_, this->freeSegments_, span, this->receivers_);
   }
 
   /// Leave out decided receivers. Of their numbers only the surface is set.
-  void leaveOut(const Span& span, Certainty certainty)
+  void leaveOut(const PixelSpan& span, Certainty certainty)
   {
     std::fill_n(&this->receivers_.surface[span.first], span.count, ReceiverPixels::notCovered);
     std::fill_n(&(*this->known_)[span.first], span.count, certainty);
   }
 
-  void makeByHalves(const SeenTriangle& seen, const Span& span)
+  void makeByHalves(const SeenTriangle& seen, const PixelSpan& span)
   {
     if (span.count < shortestAsked)
     {
@@ -97,7 +97,7 @@ private:
   }
 
   /// Return what is known of a span whose pixels all lie inside the triangle, and so on a line.
-  Certainty askAbout(const SeenTriangle& seen, const Span& span) const
+  Certainty askAbout(const SeenTriangle& seen, const PixelSpan& span) const
   {
     ReceiverSegment segment;
     segment.surface = seen.surface;
@@ -161,7 +161,7 @@ void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache
       {
         ++column;
       } while (column < lastColumn && isSame(fragments[column], fragment));
-      const Span span{ static_cast<double>(firstColumn), static_cast<double>(y),
+      const PixelSpan span{ static_cast<double>(firstColumn), static_cast<double>(y),
         column - firstColumn, first + row * perRow + firstColumn - tile.firstColumn };
       const SeenTriangle& seen = cache.find(drawn, fragment);
       seen.finite ? spans.make(seen, span) : leaveUncovered(span, receivers);

@@ -29,7 +29,7 @@ class OccluderBuffers;
 class Receivers;
 class ReceiverTarget;
 class ShaderLibrary;
-class ShadowTracer;
+class EmbreeTracer;
 class TileVerdicts;
 class TracedTiles;
 class VisibilityLayers;
@@ -174,7 +174,7 @@ struct ScreenInput
   const ViewFitting& fitting;
   const Occluders& occluders;
   Receivers& receivers;
-  ShadowTracer& tracer; ///< its structure is up to date with the occluders
+  EmbreeTracer& tracer; ///< its structure is up to date with the occluders
   bool usesMap;         ///< false: ignore the light's baked map (TechniqueInfo::mapIsOptional)
   /// If not null, to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;

@@ -107,21 +107,6 @@ bool allocate(GlTexture& texture, const TextureShape& shape)
   return true;
 }
 
-/// Check that OpenGL allocated a buffer.
-/// @param given true if it did
-/// @throws TextureMemoryError if it did not; the buffer is then without memory
-void requireStorage(GlBuffer& buffer, bool given, std::size_t bytes, const char* what)
-{
-  if (!given)
-  {
-    clearErrors();
-    buffer.reset();
-    throw TextureMemoryError(std::string(what) + " need " +
-      std::to_string(static_cast<long>(static_cast<double>(bytes) / 1e6)) +
-      " MB of memory, which OpenGL cannot allocate");
-  }
-}
-
 std::string describe(const std::string& what, int width, int height, int layers, double bytes,
   const std::string& memory)
 {
@@ -152,6 +137,28 @@ std::string offerSmaller(int sizeTexels, const IsRoom& isRoom)
     side /= 2;
   }
   return "; " + std::to_string(side) + " x " + std::to_string(side) + " fits";
+}
+
+/// Check that shaders can read so many bytes from one buffer, and that the machine has them.
+/// @param what names the buffer in the error
+void requireRoomForStorage(std::size_t bytes, const char* what)
+{
+  const auto megabytes = [](double of)
+  { return std::to_string(static_cast<long>(of / 1e6)) + " MB"; };
+  const auto asked = static_cast<double>(bytes);
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  if (asked > static_cast<double>(most))
+  {
+    throw TextureMemoryError(std::string(what) + " need " + megabytes(asked) +
+      " in one buffer, but shaders of this OpenGL read at most " +
+      megabytes(static_cast<double>(most)));
+  }
+  if (asked > largestTextureShare * availableBytes())
+  {
+    throw TextureMemoryError(
+      std::string(what) + " need " + megabytes(asked) + " of memory, which is not available");
+  }
 }
 
 } // namespace
@@ -253,27 +260,6 @@ void allocateSamples(
 }
 
 //------------------------------------------------------------------------------
-void requireRoomForStorage(std::size_t bytes, const char* what)
-{
-  const auto megabytes = [](double of)
-  { return std::to_string(static_cast<long>(of / 1e6)) + " MB"; };
-  const auto asked = static_cast<double>(bytes);
-  GLint64 most = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  if (asked > static_cast<double>(most))
-  {
-    throw TextureMemoryError(std::string(what) + " need " + megabytes(asked) +
-      " in one buffer, but shaders of this OpenGL read at most " +
-      megabytes(static_cast<double>(most)));
-  }
-  if (asked > largestTextureShare * availableBytes())
-  {
-    throw TextureMemoryError(
-      std::string(what) + " need " + megabytes(asked) + " of memory, which is not available");
-  }
-}
-
-//------------------------------------------------------------------------------
 void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what)
 {
   buffer.reset(); // frees its memory first
@@ -281,23 +267,14 @@ void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, cons
   clearErrors();
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.create());
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
-  requireStorage(buffer, glGetError() == GL_NO_ERROR, bytes, what);
-}
-
-//------------------------------------------------------------------------------
-void* allocateMappedStorage(
-  GlBuffer& buffer, std::size_t bytes, GLbitfield access, const char* what)
-{
-  buffer.reset(); // frees its memory first
-  requireRoomForStorage(bytes, what);
-  clearErrors();
-  const GLbitfield flags = access | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-  const auto size = static_cast<GLsizeiptr>(bytes);
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.create());
-  glBufferStorage(GL_SHADER_STORAGE_BUFFER, size, nullptr, flags);
-  void* mapped = glMapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, size, flags);
-  requireStorage(buffer, mapped != nullptr, bytes, what);
-  return mapped;
+  if (glGetError() != GL_NO_ERROR)
+  {
+    clearErrors();
+    buffer.reset();
+    throw TextureMemoryError(std::string(what) + " need " +
+      std::to_string(static_cast<long>(static_cast<double>(bytes) / 1e6)) +
+      " MB of memory, which OpenGL cannot allocate");
+  }
 }
 
 } // namespace gnomon

@@ -59,11 +59,6 @@ int mostMapSamples();
 void allocateSamples(
   GlRenderbuffer& samples, const TexelFormat& format, int sizeTexels, int samplesPerTexel);
 
-/// Check that shaders can read so many bytes from one buffer, and that the machine has them.
-/// @param what names the buffer in the error
-/// @throws TextureMemoryError
-void requireRoomForStorage(std::size_t bytes, const char* what);
-
 /// Allocate and fill a buffer that shaders read; it is bound to GL_SHADER_STORAGE_BUFFER
 /// afterwards.
 /// @param bytes > 0
@@ -71,13 +66,5 @@ void requireRoomForStorage(std::size_t bytes, const char* what);
 /// @param what names the buffer in the error
 /// @throws TextureMemoryError; the buffer is then without memory
 void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what);
-
-/// Allocate a buffer that shaders read and that stays mapped on the CPU (OpenGL 4.4) until it is
-/// deleted.
-/// @param access GL_MAP_READ_BIT, GL_MAP_WRITE_BIT
-/// @return the mapped memory
-/// @throws TextureMemoryError; the buffer is then without memory
-void* allocateMappedStorage(
-  GlBuffer& buffer, std::size_t bytes, GLbitfield access, const char* what);
 
 } // namespace gnomon

@@ -93,9 +93,7 @@ struct FrameReport
 {
   /// "inline", "image", "deferred" or "none" (no light casts: plain VTK)
   std::string route;
-  std::string routeReason;  ///< why this route, as a clause
-  std::string tracer;       ///< "embree" or "gpu"; empty if no technique traces rays
-  std::string tracerReason; ///< why this tracer, as a clause
+  std::string routeReason; ///< why this route, as a clause
   ///@{
   /// Pixels whose driver-given triangle number was compared with the drawn depths, and the pixels
   /// where they disagree and geometry shaders do better. Shaders are checked in the first frame
@@ -159,7 +157,7 @@ struct FrameReport
   /// 120 bytes a triangle and 1,500 a surface. Glyphs kept as instances take 120 a triangle of one
   /// glyph, and 200 an instance. The ray tracer's own memory is separate.
   std::size_t bytesOccluders = 0;
-  std::size_t bytesBvh = 0;    ///< as Embree reports it; or on the GPU and its copy on the CPU
+  std::size_t bytesBvh = 0;    ///< as Embree reports it
   std::size_t bytesMaps = 0;   ///< baked maps and what techniques cache for baking
   std::size_t bytesImages = 0; ///< receivers, rays and visibility, on the CPU and the GPU
 };

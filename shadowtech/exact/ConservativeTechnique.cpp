@@ -3,7 +3,7 @@
 #include "shadowtech/base/BakeSettings.h"
 #include "shadowtech/exact/CellsOnGpu.h"
 #include "shadowtech/tracing/EdgeSettings.h"
-#include "shadowtech/tracing/ShadowTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 namespace gnomon
 {

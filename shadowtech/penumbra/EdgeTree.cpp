@@ -1,7 +1,6 @@
 #include "shadowtech/penumbra/EdgeTree.h"
 
 #include "shadowtech/base/Bytes.h"
-#include "shadowtech/tracing/BvhBuilder.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -88,8 +87,7 @@ void EdgeTree::update(const Occluders& occluders)
   this->bounds_.clear();
   this->opaqueBounds_.clear();
   this->edges_.clear();
-  this->nodes_.clear();
-  this->records_.clear();
+  this->tree_ = {};
   std::vector<BvhRecord> records;
   for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
   {
@@ -100,16 +98,13 @@ void EdgeTree::update(const Occluders& occluders)
   }
   if (!records.empty())
   {
-    this->root_ = BvhBuilder(this->nodes_, this->records_)
-                    .add(records,
-                      [this](const BvhRecord& of)
-                      { return (of.w ? this->opaqueBounds_ : this->bounds_)[of.x]; })
-                    .root;
+    this->tree_ = buildBvh(records,
+      [this](const BvhRecord& of) { return (of.w ? this->opaqueBounds_ : this->bounds_)[of.x]; });
   }
-  this->cones_.assign(this->nodes_.size(), {});
+  this->cones_.assign(this->tree_.nodes.size(), {});
   if (!this->empty())
   {
-    this->fitNodes(this->root_, this->conesOfTriangles(), levelsInParallel);
+    this->fitNodes(this->tree_.root, this->conesOfTriangles(), levelsInParallel);
   }
   this->topologyVersion_ = occluders.topologyVersion;
   this->positionsVersion_ = occluders.positionsVersion;
@@ -316,7 +311,7 @@ void EdgeTree::fitNodes(std::uint32_t link, const std::vector<Cone>& ofTriangles
   }
   const auto fit = [&](std::uint32_t node)
   {
-    this->fitNodes(this->nodes_[node].link, ofTriangles, parallel - 1);
+    this->fitNodes(this->tree_.nodes[node].link, ofTriangles, parallel - 1);
     this->fitNode(node, ofTriangles);
   };
   if (parallel > 0)
@@ -334,7 +329,7 @@ void EdgeTree::fitNodes(std::uint32_t link, const std::vector<Cone>& ofTriangles
 /// Fit the box and the cone of a node to its children or records.
 void EdgeTree::fitNode(std::uint32_t number, const std::vector<Cone>& ofTriangles)
 {
-  BvhNode& node = this->nodes_[number];
+  BvhNode& node = this->tree_.nodes[number];
   Bounds bounds;
   const bool leaf = BvhLink::isLeaf(node.link);
   const std::uint32_t count = leaf ? BvhLink::count(node.link) : 2;
@@ -345,12 +340,12 @@ void EdgeTree::fitNode(std::uint32_t number, const std::vector<Cone>& ofTriangle
     {
       const std::uint32_t place = BvhLink::first(node.link) + k;
       bounds.add(this->bounds(this->record(place)));
-      const BvhRecord& record = this->records_[place];
+      const BvhRecord& record = this->tree_.records[place];
       cone = record.w != 0 ? Cone{} : ofTriangles[record.x];
     }
     else
     {
-      const BvhNode& child = this->nodes_[node.link + k];
+      const BvhNode& child = this->tree_.nodes[node.link + k];
       bounds.add({ glm::dvec3(child.lower), glm::dvec3(child.upper) });
       cone = this->cones_[node.link + k];
     }
@@ -369,7 +364,7 @@ void EdgeTree::find(const Bounds& bounds, std::vector<std::uint32_t>& places) co
   places.clear();
   if (!this->empty())
   {
-    this->find(bounds, this->root_, places);
+    this->find(bounds, this->tree_.root, places);
   }
 }
 
@@ -388,9 +383,9 @@ void EdgeTree::find(
   {
     for (std::uint32_t child = link; child < link + 2; ++child)
     {
-      if (meets(this->nodes_[child]))
+      if (meets(this->tree_.nodes[child]))
       {
-        this->find(bounds, this->nodes_[child].link, places);
+        this->find(bounds, this->tree_.nodes[child].link, places);
       }
     }
     return;
@@ -409,8 +404,8 @@ void EdgeTree::find(
 std::size_t EdgeTree::bytes() const
 {
   return bytesOf(this->triangles_) + bytesOf(this->corners_) + bytesOf(this->bounds_) +
-    bytesOf(this->opaqueBounds_) + bytesOf(this->edges_) + bytesOf(this->nodes_) +
-    bytesOf(this->records_) + bytesOf(this->cones_) + this->found_.bytes();
+    bytesOf(this->opaqueBounds_) + bytesOf(this->edges_) + bytesOf(this->tree_.nodes) +
+    bytesOf(this->tree_.records) + bytesOf(this->cones_) + this->found_.bytes();
 }
 
 } // namespace gnomon

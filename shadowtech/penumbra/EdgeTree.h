@@ -4,7 +4,7 @@
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/mesh/CasterEdges.h"
 #include "shadowtech/mesh/KeptOfCasters.h"
-#include "shadowtech/tracing/CasterBvh.h"
+#include "shadowtech/penumbra/Bvh.h"
 
 #include <glm/glm.hpp>
 
@@ -92,7 +92,7 @@ public:
   };
   Record record(std::uint32_t place) const
   {
-    const BvhRecord& of = this->records_[place];
+    const BvhRecord& of = this->tree_.records[place];
     return { of.x, of.y, of.z, of.w != 0 };
   }
 
@@ -123,13 +123,13 @@ public:
           this->triangles_[record.number].noise));
   }
 
-  bool empty() const { return this->records_.empty(); }
+  bool empty() const { return this->tree_.records.empty(); }
   /// Return the number of records.
-  std::size_t size() const { return this->records_.size(); }
-  std::uint32_t root() const { return this->root_; }
+  std::size_t size() const { return this->tree_.records.size(); }
+  std::uint32_t root() const { return this->tree_.root; }
   /// Return a node. Its box also holds all starts that are too close to its content for a certain
   /// side.
-  const BvhNode& node(std::uint32_t number) const { return this->nodes_[number]; }
+  const BvhNode& node(std::uint32_t number) const { return this->tree_.nodes[number]; }
   const Cone& cone(std::uint32_t node) const { return this->cones_[node]; }
   const TreeEdge& edge(std::uint32_t number) const { return this->edges_[number]; }
   const EdgeTriangle& triangle(std::uint32_t number) const { return this->triangles_[number]; }
@@ -171,10 +171,8 @@ private:
   std::vector<Bounds> bounds_; ///< of the triangles, grown by their noise
   std::vector<Bounds> opaqueBounds_;
   std::vector<TreeEdge> edges_;
-  std::vector<BvhNode> nodes_;
-  std::vector<BvhRecord> records_;
+  Bvh tree_;
   std::vector<Cone> cones_; ///< one for each node
-  std::uint32_t root_ = 0;
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;
 };

@@ -1,8 +1,8 @@
 #include "shadowtech/penumbra/Penumbra.h"
 
 #include "shadowtech/penumbra/PenumbraChooser.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 #include "shadowtech/tracing/RefinementSettings.h"
-#include "shadowtech/tracing/ShadowTracer.h"
 #include "shadowtech/tracing/TraceAll.h"
 
 namespace gnomon

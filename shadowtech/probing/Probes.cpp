@@ -5,7 +5,7 @@
 #include "shadowtech/base/PixelRays.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/Solid.h"
-#include "shadowtech/tracing/ShadowTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <tbb/parallel_for.h>
 
@@ -110,7 +110,7 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
 
 //------------------------------------------------------------------------------
 WrongProbes Probes::wrongOf(const PointwiseTechnique& technique, const ShadowLight& light,
-  const ReceiverSpace& space, const Occluders& occluders, ShadowTracer& tracer,
+  const ReceiverSpace& space, const Occluders& occluders, EmbreeTracer& tracer,
   ShaderLibrary& shaders)
 {
   std::vector<glm::vec4> fragments(count, glm::vec4(0.0f));
@@ -173,7 +173,7 @@ void Probes::aimAtFacing()
 
 //------------------------------------------------------------------------------
 double Probes::rmsOf(
-  int few, const ShadowLight& light, const Occluders& occluders, ShadowTracer& tracer)
+  int few, const ShadowLight& light, const Occluders& occluders, EmbreeTracer& tracer)
 {
   // Each point has all of the light's rays, so every fourth point is enough.
   ReceiverPixels some = this->receivers_;

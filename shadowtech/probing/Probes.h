@@ -20,7 +20,7 @@ namespace gnomon
 
 struct Occluders;
 class ShaderLibrary;
-class ShadowTracer;
+class EmbreeTracer;
 
 /// A count of wrong answers of a cheap visibility.
 struct WrongProbes
@@ -56,7 +56,7 @@ public:
   /// @param technique its map is baked
   /// @param tracer its structure is up to date with the occluders
   WrongProbes wrongOf(const PointwiseTechnique& technique, const ShadowLight& light,
-    const ReceiverSpace& space, const Occluders& occluders, ShadowTracer& tracer,
+    const ReceiverSpace& space, const Occluders& occluders, EmbreeTracer& tracer,
     ShaderLibrary& shaders);
 
   /// Aim further looks at all 64 x 64 parts of the picture, one point in each.
@@ -69,7 +69,7 @@ public:
 
   /// Return the root mean square error of an area light's visibility with fewer samples.
   /// @param few the number of samples; fewer than the light has
-  double rmsOf(int few, const ShadowLight& light, const Occluders& occluders, ShadowTracer& tracer);
+  double rmsOf(int few, const ShadowLight& light, const Occluders& occluders, EmbreeTracer& tracer);
 
   std::size_t bytes() const;
 

@@ -1,8 +1,8 @@
 #include "shadowtech/raytraced/Raytraced.h"
 
 #include "shadowtech/tracing/EdgeSettings.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 #include "shadowtech/tracing/RefinementSettings.h"
-#include "shadowtech/tracing/ShadowTracer.h"
 #include "shadowtech/tracing/TraceAll.h"
 
 namespace gnomon

@@ -7,7 +7,7 @@
 #include "shadowtech/mesh/TriangleFans.h"
 #include "shadowtech/selective/RimMaps.h"
 #include "shadowtech/selective/TriangleMaps.h"
-#include "shadowtech/tracing/ShadowTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <cstddef>
 #include <cstdint>

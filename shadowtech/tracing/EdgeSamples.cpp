@@ -275,7 +275,7 @@ private:
     }
     else
     {
-      const Span span{ static_cast<double>(at.x), static_cast<double>(at.y), 1, 0 };
+      const PixelSpan span{ static_cast<double>(at.x), static_cast<double>(at.y), 1, 0 };
       const SeenTriangle& seen =
         this->cache_.find(this->drawn_, this->drawn_.images.fragments[pixel]);
       const PixelRays& rays = this->drawn_.images.rays;

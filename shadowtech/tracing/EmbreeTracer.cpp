@@ -673,7 +673,7 @@ EmbreeTracer::EmbreeTracer()
 EmbreeTracer::~EmbreeTracer() = default;
 
 //------------------------------------------------------------------------------
-ShadowTracer::Update EmbreeTracer::update(const Occluders& occluders)
+EmbreeTracer::Update EmbreeTracer::update(const Occluders& occluders)
 {
   Impl& impl = *this->impl_;
   if (impl.topologyVersion == occluders.topologyVersion &&

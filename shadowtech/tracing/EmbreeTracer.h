@@ -1,18 +1,23 @@
 #pragma once
 
-#include "shadowtech/tracing/ShadowTracer.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/tracing/CasterHits.h"
+#include "shadowtech/tracing/TracedPicture.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace gnomon
 {
 
-/// Traces shadow rays on the CPU, by Embree in robust mode, with one acceleration structure per
-/// surface.
+/// Traces shadow rays against the casting surfaces: the truth, and the one entry point of all
+/// tracing. Embree traces in robust mode, with one acceleration structure per surface. All
+/// techniques of a frame share one tracer, so their answers agree to the last bit.
 class EmbreeTracer
-  : public ShadowTracer
-  , public FreeSegments
+  : public FreeSegments
   , public CasterHits
 {
 public:
@@ -22,9 +27,64 @@ public:
   EmbreeTracer(const EmbreeTracer&) = delete;
   EmbreeTracer& operator=(const EmbreeTracer&) = delete;
 
-  Update update(const Occluders& occluders) override;
+  /// The effect of an update.
+  struct Update
+  {
+    int builds = 0; ///< structures that were built
+    int refits = 0; ///< structures that were refitted to moved vertices or instances
+  };
 
-  const FreeSegments* freeSegments() const override { return this; }
+  /// Update the acceleration structure for the snapshot. Does nothing if neither topologyVersion
+  /// nor positionsVersion changed. The snapshot's vertex and index arrays and texture coordinates
+  /// are shared, not copied: they must stay in place until the next update.
+  /// @throws std::runtime_error if there is no structure
+  Update update(const Occluders& occluders);
+
+  /// Trace the visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1
+  /// lit; 0 in shadow, facing away from the light (facesLight()), or outside its cone or box.
+  /// Pixels that are not covered, or whose surface does not receive, get 1.
+  ///
+  /// @param occluders the snapshot of the last update
+  /// @param visibility resized to one value per pixel of the picture
+  /// @param decider decides receivers without rays; null: all are traced
+  /// @param classes if not null, resized likewise and set to each pixel's TracedClass
+  /// @param tiles which tiles reuse visibility and classes, and the record of the others; null: all
+  /// are traced. Not with a decider, which leaves receivers out
+  /// @param verdicts what is known of tiles without rays; null: nothing
+  /// @return the number of rays traced
+  std::size_t trace(const ShadowLight& light, const Occluders& occluders,
+    const Receivers& receivers, std::vector<float>& visibility,
+    const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr,
+    TracedTiles* tiles = nullptr, const TileVerdicts* verdicts = nullptr)
+  {
+    return this->tracePicture(
+      { light, occluders, receivers, decider, visibility, classes, tiles, verdicts, nullptr });
+  }
+
+  /// Trace the share of an area light's samples that each receiver sees; each pixel has its own
+  /// samples (sideOfSample()). The light's centre decides what the light reaches.
+  ///
+  /// A light with a texture has three channels, one image after the other: the share of the
+  /// samples' colours that the receiver sees, times the texture's mean. Lit pixels without rays get
+  /// the texture's mean.
+  /// @param light with an area
+  /// @param chooser chooses the rays that decide the others; null: all are traced. Must be null for
+  /// textures
+  /// @param verdicts must be null for textures
+  std::size_t traceArea(const ShadowLight& light, const Occluders& occluders,
+    const Receivers& receivers, std::vector<float>& visibility,
+    const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr,
+    const SampleChooser* chooser = nullptr, TracedTiles* tiles = nullptr,
+    const TileVerdicts* verdicts = nullptr)
+  {
+    const LightSamples samples(light);
+    const TracedPicture picture(light, occluders, receivers, decider, visibility, classes, tiles,
+      verdicts, &samples, chooser);
+    const std::size_t rays = this->tracePicture(picture);
+    picture.finish();
+    return rays;
+  }
+
   void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
     std::uint8_t* free) const override;
 
@@ -36,20 +96,20 @@ public:
   void areBlocked(std::size_t count, const PointArrays& origins, const PointArrays& directions,
     float rayFar, std::uint8_t* blocked) const;
 
-  const CasterHits* casterHits() const override { return this; }
   std::optional<Hit> nearest(
     const glm::vec3& origin, const glm::vec3& direction, float after, float until) const override;
 
   /// Return the bytes that Embree reports.
-  std::size_t bytes() const override;
-  std::size_t bytesOfTable() const override;
+  std::size_t bytes() const;
+  /// Return the bytes of the table that finds each surface's structure.
+  std::size_t bytesOfTable() const;
 
 protected:
   bool hasCasters() const;
+  /// @return the number of rays traced
+  virtual std::size_t tracePicture(const TracedPicture& picture);
 
 private:
-  std::size_t tracePicture(const TracedPicture& picture) override;
-
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 namespace gnomon
 {
@@ -20,12 +19,6 @@ constexpr std::size_t wordsOfTile = TracedTile::pixels / bitsOfWord;
 constexpr int samplesAtOnce = 32;
 
 } // namespace
-
-//------------------------------------------------------------------------------
-SharedTracer::SharedTracer(UniteBits unite)
-  : unite_(std::move(unite))
-{
-}
 
 //------------------------------------------------------------------------------
 std::size_t SharedTracer::bytesOfRays() const
@@ -83,6 +76,11 @@ std::size_t SharedTracer::traceOwn(
 //------------------------------------------------------------------------------
 std::size_t SharedTracer::tracePicture(const TracedPicture& picture)
 {
+  if (!this->unite_)
+  {
+    this->blocked_ = {};
+    return EmbreeTracer::tracePicture(picture);
+  }
   if (picture.channels() > 1)
   {
     throw std::runtime_error("processes that share a picture have no lights with textures");
@@ -102,7 +100,6 @@ std::size_t SharedTracer::tracePicture(const TracedPicture& picture)
       {
         const std::size_t firstRow = tile / tilesAcross * TracedTile::rows;
         const std::size_t firstColumn = tile % tilesAcross * TracedTile::columns;
-        const float one = 1.0f;
         for (std::size_t word = 0; word < words; ++word)
         {
           const std::size_t firstPixel = word % wordsOfTile * bitsOfWord;
@@ -111,8 +108,7 @@ std::size_t SharedTracer::tracePicture(const TracedPicture& picture)
           {
             const std::size_t pixel = firstPixel + static_cast<std::size_t>(__builtin_ctzll(bits));
             const std::size_t row = firstRow + pixel / TracedTile::columns;
-            picture.darken(
-              row * picture.columns() + firstColumn + pixel % TracedTile::columns, &one);
+            picture.darken(row * picture.columns() + firstColumn + pixel % TracedTile::columns);
           }
         }
       });

@@ -5,23 +5,27 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace gnomon
 {
 
-/// Traces the casters of several processes, each of which holds its own part of them: a ray is
-/// blocked if any process's casters block it. So processes exchange a bit for each ray, and no
-/// geometry. All processes must trace the same pictures from the same receivers in the same order.
+/// Traces the casters of this process, or of several processes, each of which holds its own part of
+/// them. Then a ray is blocked if any process's casters block it: processes exchange a bit for each
+/// ray, and no geometry. All processes must trace the same pictures from the same receivers in the
+/// same order.
 class SharedTracer : public EmbreeTracer
 {
 public:
   /// Replaces bits by those that are set in any process; collective.
   using UniteBits = std::function<void(std::vector<std::uint64_t>& bits)>;
 
-  explicit SharedTracer(UniteBits unite);
+  /// Set the exchange between the processes; null: this process traces alone.
+  void share(UniteBits unite) { this->unite_ = std::move(unite); }
 
-  std::size_t bytesOfRays() const override;
+  /// Return the bytes cached for the rays of a picture.
+  std::size_t bytesOfRays() const;
 
 private:
   std::size_t tracePicture(const TracedPicture& picture) override;

@@ -1,6 +1,6 @@
 #include "shadowtech/tracing/TraceAll.h"
 
-#include "shadowtech/tracing/ShadowTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 namespace gnomon
 {

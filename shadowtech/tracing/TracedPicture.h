@@ -69,9 +69,9 @@ struct alignas(64) TracedTile
   }
 };
 
-/// A picture's shadow rays for one light: the common part of all tracers, which only decide which
-/// rays are blocked. Each pixel has one ray to the light's centre, or one to each of an area
-/// light's samples. Until finish(), visibility counts the rays that arrive.
+/// A picture's shadow rays for one light: the common part of EmbreeTracer and SharedTracer, which
+/// only decide which rays are blocked. Each pixel has one ray to the light's centre, or one to each
+/// of an area light's samples. Until finish(), visibility counts the rays that arrive.
 class TracedPicture
 {
 public:
@@ -118,15 +118,9 @@ public:
   std::size_t visitTiles(
     const SampleRange& samples, const std::function<std::size_t(TracedTile&)>& trace) const;
 
-  /// Subtract a blocked ray from a pixel of a visited tile.
-  /// @param samples that the ray stands for, one number per channel
-  void darken(std::size_t pixel, const float* samples) const
-  {
-    for (std::size_t channel = 0; channel < this->channels(); ++channel)
-    {
-      this->visibility_[channel * this->pixels() + pixel] -= samples[channel];
-    }
-  }
+  /// Subtract a blocked ray, which stands for one sample, from a pixel of a visited tile. For
+  /// visibility of one channel.
+  void darken(std::size_t pixel) const { this->visibility_[pixel] -= 1.0f; }
 
   /// Turn counts into shares, after all rays are traced.
   void finish() const;

@@ -1,5 +1,5 @@
-// Measure the cost of the truth. Compare the trace stage with a bare Embree loop over the same rays
-// and with the GPU. Also time the receivers' projection and the acceleration structures. Scene:
+// Measure the cost of the truth. Compare the trace stage with a bare Embree loop over the same
+// rays. Also time the receivers' projection and the acceleration structures. Scene:
 // bunny on a plane, directional light, 1024 x 1024.
 
 #include "SyntheticScene.h"
@@ -9,25 +9,18 @@
 #include "shadowtech/exact/ConservativeMaps.h"
 #include "shadowtech/tracing/Embree.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
-#include "shadowtech/tracing/GpuShadowTracer.h"
-
-#include "vtkGnomonEGLRenderWindow.h"
 
 #include <benchmark/benchmark.h>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <vtkNew.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <functional>
 #include <limits>
 #include <memory>
-#include <numeric>
-#include <type_traits>
 
 namespace gnomon::test
 {
@@ -271,94 +264,6 @@ void refitMovedSurface(benchmark::State& state)
 }
 // The bunny (0), the plane (1).
 BENCHMARK(refitMovedSurface)->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond);
-
-/// A context without a screen, and the resources for tracing on the GPU.
-struct Gpu
-{
-  Gpu()
-  {
-    this->window->Initialize();
-    this->window->MakeCurrent();
-    this->renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  }
-
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  std::string renderer;
-  ShaderLibrary shaders;
-  OccluderBuffers buffers;
-  GpuShadowTracer tracer{ this->buffers, this->shaders };
-};
-
-/// Return the GPU's name, or that it is none.
-std::string describe(const Gpu& gpu)
-{
-  return gpu.renderer + (isSoftwareRenderer(gpu.renderer) ? " (software)" : "");
-}
-
-/// Compare the GPU's tracer with Embree, from receivers to visibility. The GPU's time includes
-/// moving rays and answers. Both take turns.
-void traceOnGpuAgainstEmbree(benchmark::State& state)
-{
-  const Subject& scene = subject();
-  EmbreeTracer embree;
-  embree.update(scene.occluders);
-  Gpu gpu;
-  gpu.tracer.update(scene.occluders);
-  std::vector<float> visibility;
-  std::vector<float> truth;
-  const auto trace = [&](ShadowTracer& tracer, std::vector<float>& result)
-  { return tracer.trace(scene.light, scene.occluders, scene.receivers, result); };
-  const std::size_t rays = trace(gpu.tracer, visibility); // compiles
-  std::vector<double> onGpu;
-  std::vector<double> byEmbree;
-  for (auto _ : state)
-  {
-    byEmbree.push_back(milliseconds([&] { trace(embree, truth); }));
-    onGpu.push_back(milliseconds([&] { trace(gpu.tracer, visibility); }));
-    state.SetIterationTime(onGpu.back() * 1e-3);
-  }
-  state.counters["gpu_ms"] = median(onGpu);
-  state.counters["embree_ms"] = median(byEmbree);
-  state.counters["gpu/embree"] = median(onGpu) / median(byEmbree);
-  state.counters["rays"] = static_cast<double>(rays);
-  state.counters["different"] = static_cast<double>(std::inner_product(truth.begin(), truth.end(),
-    visibility.begin(), 0, std::plus<>(), [](float a, float b) { return a != b ? 1 : 0; }));
-  state.SetLabel(describe(gpu));
-}
-BENCHMARK(traceOnGpuAgainstEmbree)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(21);
-
-void buildStructureOfGpu(benchmark::State& state)
-{
-  Gpu gpu;
-  gpu.buffers.update(subject().occluders);
-  for (auto _ : state)
-  {
-    GpuShadowTracer tracer(gpu.buffers, gpu.shaders);
-    tracer.update(subject().occluders);
-    glFinish();
-  }
-  state.SetLabel(describe(gpu));
-}
-BENCHMARK(buildStructureOfGpu)->UseRealTime()->Unit(benchmark::kMillisecond);
-
-void refitMovedSurfaceOnGpu(benchmark::State& state)
-{
-  Occluders occluders = subject().occluders;
-  Gpu gpu;
-  gpu.tracer.update(occluders);
-  for (auto _ : state)
-  {
-    state.PauseTiming();
-    moveSurface(occluders, 0, { 1e-5, 0.0, 0.0 });
-    gpu.buffers.update(occluders);
-    glFinish();
-    state.ResumeTiming();
-    gpu.tracer.update(occluders);
-    glFinish();
-  }
-  state.SetLabel(describe(gpu));
-}
-BENCHMARK(refitMovedSurfaceOnGpu)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace gnomon::test

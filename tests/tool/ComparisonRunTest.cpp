@@ -228,16 +228,6 @@ TEST(ComparisonRun, ThePlanSaysTheKernelAndNotTheScene)
   EXPECT_LT(1.5 * errorOf(1), errorOf(9));
 }
 
-TEST(ComparisonRun, ThePlanSaysTheTracer)
-{
-  ComparisonPlan plan = smallPlan({ "silhouette" }, 64);
-  plan.tracer = vtkGnomonShadowPass::TRACER_GPU;
-  const ComparisonResults results = runComparison(loadScene("cube"), plan, {});
-  EXPECT_THAT(
-    results.settings, testing::Contains(testing::Pair("Tracer of shadow rays", "gpu (asked for)")));
-  EXPECT_EQ(variant(results, "silhouette 64").error.meanAbsolute, 0.0);
-}
-
 /// Though lights have moved before, so that maps are stale.
 TEST(ComparisonRun, PixelsAreCountedAsTheMapDecidesThem)
 {
@@ -601,7 +591,6 @@ TEST(CompareCommand, RefusesBadInputBeforeDrawing)
   EXPECT_THROW(compare({ "cube", "-o", report, "--map-sizes", "7" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--frames", "-1" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--route", "scenic" }), CLI::ParseError);
-  EXPECT_THROW(compare({ "cube", "-o", report, "--tracer", "optix" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--rasterizer", "pencil" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--all", "--techniques", "nsm" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube" }), CLI::ParseError);

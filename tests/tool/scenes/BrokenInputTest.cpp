@@ -332,7 +332,6 @@ std::vector<BrokenInput> brokenInputs()
     option(
       "technique", "--technique", { "render", "cube", "-o", "out.png", "--technique", "magic" }),
     option("route", "--route", { "render", "cube", "-o", "out.png", "--route", "sideways" }),
-    option("tracer", "--tracer", { "render", "cube", "-o", "out.png", "--tracer", "optix" }),
     option("rasterizer", "--rasterizer",
       { "render", "cube", "-o", "out.png", "--rasterizer", "pencil" }),
     option("route_of_the_technique", "--route",
@@ -443,25 +442,6 @@ TEST(Program, StatisticsAreOfAllFramesOfAPicture)
     stages += stage.at("milliseconds").get<double>();
   }
   EXPECT_LE(stages, several.at("wall_milliseconds").get<double>());
-}
-
-//------------------------------------------------------------------------------
-TEST(Program, TellsWhoTraced)
-{
-  TestFolder folder;
-  const auto tracerOf = [&](const std::string& technique, const std::vector<std::string>& options)
-  {
-    std::vector<std::string> arguments = { "cube", "--size", "64x48", "--technique", technique };
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const nlohmann::json stats = statsOf(folder, arguments);
-    EXPECT_EQ(stats.at("tracer_reason").get<std::string>().empty(),
-      stats.at("tracer").get<std::string>().empty());
-    return stats.at("tracer").get<std::string>();
-  };
-  EXPECT_EQ(tracerOf("raytraced", { "--tracer", "embree" }), "embree");
-  EXPECT_EQ(tracerOf("raytraced", { "--tracer", "gpu" }), "gpu");
-  EXPECT_NE(tracerOf("raytraced", {}), "");
-  EXPECT_EQ(tracerOf("nsm", { "--tracer", "gpu" }), "");
 }
 
 //------------------------------------------------------------------------------

@@ -259,7 +259,6 @@ TEST_F(VisibilityPicture, ShowsWhatCellsSee)
                                    : scene.addSun({ -0.6, -0.3, -1.0 });
     scene.lookFrom({ 3.0, -6.0, 6.0 });
     scene.pass->SetTechnique("raytraced");
-    scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_EMBREE);
     scene.pass->SmoothTerminatorsOff();
     const VisibilityImages& kept = drawKept(scene);
 

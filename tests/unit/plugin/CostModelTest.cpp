@@ -10,6 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 using namespace gnomon;
 using testing::HasSubstr;
@@ -40,6 +41,18 @@ protected:
 };
 
 } // namespace
+
+TEST(CostModel, knowsSoftwareByItsName)
+{
+  for (const auto& [name, isSoftware] :
+    { std::pair("llvmpipe (LLVM 15.0.6, 256 bits)", true), { "Google SwiftShader", true },
+      { "GDI Generic", true }, { "NVIDIA GeForce RTX 4090/PCIe/SSE2", false },
+      { "Mesa Intel(R) UHD Graphics 620 (KBL GT2)", false },
+      { "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 15.0.6)", false } })
+  {
+    EXPECT_EQ(isSoftwareRenderer(name), isSoftware) << name;
+  }
+}
 
 TEST_F(CostFactorsFile, isReadAsItWasWritten)
 {

@@ -305,9 +305,6 @@ TEST_F(EdgeSamples, areThereForAllLightsCamerasAndShapes)
     this->scene.pass->SetTechnique(technique);
     EXPECT_GT(this->countMixed(), 60u) << technique;
   }
-  this->scene.pass->SetTechnique("raytraced");
-  this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU);
-  EXPECT_GT(this->countMixed(), 60u) << "GPU";
 }
 
 //------------------------------------------------------------------------------

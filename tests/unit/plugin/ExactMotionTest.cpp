@@ -155,10 +155,7 @@ protected:
   /// Compare the technique with ray tracing.
   void expectTruth(const std::string& after)
   {
-    // A pass that changes its tracer reuses nothing.
-    this->truth->SetTracer(this->truth->GetTracer() == vtkGnomonShadowPass::TRACER_AUTO
-        ? vtkGnomonShadowPass::TRACER_EMBREE
-        : vtkGnomonShadowPass::TRACER_AUTO);
+    this->truth->ReleaseGraphicsResources(this->scene.window); // so that it reuses nothing
     this->scene.renderer->SetPass(this->truth);
     this->scene.window->Render();
     const std::vector<std::vector<float>> traced = this->truth->GetVisibility().visibility;

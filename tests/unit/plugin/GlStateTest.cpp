@@ -205,7 +205,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Ways, GlStateOfWay, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, GlStateOfWay, testing::Values(planarWay), nameOf);
 INSTANTIATE_TEST_SUITE_P(ThroughLayers, GlStateOfWay, testing::Values(layersWay), nameOf);
-INSTANTIATE_TEST_SUITE_P(ByTheGpu, GlStateOfWay, testing::Values(gpuTracedWay), nameOf);
+INSTANTIATE_TEST_SUITE_P(OnImage, GlStateOfWay, testing::Values(tracedWay), nameOf);
 
 class GlState : public PassTest
 {

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <string>
 
-using namespace gnomon;
+using gnomon::FrameReport;
 using namespace gnomon::test;
 
 namespace
@@ -68,7 +68,7 @@ protected:
   template <typename Check>
   void hideEach(const Check& check)
   {
-    const std::vector<tool::SceneProp> props = tool::loadScene("props").props;
+    const std::vector<gnomon::tool::SceneProp> props = gnomon::tool::loadScene("props").props;
     ASSERT_EQ(props.size(), 28u);
     vtkPropCollection* all = this->scene.renderer->GetViewProps();
     for (std::size_t i = 0; i < props.size(); ++i)

@@ -99,12 +99,10 @@ protected:
     this->scene.lookFrom({ 0.0, -9.0, 9.0 });
   }
 
-  /// Draw by another pass; it changes its tracer each time, so it reuses nothing.
+  /// Draw by another pass that reuses nothing.
   gnomon::VisibilityImages drawAnew()
   {
-    this->anew_->SetTracer(this->anew_->GetTracer() == vtkGnomonShadowPass::TRACER_AUTO
-        ? vtkGnomonShadowPass::TRACER_EMBREE
-        : vtkGnomonShadowPass::TRACER_AUTO);
+    this->anew_->ReleaseGraphicsResources(this->scene.window);
     this->scene.renderer->SetPass(this->anew_);
     this->scene.window->Render();
     this->scene.useGnomon();

@@ -28,14 +28,13 @@ std::string nameOf(const testing::TestParamInfo<Way>& way)
   return std::string(way.param.technique) +
     (way.param.route == vtkGnomonShadowPass::ROUTE_INLINE     ? "Inline"
         : way.param.route == vtkGnomonShadowPass::ROUTE_IMAGE ? "Image"
-                                                              : "") +
-    (way.param.tracer == vtkGnomonShadowPass::TRACER_GPU ? "Gpu" : "");
+                                                              : "");
 }
 
 //------------------------------------------------------------------------------
 std::ostream& operator<<(std::ostream& stream, const Way& way)
 {
-  return stream << way.technique << ", route " << way.route << ", tracer " << way.tracer;
+  return stream << way.technique << ", route " << way.route;
 }
 
 //------------------------------------------------------------------------------
@@ -43,7 +42,6 @@ void choose(vtkGnomonShadowPass* pass, const Way& way)
 {
   pass->SetTechnique(way.technique);
   pass->SetRoute(way.route);
-  pass->SetTracer(way.tracer);
 }
 
 //------------------------------------------------------------------------------

@@ -38,7 +38,6 @@ struct Way
 {
   const char* technique;
   int route;
-  int tracer = vtkGnomonShadowPass::TRACER_AUTO;
 };
 std::string nameOf(const testing::TestParamInfo<Way>& way);
 inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
@@ -53,9 +52,8 @@ inline const auto fewWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROU
 inline const Way planarWay{ "planar", vtkGnomonShadowPass::ROUTE_IMAGE };
 /// A technique with a map that works on the screen.
 inline const Way layersWay{ "montecarlo", vtkGnomonShadowPass::ROUTE_IMAGE };
-/// With software OpenGL, AUTO takes another tracer.
-inline const Way gpuTracedWay{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE,
-  vtkGnomonShadowPass::TRACER_GPU };
+/// Rays by the image route, where AUTO may take another one.
+inline const Way tracedWay{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE };
 std::ostream& operator<<(std::ostream& stream, const Way& way);
 void choose(vtkGnomonShadowPass* pass, const Way& way);
 

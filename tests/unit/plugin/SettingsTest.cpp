@@ -424,10 +424,6 @@ TEST_F(OldOpenGL, hasRaysInPlaceOfWhatItCannotDraw)
     EXPECT_THAT(errors, HasSubstr("needs OpenGL 4.3")) << technique;
     EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << "said once";
   }
-  this->scene.pass->SetTechnique("raytraced");
-  this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU);
-  this->scene.render();
-  EXPECT_THAT(this->takeErrors(), HasSubstr("tracing on the GPU needs OpenGL 4.3"));
 }
 
 //------------------------------------------------------------------------------

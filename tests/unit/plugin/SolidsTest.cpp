@@ -600,16 +600,6 @@ TEST_F(SolidsTest, whatIsNotServedIsListed)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(SolidsTest, theTracerOnTheGpuSaysNo)
-{
-  SolidsScene scene(10, 4);
-  scene.addSun({ 0.5, 0.3, -1.0 });
-  scene.choose(gpuTracedWay);
-  scene.window->Render();
-  EXPECT_THAT(this->takeErrors(), testing::HasSubstr("does not support spheres and cylinders"));
-}
-
-//------------------------------------------------------------------------------
 TEST_F(SolidsTest, atomsAndBondsCast)
 {
   PassScene scene(200, 200);

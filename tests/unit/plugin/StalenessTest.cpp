@@ -99,7 +99,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, Staleness, allWays, nameOf);
-INSTANTIATE_TEST_SUITE_P(ByTheGpu, Staleness, testing::Values(gpuTracedWay), nameOf);
+INSTANTIATE_TEST_SUITE_P(OnImage, Staleness, testing::Values(tracedWay), nameOf);
 
 } // namespace
 

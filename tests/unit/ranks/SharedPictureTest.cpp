@@ -10,22 +10,29 @@
 #include <vtkActorCollection.h>
 #include <vtkAssembly.h>
 #include <vtkCamera.h>
+#include <vtkCollectionRange.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLActor.h>
 #include <vtkPlaneSource.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkSphereSource.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace gnomon::test
@@ -143,6 +150,30 @@ TEST_P(SharedEdges, EqualThoseOfOneProcess)
   EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
+/// An actor whose next drawing may throw.
+class FailingActor : public vtkOpenGLActor
+{
+public:
+  static constexpr const char* error = "the actor fails";
+
+  static FailingActor* New();
+  vtkTypeMacro(FailingActor, vtkOpenGLActor);
+
+  void failNext() { this->fails_ = true; }
+
+  int RenderOpaqueGeometry(vtkViewport* viewport) override
+  {
+    if (std::exchange(this->fails_, false))
+    {
+      throw std::runtime_error(error);
+    }
+    return this->vtkOpenGLActor::RenderOpaqueGeometry(viewport);
+  }
+
+private:
+  bool fails_ = false;
+};
+vtkStandardNewMacro(FailingActor);
 class SharedFrames : public testing::Test
 {
 protected:
@@ -150,6 +181,32 @@ protected:
   tool::VtkMessages messages_;
   const int own_ = controller()->GetLocalProcessId();
   const int last_ = controller()->GetNumberOfProcesses() - 1;
+  vtkNew<FailingActor> failing_;
+
+  /// Make the next frame fail in the last process.
+  void failNext()
+  {
+    if (this->own_ != this->last_)
+    {
+      return;
+    }
+    vtkRenderer* const renderer = this->scene_.shared().renderer;
+    if (!renderer->HasViewProp(this->failing_))
+    {
+      const auto cellsOf = [](vtkActor* actor)
+      {
+        return vtkPolyData::SafeDownCast(actor->GetMapper()->GetInputDataObject(0, 0))
+          ->GetNumberOfCells();
+      };
+      const auto actors = vtk::Range(renderer->GetActors());
+      vtkActor* const replaced = *std::max_element(actors.begin(), actors.end(),
+        [&](vtkActor* a, vtkActor* b) { return cellsOf(a) < cellsOf(b); });
+      this->failing_->ShallowCopy(replaced);
+      renderer->AddActor(this->failing_);
+      renderer->RemoveActor(replaced);
+    }
+    this->failing_->failNext();
+  }
 
   void showOwn(bool show)
   {
@@ -291,24 +348,21 @@ TEST_F(SharedFrames, SmoothEdgesBetweenPartsOfAnAssembly)
 
 TEST_F(SharedFrames, TellAllWhyOneFailed)
 {
-  if (this->own_ == this->last_)
-  {
-    this->scene_.shared().pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU);
-  }
+  this->failNext();
   this->scene_.shared().draw();
   EXPECT_EQ(this->scene_.shared().report().route, "none");
   ASSERT_EQ(this->messages_.errors().size(), 1u);
   const std::string error = this->messages_.errors().front();
-  EXPECT_THAT(error, testing::HasSubstr("the tracer on the GPU was asked for"));
+  EXPECT_THAT(error, testing::HasSubstr(FailingActor::error));
   if (this->own_ != this->last_)
   {
     EXPECT_THAT(error,
       testing::HasSubstr("process " + std::to_string(this->last_) + " of " +
         std::to_string(this->last_ + 1) + " failed"));
   }
+  this->failNext();
   this->scene_.shared().draw(); // said once
   EXPECT_EQ(this->messages_.errors().size(), 1u);
-  this->scene_.shared().pass->SetTracer(vtkGnomonShadowPass::TRACER_AUTO);
   this->scene_.expectSame();
 }
 
@@ -387,14 +441,10 @@ TEST_F(SharedFrames, CountWhatOthersShow)
   EXPECT_FALSE(this->scene_.shared().report().stages.empty());
   // Here nothing composites: each process shows its own part, as the pass drew it.
   EXPECT_LE(this->scene_.shared().report().otherSurfaces, 2);
-  if (this->own_ == this->last_)
-  {
-    this->scene_.shared().pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU);
-  }
+  this->failNext();
   this->scene_.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(5.0); });
   this->scene_.shared().draw();
   EXPECT_EQ(this->messages_.errors().size(), 1u);
-  this->scene_.shared().pass->SetTracer(vtkGnomonShadowPass::TRACER_AUTO);
   this->scene_.expectSame();
 }
 

@@ -150,13 +150,8 @@ private:
 
 /// Traces an area light's samples in parts, like a tracer with little memory. Nothing blocks its
 /// rays.
-class TracerInParts : public ShadowTracer
+class TracerInParts : public EmbreeTracer
 {
-public:
-  Update update(const Occluders&) override { return {}; }
-  std::size_t bytes() const override { return 0; }
-
-private:
   std::size_t tracePicture(const TracedPicture& picture) override
   {
     std::size_t rays = 0;

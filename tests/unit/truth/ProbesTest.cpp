@@ -64,8 +64,7 @@ struct ProbedScene
   }
   void look(Probes& probes, std::uint32_t number)
   {
-    probes.look(
-      this->view, { sidePixels, sidePixels }, this->occluders, *this->tracer.casterHits(), number);
+    probes.look(this->view, { sidePixels, sidePixels }, this->occluders, this->tracer, number);
   }
   /// Return the share of the pixels facing the light that are in shadow.
   double shadowShare(const ShadowLight& light)

@@ -1,10 +1,9 @@
-#include "shadowtech/tracing/BvhBuilder.h"
+#include "shadowtech/penumbra/Bvh.h"
 
-#include "shadowtech/tracing/Embree.h"
+#include "shadowtech/tracing/EmbreeHandle.h"
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -49,69 +48,41 @@ void setChildren(void* node, void** children, unsigned int, void*)
     static_cast<TreeNode*>(children[1]) };
 }
 
-/// Appends a tree's nodes and its leaves' records to those of all trees.
-class Flattening
+/// Append a node's contents to a tree.
+/// @param records in Embree's order
+/// @return the link to them
+std::uint32_t append(const TreeNode& node, const std::vector<BvhRecord>& records, Bvh& tree)
 {
-public:
-  Flattening(std::vector<BvhNode>& nodes, std::vector<BvhRecord>& records,
-    const std::vector<BvhRecord>& unordered)
-    : nodes_(nodes)
-    , records_(records)
-    , unordered_(unordered)
+  if (node.count > 0)
   {
+    const auto first = static_cast<std::uint32_t>(tree.records.size());
+    for (std::uint32_t i = 0; i < node.count; ++i)
+    {
+      tree.records.push_back(records[node.records[i]]);
+    }
+    return BvhLink::leaf(first, node.count);
   }
-
-  /// @return the link to the appended nodes
-  std::uint32_t append(const TreeNode* node, int depth = 0)
+  const std::size_t pair = tree.nodes.size();
+  tree.nodes.resize(pair + 2);
+  for (std::size_t child = 0; child < 2; ++child)
   {
-    this->depth_ = std::max(this->depth_, depth);
-    if (node->count > 0)
-    {
-      const auto first = static_cast<std::uint32_t>(this->records_.size());
-      for (std::uint32_t i = 0; i < node->count; ++i)
-      {
-        this->records_.push_back(this->unordered_[node->records[i]]);
-      }
-      return BvhLink::leaf(first, node->count);
-    }
-    const std::size_t pair = this->nodes_.size();
-    this->nodes_.resize(pair + 2);
-    for (std::size_t child = 0; child < 2; ++child)
-    {
-      const std::uint32_t link = this->append(node->children[child], depth + 1);
-      this->nodes_[pair + child].link = link;
-    }
-    return static_cast<std::uint32_t>(pair);
+    const std::uint32_t link = append(*node.children[child], records, tree);
+    tree.nodes[pair + child].link = link;
   }
-
-  /// Return the number of inner nodes one below another.
-  int depth() const { return this->depth_; }
-
-private:
-  std::vector<BvhNode>& nodes_;
-  std::vector<BvhRecord>& records_;
-  const std::vector<BvhRecord>& unordered_;
-  int depth_ = 0;
-};
+  return static_cast<std::uint32_t>(pair);
+}
 
 } // namespace
 
 //------------------------------------------------------------------------------
-BvhBuilder::BvhBuilder(std::vector<BvhNode>& nodes, std::vector<BvhRecord>& records)
-  : device_(rtcNewDevice(nullptr))
-  , nodes_(nodes)
-  , records_(records)
+Bvh buildBvh(
+  const std::vector<BvhRecord>& records, const std::function<Bounds(const BvhRecord&)>& boundsOf)
 {
-  if (!this->device_.get())
+  const EmbreeDevice device(rtcNewDevice(nullptr));
+  if (!device.get())
   {
     throw std::runtime_error("Embree cannot be started on this machine");
   }
-}
-
-//------------------------------------------------------------------------------
-BvhBuilder::Tree BvhBuilder::add(
-  const std::vector<BvhRecord>& records, const std::function<Bounds(const BvhRecord&)>& boundsOf)
-{
   std::vector<RTCBuildPrimitive> primitives(records.size());
   tbb::parallel_for(std::size_t(0), records.size(),
     [&](std::size_t i)
@@ -122,7 +93,7 @@ BvhBuilder::Tree BvhBuilder::add(
       primitives[i] = { lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z,
         static_cast<unsigned int>(i) };
     });
-  const EmbreeBvh bvh(rtcNewBVH(this->device_.get()));
+  const EmbreeBvh bvh(rtcNewBVH(device.get()));
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.maxDepth = mostDepth;
   arguments.maxLeafSize = BvhLink::mostRecordsOfLeaf;
@@ -138,11 +109,11 @@ BvhBuilder::Tree BvhBuilder::add(
   if (!root)
   {
     throw std::runtime_error("Embree failed while building a tree of the casters: error " +
-      std::to_string(static_cast<int>(rtcGetDeviceError(this->device_.get()))));
+      std::to_string(static_cast<int>(rtcGetDeviceError(device.get()))));
   }
-  Flattening flattening(this->nodes_, this->records_, records);
-  const std::uint32_t link = flattening.append(root);
-  return { link, flattening.depth() };
+  Bvh tree;
+  tree.root = append(*root, records, tree);
+  return tree;
 }
 
 } // namespace gnomon
