@@ -10,6 +10,12 @@ import sys
 ALLOWED = 0.005
 DEAREST = 1.3
 
+HEAD = (
+    "| scene | places | with maps | error kept | largest error | compared "
+    "| at most 1.3 times the best | over the best: median | most |\n"
+    "|---|---|---|---|---|---|---|---|---|"
+)
+
 
 def share(rows, keeps):
     return f"{100 * sum(keeps(row) for row in rows) / len(rows):.1f} %"
@@ -45,11 +51,7 @@ def main():
         "two fastest single techniques in turns."
     )
     print()
-    print(
-        "| scene | places | with maps | error kept | largest error | compared "
-        "| at most 1.3 times the best | over the best: median | most |"
-    )
-    print("|---|---|---|---|---|---|---|---|---|")
+    print(HEAD)
     for scene in scenes:
         print(line(f"`{scene}`", [row for row in rows if row["scene"] == scene]))
     print(line("all", rows))
@@ -62,4 +64,5 @@ def main():
     print(f"Measured on: {sys.argv[2]}.")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -372,7 +372,7 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
 }
 
 //------------------------------------------------------------------------------
-/// Assign layers, and bits to lights with hard shadows. A single such light gains nothing by a bit.
+/// Assign layers, and bits to lights with hard shadows.
 void CastingLights::placeVisibility()
 {
   const auto isHard = [](const CastingLight& casting)
@@ -380,14 +380,13 @@ void CastingLights::placeVisibility()
     return isOnCpu(casting) && casting.own.info().exact && !casting.light.area &&
       !casting.light.texture && edgeSamplesOf(casting) == 1;
   };
-  const bool takesBits = std::count_if(this->lights_.begin(), this->lights_.end(), isHard) > 1;
   this->layers_ = 0;
   this->bits_ = 0;
   for (CastingLight& casting : this->lights_)
   {
     casting.layer = 0;
     casting.bit = noBit;
-    if (takesBits && isHard(casting) && this->bits_ < VisibilityLayers::mostBits)
+    if (isHard(casting) && this->bits_ < VisibilityLayers::mostBits)
     {
       casting.bit = this->bits_++;
     }

@@ -103,7 +103,7 @@ MemoryShares shareMemory(
       return shares;
     }
   }
-  // Bits of hard lights share one image of two numbers. Other lights need an image for each
+  // Bits of hard lights share one image of at most two numbers. Other lights need an image for each
   // channel.
   const auto ofPixels = [&](double bytes) { return bytes * static_cast<double>(pixels); };
   double left = budget - ofPixels(2.0 * sizeof(float));

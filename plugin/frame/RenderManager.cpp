@@ -573,7 +573,9 @@ void RenderManager::endOpaque(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 void RenderManager::drawShadows()
 {
-  this->frame_.view->receivers.deferred.darken(this->stageValues_.layers, this->programs_.library);
+  this->frame_.view->receivers.deferred.darken(
+    this->frame_.lights.bits() > 0 ? this->stageValues_.bits : this->stageValues_.layers,
+    this->programs_.library);
   this->frame_.endStage("shading: shadows");
 }
 

@@ -419,7 +419,10 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
   {
     view.layers.darkenBits(this->darkBits_, view.receivers.boxes->receives());
   }
-  view.layers.uploadBits();
+  if (view.layers.uploadBits())
+  {
+    this->frame_.endStage("visibility: upload");
+  }
   static const std::vector<SurfaceName> none; // other processes' surfaces have other names
   const std::vector<SurfaceName>& kept = this->frame_.ranks ? none : names;
   bool keeps = this->frame_.wishes.keepVisibility &&
@@ -546,7 +549,8 @@ void VisibilityStage::trace(
     verdicts->tell(light, report);
   }
   casting.own.tellRays(!verdicts || verdicts->needManyRays());
-  if (verdicts && hasBit && verdicts->areAllDark())
+  const bool isDeferred = this->frame_.route == Route::Deferred;
+  if (verdicts && hasBit && !isDeferred && verdicts->areAllDark())
   {
     value.dropTiles();
     this->darkBits_.push_back(casting.bit);
@@ -575,7 +579,7 @@ void VisibilityStage::trace(
     this->frame_.endStage("visibility: edges");
   }
   hasBit ? layers.fillBit(casting.bit, visibility) : layers.upload(casting.layer, visibility);
-  if (this->frame_.route == Route::Deferred)
+  if (isDeferred)
   {
     this->frame_.view->receivers.deferred.keepShadows(visibility);
   }

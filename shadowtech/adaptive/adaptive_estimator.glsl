@@ -3,6 +3,7 @@
 // number of its points, of which the first DISC_RING_LIGHT lie on its rim.
 
 #include "shadowtech/base/kernel_units.glsl"
+#include "shadowtech/base/share.glsl"
 #include "shadowtech/depth_map/kernel.glsl"
 #if DISC_ASKS_BOUNDS_LIGHT
 #include "shadowtech/depth_map/depth_bounds.glsl"
@@ -42,5 +43,5 @@ float estimate_LIGHT(ViewPoint point, float slack)
   }
 #endif
   hidden += hiddenOf_LIGHT(point, shape, disc, DISC_RING_LIGHT, DISC_POINTS_LIGHT, slack);
-  return max(1.0 - hidden / float(DISC_POINTS_LIGHT), 0.0);
+  return 1.0 - shareOf(hidden, float(DISC_POINTS_LIGHT));
 }

@@ -206,15 +206,19 @@ void DeferredPicture::keepShadows(const std::vector<float>& visibility)
 }
 
 //------------------------------------------------------------------------------
-void DeferredPicture::darken(const TextureBinding& layers, ShaderLibrary& shaders)
+void DeferredPicture::darken(const TextureBinding& visibility, ShaderLibrary& shaders)
 {
   const GlStateGuard guard;
   ScreenPass::openState(1);
   glViewport(this->origin_.x, this->origin_.y, this->size_.x, this->size_.y);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(this->tiles_.name());
-  const auto draw = [&](const std::vector<std::string>& defines, GLint first, GLsizei count)
+  const auto draw = [&](std::vector<std::string> defines, GLint first, GLsizei count)
   {
+    if (visibility.target == GL_TEXTURE_2D)
+    {
+      defines.emplace_back("BIT");
+    }
     const GLuint program = shaders.program(
       { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/shadowed_tiles.vert.glsl") },
         { GL_FRAGMENT_SHADER,
@@ -222,7 +226,7 @@ void DeferredPicture::darken(const TextureBinding& layers, ShaderLibrary& shader
       defines);
     glUseProgram(program);
     ShaderLibrary::setUniforms(program,
-      { { "size", this->size_ }, { "origin", this->origin_ }, { "visibility", layers },
+      { { "size", this->size_ }, { "origin", this->origin_ }, { "visibility", visibility },
         { "inShadow", TextureBinding{ GL_TEXTURE_2D, this->inShadow_.name() } } },
       0, 0);
     glDrawArrays(GL_TRIANGLES, first, count);

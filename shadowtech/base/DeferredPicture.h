@@ -48,8 +48,9 @@ public:
 
   /// Draw the colours in shadow into the bound framebuffer, at the pixels in shadow. Pixels between
   /// light and shadow get a mixture of both colours, rounded by the framebuffer's format.
-  /// @param layers array texture whose layer 0 is the visibility given to keepShadows()
-  void darken(const TextureBinding& layers, ShaderLibrary& shaders);
+  /// @param visibility what was given to keepShadows(): layer 0 of an array texture, or the lowest
+  /// bit of a GL_TEXTURE_2D
+  void darken(const TextureBinding& visibility, ShaderLibrary& shaders);
 
   /// The viewport's size in pixels.
   const glm::ivec2& size() const { return this->size_; }

@@ -5,7 +5,12 @@
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
+#include <type_traits>
 #include <utility>
 
 namespace gnomon
@@ -13,17 +18,59 @@ namespace gnomon
 namespace
 {
 
-constexpr int bitsOfWord = 32;
+constexpr int bitsOfByte = 8;
 
-/// Return the word of a pixel that holds a bit.
-std::size_t wordOf(int bit)
+/// Return the byte of a pixel that holds a bit. Shaders read a pixel's bytes as one or two numbers,
+/// the lowest byte first.
+std::size_t byteOf(int bit)
 {
-  return static_cast<std::size_t>(bit / bitsOfWord);
+  return static_cast<std::size_t>(bit / bitsOfByte);
 }
 
-std::uint32_t maskOf(int bit)
+std::uint8_t maskOf(int bit)
 {
-  return std::uint32_t(1) << bit % bitsOfWord;
+  return static_cast<std::uint8_t>(1 << bit % bitsOfByte);
+}
+
+/// A format of the image of bits.
+struct BitsFormat
+{
+  std::size_t bytesOfPixel;
+  TexelFormat texel;
+};
+
+/// Return the smallest format that has room for so many bits.
+const BitsFormat& formatOfBits(int bits)
+{
+  static const std::array<BitsFormat, 4> formats{ {
+    { 1, { GL_R8UI, GL_RED_INTEGER, 1, GL_UNSIGNED_BYTE } },
+    { 2, { GL_R16UI, GL_RED_INTEGER, 1, GL_UNSIGNED_SHORT } },
+    { 4, { GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT } },
+    { 8, { GL_RG32UI, GL_RG_INTEGER, 2, GL_UNSIGNED_INT } },
+  } };
+  return *std::find_if(formats.begin(), formats.end() - 1,
+    [bits](const BitsFormat& format) { return byteOf(bits - 1) < format.bytesOfPixel; });
+}
+
+/// Call `visit(pixel, place)` for all pixels, `place` being that of a byte among all bytes.
+/// @param stride bytes from pixel to pixel
+template <typename Visit>
+void visitBytes(std::size_t pixels, std::size_t stride, const Visit& visit)
+{
+  constexpr std::size_t pixelsOfTask = 65536;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, pixelsOfTask),
+    [&](const tbb::blocked_range<std::size_t>& range)
+    {
+      const auto visitBy = [&](auto step)
+      {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+        {
+          visit(i, step * i);
+        }
+      };
+      // Compilers vectorize a stride that they know.
+      stride == 1 ? visitBy(std::integral_constant<std::size_t, 1>()) : visitBy(stride);
+    });
 }
 
 } // namespace
@@ -47,20 +94,19 @@ void VisibilityLayers::resize(int width, int height, int layers, int bits)
     allocateTexture(
       this->texture_, { GL_R32F, GL_RED, 1 }, width, height, layers, "the lights' visibility");
   }
-  this->wordsOfPixel_ = static_cast<std::size_t>((bits + bitsOfWord - 1) / bitsOfWord);
+  this->bytesOfPixel_ = 0;
   if (bits == 0)
   {
     this->textureOfBits_ = GlTexture();
   }
   else
   {
-    allocateTexture(this->textureOfBits_,
-      this->wordsOfPixel_ == 1 ? TexelFormat{ GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT }
-                               : TexelFormat{ GL_RG32UI, GL_RG_INTEGER, 2, GL_UNSIGNED_INT },
-      width, height, 0, "the lights' visibility");
+    const BitsFormat& format = formatOfBits(bits);
+    this->bytesOfPixel_ = format.bytesOfPixel;
+    allocateTexture(this->textureOfBits_, format.texel, width, height, 0, "the lights' visibility");
   }
   this->bitsOfPixels_.assign(
-    this->wordsOfPixel_ * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+    this->bytesOfPixel_ * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   this->width_ = width;
   this->height_ = height;
   this->layers_ = layers;
@@ -129,13 +175,13 @@ void VisibilityLayers::upload(int firstLayer, const std::vector<float>& visibili
 //------------------------------------------------------------------------------
 void VisibilityLayers::fillBit(int bit, const std::vector<float>& visibility)
 {
-  const std::uint32_t lit = maskOf(bit);
-  const std::size_t words = this->wordsOfPixel_;
-  std::uint32_t* const bits = this->bitsOfPixels_.data() + wordOf(bit);
-  for (std::size_t i = 0; i < visibility.size(); ++i)
-  {
-    bits[words * i] = (bits[words * i] & ~lit) | (visibility[i] != 0.0f ? lit : 0);
-  }
+  const std::uint8_t lit = maskOf(bit);
+  const float* const from = visibility.data();
+  std::uint8_t* const to = this->bitsOfPixels_.data() + byteOf(bit);
+  visitBytes(visibility.size(), this->bytesOfPixel_,
+    [=](std::size_t pixel, std::size_t place) {
+      to[place] = static_cast<std::uint8_t>((to[place] & ~lit) | (from[pixel] != 0.0f ? lit : 0));
+    });
   this->bitsChanged_ = true;
 }
 
@@ -143,54 +189,53 @@ void VisibilityLayers::fillBit(int bit, const std::vector<float>& visibility)
 void VisibilityLayers::darkenBits(
   const std::vector<int>& bits, const std::vector<std::uint8_t>& receives)
 {
-  for (std::size_t word = 0; word < this->wordsOfPixel_; ++word)
+  for (std::size_t byte = 0; byte < this->bytesOfPixel_; ++byte)
   {
-    std::uint32_t dark = 0;
+    int mask = 0;
     for (const int bit : bits)
     {
-      dark |= wordOf(bit) == word ? maskOf(bit) : 0;
+      mask |= byteOf(bit) == byte ? maskOf(bit) : 0;
     }
-    if (dark == 0)
+    if (mask == 0)
     {
       continue;
     }
-    const std::size_t words = this->wordsOfPixel_;
-    std::uint32_t* const ofPixels = this->bitsOfPixels_.data() + word;
-    for (std::size_t i = 0; i < receives.size(); ++i)
-    {
-      ofPixels[words * i] = (ofPixels[words * i] & ~dark) | (receives[i] != 0 ? 0 : dark);
-    }
+    std::uint8_t* const to = this->bitsOfPixels_.data() + byte;
+    visitBytes(receives.size(), this->bytesOfPixel_,
+      [to, mask, from = receives.data()](std::size_t pixel, std::size_t place) {
+        to[place] = static_cast<std::uint8_t>((to[place] & ~mask) | (from[pixel] != 0 ? 0 : mask));
+      });
     this->bitsChanged_ = true;
   }
 }
 
 //------------------------------------------------------------------------------
-void VisibilityLayers::uploadBits()
+bool VisibilityLayers::uploadBits()
 {
   if (!std::exchange(this->bitsChanged_, false))
   {
-    return;
+    return false;
   }
   const GlStateGuard guard;
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, this->textureOfBits_.name());
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, this->width_, this->height_,
-    this->wordsOfPixel_ == 1 ? GL_RED_INTEGER : GL_RG_INTEGER, GL_UNSIGNED_INT,
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const TexelFormat& format = formatOfBits(this->bits_).texel;
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, this->width_, this->height_, format.format, format.type,
     this->bitsOfPixels_.data());
+  return true;
 }
 
 //------------------------------------------------------------------------------
 void VisibilityLayers::readBit(int bit, std::vector<float>& visibility) const
 {
-  const std::size_t words = this->wordsOfPixel_;
-  const std::uint32_t* const bits = this->bitsOfPixels_.data() + wordOf(bit);
-  visibility.resize(this->bitsOfPixels_.size() / words);
-  for (std::size_t i = 0; i < visibility.size(); ++i)
-  {
-    visibility[i] = (bits[words * i] & maskOf(bit)) != 0 ? 1.0f : 0.0f;
-  }
+  const std::uint8_t lit = maskOf(bit);
+  const std::uint8_t* const from = this->bitsOfPixels_.data() + byteOf(bit);
+  visibility.resize(this->bitsOfPixels_.size() / this->bytesOfPixel_);
+  visitBytes(visibility.size(), this->bytesOfPixel_,
+    [from, lit, to = visibility.data()](std::size_t pixel, std::size_t place)
+    { to[pixel] = (from[place] & lit) != 0 ? 1.0f : 0.0f; });
 }
 
 //------------------------------------------------------------------------------
@@ -212,9 +257,9 @@ void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
 //------------------------------------------------------------------------------
 std::size_t VisibilityLayers::bytes() const
 {
-  const std::size_t images = static_cast<std::size_t>(this->layers_) + 2 * this->wordsOfPixel_;
-  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * images *
-    sizeof(float);
+  const std::size_t bytes =
+    static_cast<std::size_t>(this->layers_) * sizeof(float) + 2 * this->bytesOfPixel_;
+  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * bytes;
 }
 
 } // namespace gnomon

@@ -17,8 +17,8 @@ class ReceiverTarget;
 inline constexpr int noBit = -1;
 
 /// The visibility images of the image route: one 32-bit float layer per casting light, or three
-/// (red, green, blue) if the technique sees the light's texture (channelsOf()). Hard shadows of
-/// several lights are bits of one more image instead, so that shaders fetch them at once. Row 0 is
+/// (red, green, blue) if the technique sees the light's texture (channelsOf()). Hard shadows are bits
+/// of one more image instead, which shaders fetch at once, and which is small to upload. Row 0 is
 /// the bottom row.
 class VisibilityLayers
 {
@@ -56,7 +56,8 @@ public:
   /// Set the bits of lights that are dark everywhere: 0 where a pixel shows a receiver, else 1.
   void darkenBits(const std::vector<int>& bits, const std::vector<std::uint8_t>& receives);
   /// Upload the bits, after all of them are set.
-  void uploadBits();
+  /// @return false if none changed
+  bool uploadBits();
 
   ///@{
   /// Read a layer or a bit back.
@@ -76,8 +77,8 @@ private:
   int layers_ = 0;
   int bits_ = 0;
   GlTexture textureOfBits_;
-  std::size_t wordsOfPixel_ = 0; ///< words of 32 bits per pixel
-  std::vector<std::uint32_t> bitsOfPixels_;
+  std::size_t bytesOfPixel_ = 0; ///< of its bits: 0, 1, 2, 4 or 8
+  std::vector<std::uint8_t> bitsOfPixels_;
   bool bitsChanged_ = false; ///< since the last upload
 };
 

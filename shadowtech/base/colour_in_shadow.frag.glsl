@@ -2,7 +2,11 @@
 
 uniform sampler2D inShadow;
 #ifdef SOME_ARE_LIT
-uniform sampler2DArray visibility;
+#ifdef BIT
+uniform usampler2D visibility; // in the lowest bit
+#else
+uniform sampler2DArray visibility; // in the first layer
+#endif
 uniform ivec2 origin; // of the picture in its framebuffer
 #endif
 
@@ -13,7 +17,11 @@ void main()
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   colour = texelFetch(inShadow, pixel, 0);
 #ifdef SOME_ARE_LIT
+#ifdef BIT
+  float lit = float(texelFetch(visibility, pixel - origin, 0).r & 1u);
+#else
   float lit = texelFetch(visibility, ivec3(pixel - origin, 0), 0).r;
+#endif
 #ifdef MIXES
   colour.a = 1.0 - lit;
 #else

@@ -9,6 +9,7 @@
 // The estimator sums hidden shares, not lit ones, so that a lit point's visibility is exactly 1.
 
 #include "shadowtech/base/kernel_units.glsl"
+#include "shadowtech/base/share.glsl"
 #include "shadowtech/depth_map/kernel.glsl"
 
 #if PCF_CASTANO_LIGHT
@@ -67,7 +68,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
   {
     hidden += hiddenInRow_LIGHT(point, first + ivec2(0, y), shareOfLast.x, slack);
   }
-  return max(1.0 - hidden / float(PCF_TEXELS_LIGHT * PCF_TEXELS_LIGHT), 0.0);
+  return 1.0 - shareOf(hidden, float(PCF_TEXELS_LIGHT * PCF_TEXELS_LIGHT));
 }
 
 #elif PCF_WEIGHTED_LIGHT
@@ -103,7 +104,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
   }
   // all > 0: the limited stretch leaves a circle of the bilinear filter's radius, 1, which holds a
   // texel.
-  return max(1.0 - hidden / all, 0.0);
+  return 1.0 - shareOf(hidden, all);
 }
 
 #elif PCF_POISSON_LIGHT
@@ -119,7 +120,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
     ivec2 texel = ivec2(floor(point.texel + turn * poissonDisc_LIGHT[i]));
     hidden += hidden_LIGHT(point, texel, slack);
   }
-  return max(1.0 - hidden / float(PCF_POINTS_LIGHT), 0.0);
+  return 1.0 - shareOf(hidden, float(PCF_POINTS_LIGHT));
 }
 
 #else
@@ -147,7 +148,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
 #endif
     }
   }
-  return max(1.0 - hidden / all, 0.0);
+  return 1.0 - shareOf(hidden, all);
 }
 
 #endif

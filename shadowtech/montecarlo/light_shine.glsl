@@ -1,5 +1,6 @@
 // The colours of the light's points, and the visibility that follows from them.
 
+#include "shadowtech/base/share.glsl"
 #include "shadowtech/base/shine.glsl"
 
 #ifdef TEXTURED
@@ -25,7 +26,7 @@ Shine shineAt(vec3 offset)
 // @param all sum over all of the pixel's points
 Shine visibilityOf(Shine seen, Shine all)
 {
-  vec3 scaled = lit * (seen / max(all, 1.0));
+  vec3 scaled = lit * mix(seen / max(all, 1.0), vec3(1.0), equal(seen, all));
   vec3 plain = seen / float(255 * RAYS * RAYS); // for channels that are 0 in all points
   return min(mix(plain, scaled, greaterThan(all, vec3(0.0))), 1.0);
 }
@@ -41,7 +42,7 @@ Shine shineAt(vec3 offset)
 
 Shine visibilityOf(Shine seen, Shine all)
 {
-  return seen / float(RAYS * RAYS);
+  return shareOf(seen, float(RAYS * RAYS));
 }
 
 #endif

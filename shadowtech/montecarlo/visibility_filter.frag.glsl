@@ -10,6 +10,7 @@
 // Receivers turned away from the light stay as they are and do not contribute. A pixel keeps its
 // visibility bit for bit if rays decided no pixel in its square.
 
+#include "shadowtech/base/share.glsl"
 #include "shadowtech/montecarlo/classes.glsl"
 
 uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
@@ -102,5 +103,5 @@ void main()
   }
   slopeOfRow = slopeSum / max(slopeWeights, 1e-30); // 0 if no pixel in the row tells one
   bool keeps = axis.y == 1 && greatestClass < BY_RAYS;
-  filtered = vec2(keeps ? original.x : sum / weights, greatestClass);
+  filtered = vec2(keeps ? original.x : shareOf(sum, weights), greatestClass);
 }

@@ -2,6 +2,7 @@
 // filter of that width, all in separations (Pcss.h). The kernel of both steps is the light's shape,
 // of radius or half side 1.
 
+#include "shadowtech/base/share.glsl"
 #include "shadowtech/depth_map/depth_bounds.glsl"
 #include "shadowtech/depth_map/kernel.glsl"
 #include "shadowtech/pcss/light_shape.glsl"
@@ -206,5 +207,5 @@ float estimate_LIGHT(ViewPoint point, float slack)
     }
     hidden += hides ? 1.0 : 0.0;
   }
-  return max(1.0 - hidden / float(PCSS_FILTER_POINTS_LIGHT), 0.0);
+  return 1.0 - shareOf(hidden, float(PCSS_FILTER_POINTS_LIGHT));
 }

@@ -286,7 +286,7 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
     { "shadows", TextureBinding{ GL_TEXTURE_2D, this->shadows_.name() } },
     { "sampleCount", static_cast<int>(batch.count) },
     { "lightView", glm::vec4(viewFromCentred * this->centre_) },
-    { "divisor", batch.last ? static_cast<float>(this->samples_.size()) : 1.0f }
+    { "sampleCountOfAll", batch.last ? static_cast<int>(this->samples_.size()) : 0 }
   };
   for (const std::vector<Uniform>& more : { this->lit_.before(),
          lightReachUniforms(input.light, input.occluders.centreWorld, viewFromCentred) })

@@ -4,6 +4,7 @@
 
 #include "shadowtech/base/light_reach.glsl"
 #include "shadowtech/base/running_sum.glsl"
+#include "shadowtech/base/share.glsl"
 
 uniform sampler2D receiverFragments; // zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
@@ -12,7 +13,7 @@ uniform usampler2D shadows;          // a bit for each sample in shadow
 uniform int sampleCount;
 uniform vec4 lightView;                // of the centre: (position, 1) or (towards the light, 0)
 uniform int planesFacingLight[PLANES]; // 1 if the plane's visible side faces the light's centre
-uniform float divisor;                 // the number of all samples in the last pass, else 1
+uniform int sampleCountOfAll;          // in the last pass, else 0
 
 out float visibility;
 
@@ -31,5 +32,6 @@ void main()
       ? sampleCount - bitCount(texelFetch(shadows, pixel, 0).r)
       : 0;
   }
-  visibility = (summedBefore(pixel).r + float(lit)) / divisor;
+  float sum = summedBefore(pixel).r + float(lit);
+  visibility = sampleCountOfAll > 0 ? shareOf(sum, float(sampleCountOfAll)) : sum;
 }

@@ -1,6 +1,7 @@
 // Percentage closer soft shadows exactly as in Apelles' listings 4.8 to 4.11 (PublishedPcss.h).
 // Distances are from the light's centre; radii are shares of a map of the whole cone.
 
+#include "shadowtech/base/share.glsl"
 #include "shadowtech/depth_map/depth_map.glsl"
 
 uniform sampler2D lightPoints_LIGHT; // the search's points, then the filter's
@@ -63,5 +64,5 @@ float estimate_LIGHT(ViewPoint point, float slack)
     vec2 offset = texels * ((penumbra + penumbra / filterSide) * place);
     hidden += distanceAt_LIGHT(point, point.texel + offset) < receiver ? 1.0 : 0.0;
   }
-  return 1.0 - hidden / float(PCSS_FILTER_POINTS_LIGHT);
+  return 1.0 - shareOf(hidden, float(PCSS_FILTER_POINTS_LIGHT));
 }

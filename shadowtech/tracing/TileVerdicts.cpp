@@ -7,6 +7,10 @@
 #include "shadowtech/tracing/TracedTiles.h"
 #include "shadowtech/tracing/UmbraProof.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -101,9 +105,14 @@ public:
   {
   }
 
-  /// @param centred includes the starts of the receivers' rays; not empty
-  Certainty of(const Bounds& centred)
+  /// @param centred includes the starts of the receivers' rays
+  /// @param blocker of the last box in shadow: neighbours mostly share it
+  Certainty of(const Bounds& centred, std::optional<std::uint32_t>& blocker) const
   {
+    if (centred.empty())
+    {
+      return Certainty::Unreached;
+    }
     const Bounds from = inflated(centred, this->noise_);
     if (this->isUnreached(from))
     {
@@ -116,7 +125,7 @@ public:
       return Certainty::Lit;
     }
     const UmbraProof proof(from, this->ends_, this->occluders_, this->hits_);
-    return proof.finds(this->blocker_) ? Certainty::Shadow : Certainty::Uncertain;
+    return proof.finds(blocker) ? Certainty::Shadow : Certainty::Uncertain;
   }
 
 private:
@@ -135,8 +144,7 @@ private:
   ShadowRayLight rays_;
   RayEnds ends_;
   std::vector<Bounds> casters_;
-  double noise_;                         ///< upper bound of a float position's error
-  std::optional<std::uint32_t> blocker_; ///< of the last box in shadow: neighbours mostly share it
+  double noise_; ///< upper bound of a float position's error
 };
 
 /// A box of a level.
@@ -162,6 +170,27 @@ std::vector<Group> partsOf(const std::vector<Group>& groups, const ReceiverBoxes
     }
   }
   return parts;
+}
+
+/// Judge groups of a level. Each task has a row of neighbours, whatever the number of threads.
+std::vector<Certainty> judged(
+  const std::vector<Group>& groups, const ReceiverBoxes::Level& level, const BoxJudge& judge)
+{
+  constexpr std::size_t groupsOfTask = 64;
+  std::vector<Certainty> certainties(groups.size());
+  tbb::parallel_for(
+    tbb::blocked_range<std::size_t>(0, groups.size(), groupsOfTask),
+    [&](const tbb::blocked_range<std::size_t>& range)
+    {
+      std::optional<std::uint32_t> blocker;
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+      {
+        const std::size_t place = groups[i].row * level.columns + groups[i].column;
+        certainties[i] = judge.of(level.boxesCentred[place], blocker);
+      }
+    },
+    tbb::simple_partitioner());
+  return certainties;
 }
 
 bool isDarkFor(Certainty certainty)
@@ -200,17 +229,16 @@ void TileVerdicts::decide(
   const ShadowLight& light, const Occluders& occluders, const CasterHits& hits)
 {
   const std::vector<ReceiverBoxes::Level>& levels = this->boxes_.levels();
-  BoxJudge judge(light, occluders, hits);
+  const BoxJudge judge(light, occluders, hits);
   std::vector<Group> open{ { 0, 0 } };
   for (std::size_t level = levels.size() - 1;; --level)
   {
+    const std::vector<Certainty> certainties = judged(open, levels[level], judge);
     std::vector<Group> undecided;
-    for (const Group& group : open)
+    for (std::size_t i = 0; i < open.size(); ++i)
     {
-      const Bounds& box =
-        levels[level].boxesCentred[group.row * levels[level].columns + group.column];
-      const Certainty certainty = box.empty() ? Certainty::Unreached : judge.of(box);
-      if (certainty == Certainty::Uncertain)
+      const Group& group = open[i];
+      if (certainties[i] == Certainty::Uncertain)
       {
         undecided.push_back(group);
         continue;
@@ -221,7 +249,7 @@ void TileVerdicts::decide(
       const std::size_t endRow = std::min((group.row + 1) << level, levels[0].rows);
       for (std::size_t row = group.row << level; row < endRow; ++row)
       {
-        std::fill_n(&this->cells_[row * levels[0].columns + firstColumn], columns, certainty);
+        std::fill_n(&this->cells_[row * levels[0].columns + firstColumn], columns, certainties[i]);
       }
     }
     const std::size_t decided = open.size() - undecided.size();

@@ -184,13 +184,14 @@ TEST_F(ShadowRayGlsl, AgreesWithItsTwin)
       (std::nextafter(std::abs(expected), std::numeric_limits<float>::infinity()) -
         std::abs(expected));
   };
+  constexpr float mostUlps = 3.0f; // OpenGL's division may be off by 2.5
   for (std::size_t i = 0; i < outputs.size(); ++i)
   {
     const float noise = triangles[i].noise();
     const glm::vec3 normal(inputs[i][0]);
     const glm::vec3 toLight(inputs[i][3]);
-    EXPECT_LE(ulps(outputs[i].x, noise), 1.0f);
-    EXPECT_LE(ulps(outputs[i].y, shadowRayOffset(noise, inputs[i][1].w)), 1.0f);
+    EXPECT_LE(ulps(outputs[i].x, noise), mostUlps);
+    EXPECT_LE(ulps(outputs[i].y, shadowRayOffset(noise, inputs[i][1].w)), mostUlps);
     EXPECT_EQ(outputs[i].z != 0.0f, facesLight(normal, toLight));
     EXPECT_EQ(outputs[i].w != 0.0f, insideCone(toLight, normal, inputs[i][3].w));
   }
