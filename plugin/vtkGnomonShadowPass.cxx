@@ -592,7 +592,6 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
 {
   gnomon::FrameWishes wishes;
   wishes.route = static_cast<gnomon::RouteWish>(this->Route);
-  wishes.rasterizer = static_cast<gnomon::RasterizerWish>(this->Rasterizer);
   wishes.keepVisibility = this->KeepVisibility;
   wishes.measureStages = this->MeasureStages;
   wishes.smoothTerminators = this->SmoothTerminators;
@@ -918,11 +917,9 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const char* const routes[] = { "auto", "inline", "image", "deferred" };
-  const char* const rasterizers[] = { "auto", "cpu", "gpu" };
   os << indent << "Settings:\n";
   this->Internal->settings->PrintSelf(os, indent.GetNextIndent());
   os << indent << "Route: " << routes[this->Route] << "\n";
-  os << indent << "Rasterizer: " << rasterizers[this->Rasterizer] << "\n";
   os << indent << "SmoothTerminators: " << (this->SmoothTerminators ? "on" : "off") << "\n";
   const char* const interactives[] = { "auto", "off", "on" };
   os << indent << "Interactive: " << interactives[this->Interactive] << "\n";

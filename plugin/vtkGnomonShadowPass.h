@@ -149,29 +149,6 @@ public:
   vtkGetMacro(Route, int);
   ///@}
 
-  /**
-   * Who draws conservative maps, for techniques that have them. CPU: all its cores. GPU: compute
-   * shaders of OpenGL 4.3. AUTO: the CPU, as compute shaders are not measured faster.
-   */
-  enum RasterizerType
-  {
-    RASTERIZER_AUTO = 0,
-    RASTERIZER_CPU = 1,
-    RASTERIZER_GPU = 2
-  };
-
-  ///@{
-  /**
-   * The rasterizer to take, for all lights alike. Both draw the same maps. The CPU draws what GPU
-   * does not (`silhouette`, and maps as published), and the report says so.
-   *
-   * Asking for GPU where OpenGL cannot, fails, or has no room for the map, is an error, and the
-   * scene is drawn without shadows. Default RASTERIZER_AUTO.
-   */
-  vtkSetClampMacro(Rasterizer, int, RASTERIZER_AUTO, RASTERIZER_GPU);
-  vtkGetMacro(Rasterizer, int);
-  ///@}
-
   ///@{
   /**
    * Whether shadow rays start on the curved surface that normals of points imply, where facets are
@@ -407,7 +384,6 @@ protected:
   ~vtkGnomonShadowPass() override;
 
   int Route = ROUTE_AUTO;
-  int Rasterizer = RASTERIZER_AUTO;
   bool SmoothTerminators = true;
   int Interactive = INTERACTIVE_AUTO;
   double MaximumError = 0.005;

@@ -135,7 +135,6 @@ void addCompareCommand(CLI::App& app)
       "Routes of pointwise techniques: inline (in VTK's shaders), image (from a prepass), all. By "
       "default all; default techniques take their usual route: inline, or image for slow ones")
     ->check(CLI::IsMember({ "all", "inline", "image" }));
-  addRasterizerOption(*command, options->plan.rasterizer);
   command->callback([options] { compare(*options); });
 }
 

@@ -127,7 +127,6 @@ std::vector<VariantSpec> listVariants(
       leftOut.push_back(text + " is left out: " + error.what() + ".");
       continue;
     }
-    spec.rasterizer = plan.rasterizer;
     spec.pointwise = info->isPointwise();
     for (int size : info->bakesMap() ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {

@@ -26,7 +26,6 @@ struct ComparisonPlan
   bool usualRoute = false;
   bool inlineRoute = true; ///< for pointwise techniques
   bool imageRoute = true;  ///< for pointwise techniques
-  int rasterizer = 0;      ///< a vtkGnomonShadowPass::RasterizerType, for conservative maps
   int width = 1024;
   int height = 1024;
   int frames = 21;         ///< timed frames per variant and motion; 0: errors only

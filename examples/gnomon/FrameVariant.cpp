@@ -131,7 +131,6 @@ void setUp(vtkGnomonShadowPass* pass, const VariantSpec& spec)
   pass->SetSettings(nullptr);
   pass->SetTechnique(spec.technique.c_str());
   pass->SetRoute(spec.route);
-  pass->SetRasterizer(spec.rasterizer);
   pass->SmoothTerminatorsOff(); // all techniques are compared on the triangles
   if (spec.mapSizeTexels > 0)
   {

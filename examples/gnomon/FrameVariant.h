@@ -28,7 +28,6 @@ struct VariantSpec
   bool pointwise = false; ///< true if the technique has two routes
   /// Other settings of the lights' shadows, by name (lights/ShadowSettings.h).
   std::map<std::string, std::string> settings = {};
-  int rasterizer = vtkGnomonShadowPass::RASTERIZER_AUTO;
 
   bool isGnomon() const
   {

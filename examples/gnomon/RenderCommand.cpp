@@ -51,7 +51,6 @@ struct RenderOptions
   std::string size = "1024x1024";
   std::map<std::string, std::string> settings; ///< of all lights, by name; empty values: not given
   std::string route = "auto";
-  int rasterizer = vtkGnomonShadowPass::RASTERIZER_AUTO;
   bool shadeSamples = false;
   std::vector<std::string> lights;
   std::string camera;
@@ -301,10 +300,6 @@ std::map<std::string, std::string> makeHeader(
     const std::string prefix = "light." + std::to_string(light.sceneIndex);
     header[prefix + ".technique"] = light.casts ? light.technique : "none: " + light.reason;
     header[prefix + ".map_size_texels"] = std::to_string(light.mapSizeTexels);
-    if (!light.rasterizer.empty())
-    {
-      header[prefix + ".rasterizer"] = light.rasterizer;
-    }
     if (!light.fit.empty())
     {
       header[prefix + ".fit"] = light.fit;
@@ -378,7 +373,6 @@ void render(const RenderOptions& options)
       : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE
       : options.route == "deferred"           ? vtkGnomonShadowPass::ROUTE_DEFERRED
                                               : vtkGnomonShadowPass::ROUTE_AUTO);
-  shadows->SetRasterizer(options.rasterizer);
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
   const bool givesVisibility = !options.visibility.empty() || !options.classes.empty();
   shadows->SetKeepVisibility(givesVisibility);
@@ -492,7 +486,6 @@ void addRenderCommand(CLI::App& app)
       "How visibility reaches the picture: inline, image, deferred, auto")
     ->check(CLI::IsMember({ "inline", "image", "deferred", "auto" }))
     ->capture_default_str();
-  addRasterizerOption(*command, options->rasterizer);
   command->add_flag("--shade-samples", options->shadeSamples,
     "Shade from each point of an area light (--light-samples points, --progressive of them per "
     "frame) with its hard shadows, and show the mean. By default, shade from the centre, times the "

@@ -1,6 +1,5 @@
 #include "SettingOptions.h"
 
-#include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 
 #include <algorithm>
@@ -15,17 +14,6 @@ std::string refuse(const Setting& setting, const std::string& text)
 {
   ShadowSettings scratch;
   return setting.set(scratch, text) ? "" : "found \"" + text + "\", expected " + setting.expected();
-}
-
-/// Add an option whose value is one of these names.
-void addChoice(CLI::App& command, const std::string& option,
-  const std::map<std::string, int>& choices, int& choice, const std::string& help)
-{
-  command
-    .add_option_function<std::string>(
-      option, [&choice, &choices](const std::string& name) { choice = choices.at(name); }, help)
-    ->check(CLI::IsMember(choices))
-    ->default_str("auto");
 }
 
 } // namespace
@@ -76,17 +64,6 @@ void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& va
         ->group(headingOf(*table));
     }
   }
-}
-
-//------------------------------------------------------------------------------
-void addRasterizerOption(CLI::App& command, int& rasterizer)
-{
-  static const std::map<std::string, int> rasterizers = {
-    { "auto", vtkGnomonShadowPass::RASTERIZER_AUTO },
-    { "cpu", vtkGnomonShadowPass::RASTERIZER_CPU }, { "gpu", vtkGnomonShadowPass::RASTERIZER_GPU }
-  };
-  addChoice(command, "--rasterizer", rasterizers, rasterizer,
-    "Rasterizer of conservative maps: cpu, gpu (compute shaders), auto (cpu)");
 }
 
 } // namespace gnomon::tool

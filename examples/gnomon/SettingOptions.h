@@ -30,8 +30,4 @@ std::string headingOf(const SettingsTable& table);
 void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& values,
   const std::vector<std::string>& without = {});
 
-/// Add the option "--rasterizer" to a command.
-/// @param rasterizer receives a vtkGnomonShadowPass::RasterizerType; must outlive the command
-void addRasterizerOption(CLI::App& command, int& rasterizer);
-
 } // namespace gnomon::tool

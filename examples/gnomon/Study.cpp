@@ -47,8 +47,7 @@ Json describe(const StudyCase& of, const ComparisonPlan& plan)
   return { { "scene", of.scene }, { "view", of.view }, { "version", GNOMON_VERSION },
     { "techniques", plan.techniques }, { "settings", plan.settings },
     { "map_sizes", plan.mapSizesTexels }, { "width", plan.width }, { "height", plan.height },
-    { "frames", plan.frames }, { "truth_samples", plan.truthSamples },
-    { "rasterizer", plan.rasterizer } };
+    { "frames", plan.frames }, { "truth_samples", plan.truthSamples } };
 }
 
 fs::path folderOf(const std::string& folder, const StudyCase& of)

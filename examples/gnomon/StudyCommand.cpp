@@ -171,7 +171,6 @@ void addStudyCommand(CLI::App& app)
     ->check(CLI::Range(1, 65536))
     ->capture_default_str()
     ->excludes(quick);
-  addRasterizerOption(*command, comparison.rasterizer);
   command->callback([options] { study(*options); });
 }
 

@@ -16,19 +16,10 @@ enum class RouteWish
   Deferred
 };
 
-/// Requested rasterizer of conservative maps.
-enum class RasterizerWish
-{
-  Auto,
-  Cpu,
-  Gpu
-};
-
 /// The pass's settings for a frame.
 struct FrameWishes
 {
   RouteWish route = RouteWish::Auto;
-  RasterizerWish rasterizer = RasterizerWish::Auto;
   bool keepVisibility = false; ///< true if visibility is asked for as data
   bool measureStages = false;
   bool isShared = false;     ///< true if several processes draw the picture

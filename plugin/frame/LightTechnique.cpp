@@ -111,15 +111,11 @@ void LightTechnique::updateMaps(
   }
   const std::string changes = this->baked_.changesTo(wanted);
   stage.report.values.push_back({ "maps of " + nameOf(light), changes.empty(), changes });
-  if (changes.empty())
-  {
-    this->baked_.rasterizer = wanted.rasterizer; // its reason may differ for the same rasterizer
-  }
-  else
+  if (!changes.empty())
   {
     this->bake(light, stage, std::move(wanted));
   }
-  this->baked_.tell(report);
+  report.castersLeftOut = this->baked_.castersLeftOut;
 }
 
 //------------------------------------------------------------------------------
@@ -162,19 +158,12 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
   const MapReach reach = this->technique().mapReach(light);
   wanted.views = this->layOut(light, stage, reach);
   wanted.camera = this->fitting_.camera;
-  if (this->info().conservativeMap)
-  {
-    wanted.rasterizer = this->info().onlyCpuDraws.empty()
-      ? stage.rasterizer
-      : RasterizerChoice{ false, this->info().onlyCpuDraws };
-  }
   wanted.key.emplace();
   wanted.key->add("its views", wanted.views);
   wanted.key->add("their reach", reach);
   wanted.key->add("its settings", valuesOf(this->info(), SettingsOf::Map, light));
   wanted.key->add(
     "the casters", std::pair(stage.occluders.topologyVersion, stage.occluders.positionsVersion));
-  wanted.key->add("their rasterizer", wanted.isDrawnOnGpu());
   if (light.fittedToReceivers)
   {
     wanted.key->add("the receivers", stage.receiversNumber);
@@ -187,7 +176,7 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
 void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake wanted)
 {
   this->baked_.key.reset(); // stays empty if memory runs out
-  const bool onCpu = wanted.rasterizer && !wanted.isDrawnOnGpu();
+  const bool onCpu = this->info().conservativeMap;
   if (!onCpu)
   {
     stage.buffers.update(stage.occluders);
@@ -199,9 +188,8 @@ void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake 
         stage.receivers.height() },
       stage.centredFromView, stage.shaders);
   }
-  MapInput input{ light, wanted.views, stage.occluders, stage.buffers, stage.shaders,
+  const MapInput input{ light, wanted.views, stage.occluders, stage.buffers, stage.shaders,
     light.fittedToReceivers ? this->receiverFit_.fits() : TextureBinding() };
-  input.drawsOnGpu = wanted.isDrawnOnGpu();
   namingLight(light, [&] { this->technique().bake(input); });
   wanted.castersLeftOut = onCpu ? 0 : stage.buffers.countUnseen(wanted.views.views);
   this->baked_ = std::move(wanted);
@@ -212,17 +200,6 @@ void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake 
 std::string LightTechnique::Bake::changesTo(const Bake& wanted) const
 {
   return this->key ? wanted.key->changesFrom(*this->key) : "there were none";
-}
-
-//------------------------------------------------------------------------------
-void LightTechnique::Bake::tell(LightReport& report) const
-{
-  report.castersLeftOut = this->castersLeftOut;
-  if (this->rasterizer)
-  {
-    report.rasterizer = this->rasterizer->gpu ? "gpu" : "cpu";
-    report.rasterizerReason = this->rasterizer->reason;
-  }
 }
 
 } // namespace gnomon

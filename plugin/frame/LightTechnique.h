@@ -5,7 +5,6 @@
 #include "lights/MapReach.h"
 #include "lights/ShadowLight.h"
 #include "plugin/frame/BakeBackoff.h"
-#include "plugin/frame/MapRasterizer.h"
 #include "plugin/frame/Route.h"
 #include "plugin/frame/ValueKey.h"
 #include "shadowtech/Registry.h"
@@ -27,8 +26,7 @@ struct MapStage
 {
   const CameraView& camera;
   const Occluders& occluders;
-  OccluderBuffers& buffers;    ///< updated to the occluders when a map is baked
-  RasterizerChoice rasterizer; ///< of conservative maps
+  OccluderBuffers& buffers; ///< updated to the occluders when a map is baked
   ShaderLibrary& shaders;
   ///@{
   /// For views fitted to receivers (ShadowLight::fittedToReceivers).
@@ -84,14 +82,10 @@ private:
     std::optional<ValueKey> key; ///< none: there are no maps, or baking failed half way
     LightViews views;
     std::optional<CameraView> camera; ///< to which the views were fitted
-    /// The rasterizer of a conservative map; none for other maps.
-    std::optional<RasterizerChoice> rasterizer;
     int castersLeftOut = 0;
 
     /// Return the inputs that differ from those of these maps; empty if they can be reused.
     std::string changesTo(const Bake& wanted) const;
-    void tell(LightReport& report) const;
-    bool isDrawnOnGpu() const { return this->rasterizer && this->rasterizer->gpu; }
   };
 
   std::string reasonAgainstReceivers(

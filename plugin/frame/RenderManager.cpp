@@ -5,7 +5,6 @@
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/base/GlState.h"
-#include "shadowtech/exact/CellTarget.h"
 
 #include <vtkMapper.h>
 #include <vtkOpenGLRenderWindow.h>
@@ -513,13 +512,7 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
 /// What the lights' maps are drawn from.
 MapStage RenderManager::mapStage()
 {
-  RasterizerChoice rasterizer;
-  if (this->frame_.lights.anyTechnique(
-        [](const TechniqueInfo& info) { return info.conservativeMap; }))
-  {
-    rasterizer = chooseRasterizer(this->frame_.wishes.rasterizer, CellTarget::whyUnsupported());
-  }
-  return { this->frame_.camera, this->collector_.occluders(), this->buffers_, rasterizer,
+  return { this->frame_.camera, this->collector_.occluders(), this->buffers_,
     this->programs_.library, this->frame_.view->receivers.target,
     this->frame_.space.centredFromView, this->frame_.view->receivers.number, this->frame_.report };
 }

@@ -2,7 +2,6 @@
 
 #include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/Frame.h"
-#include "plugin/frame/MapRasterizer.h"
 #include "plugin/frame/ShaderManager.h"
 #include "plugin/frame/TechniqueChoice.h"
 #include "plugin/frame/TriangleNumbers.h"
@@ -82,7 +81,7 @@ public:
   void updateReceivers(const vtkRenderState* s, vtkObjectBase* pass);
 
   /// maps: bakes what is stale, for lights whose visibility is computed in this frame.
-  /// @throws std::runtime_error for a rasterizer that there is not
+  /// @throws TextureMemoryError for maps without room
   void bakeMaps();
 
   /// visibility (image route): fills the layers of the lights whose visibility is another one than

@@ -37,7 +37,6 @@ Json jsonOf(const LightReport& light)
     { "projection", light.projection }, { "map_size_texels", light.mapSizeTexels },
     { "budget_reason", light.budgetReason }, { "fit", light.fit },
     { "fit_reason", light.fitReason }, { "map_reason", light.mapReason },
-    { "rasterizer", light.rasterizer }, { "rasterizer_reason", light.rasterizerReason },
     { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
     { "kernel_size_texels", light.kernelTexels }, { "map_samples", light.mapSamples },
     { "traced_pixels", light.tracedPixels }, { "rays", light.rays },

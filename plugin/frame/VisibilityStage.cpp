@@ -99,10 +99,6 @@ ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
   key.add("its technique", std::pair(&casting.own.estimator(), casting.light.fittedToReceivers));
   key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light));
   key.add("its layer", std::pair(casting.layer, casting.bit));
-  if (info.conservativeMap)
-  {
-    key.add("the rasterizer", this->frame_.wishes.rasterizer); // which the report names
-  }
   return key;
 }
 

@@ -5,6 +5,7 @@
 #include "vtkActor.h"
 #include "vtkLODActor.h"
 #include "vtkMapperCollection.h"
+#include "vtkPolyDataMapper.h"
 #include "vtkQuadricLODActor.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"

@@ -58,9 +58,7 @@ struct TechniqueInfo
   bool isSlow = false;
   /// True if it shows the same without its map. The map saves time if it serves several frames.
   bool mapIsOptional = false;
-  bool conservativeMap = false; ///< its map is a conservative one
-  /// Why this map needs the CPU, as a clause; empty if the GPU can bake it.
-  std::string onlyCpuDraws = {};
+  bool conservativeMap = false; ///< its map is a conservative one, which the CPU bakes
   /// The kernel's name in the report, for a technique with a filter; empty: the value of the
   /// setting `kernel`.
   std::string kernel = {};
@@ -137,8 +135,6 @@ struct MapInput
   TextureBinding viewFits = {};
   /// A plane (n, d) in centred coordinates: only the part of the casters with n.p + d >= 0 counts.
   std::optional<glm::dvec4> keptFromCentred = std::nullopt;
-  /// True: compute shaders bake a conservative map; false: the CPU.
-  bool drawsOnGpu = false;
 };
 
 /// The input of a screen technique that draws one light's visibility image on the GPU.

@@ -139,28 +139,6 @@ std::string offerSmaller(int sizeTexels, const IsRoom& isRoom)
   return "; " + std::to_string(side) + " x " + std::to_string(side) + " fits";
 }
 
-/// Check that shaders can read so many bytes from one buffer, and that the machine has them.
-/// @param what names the buffer in the error
-void requireRoomForStorage(std::size_t bytes, const char* what)
-{
-  const auto megabytes = [](double of)
-  { return std::to_string(static_cast<long>(of / 1e6)) + " MB"; };
-  const auto asked = static_cast<double>(bytes);
-  GLint64 most = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  if (asked > static_cast<double>(most))
-  {
-    throw TextureMemoryError(std::string(what) + " need " + megabytes(asked) +
-      " in one buffer, but shaders of this OpenGL read at most " +
-      megabytes(static_cast<double>(most)));
-  }
-  if (asked > largestTextureShare * availableBytes())
-  {
-    throw TextureMemoryError(
-      std::string(what) + " need " + megabytes(asked) + " of memory, which is not available");
-  }
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -256,24 +234,6 @@ void allocateSamples(
       std::to_string(sizeTexels) + " with " + std::to_string(samplesPerTexel) +
       " samples of a texel needs " + std::to_string(static_cast<long>(bytes / 1e6)) +
       " MB, which is not available");
-  }
-}
-
-//------------------------------------------------------------------------------
-void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what)
-{
-  buffer.reset(); // frees its memory first
-  requireRoomForStorage(bytes, what);
-  clearErrors();
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.create());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
-  if (glGetError() != GL_NO_ERROR)
-  {
-    clearErrors();
-    buffer.reset();
-    throw TextureMemoryError(std::string(what) + " need " +
-      std::to_string(static_cast<long>(static_cast<double>(bytes) / 1e6)) +
-      " MB of memory, which OpenGL cannot allocate");
   }
 }
 

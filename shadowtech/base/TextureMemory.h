@@ -59,12 +59,4 @@ int mostMapSamples();
 void allocateSamples(
   GlRenderbuffer& samples, const TexelFormat& format, int sizeTexels, int samplesPerTexel);
 
-/// Allocate and fill a buffer that shaders read; it is bound to GL_SHADER_STORAGE_BUFFER
-/// afterwards.
-/// @param bytes > 0
-/// @param data null: leave the contents undefined
-/// @param what names the buffer in the error
-/// @throws TextureMemoryError; the buffer is then without memory
-void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what);
-
 } // namespace gnomon

@@ -41,10 +41,6 @@ struct LightReport
   std::string fitReason; ///< why it is the frustum; else empty
   /// Why its optional map is unused; empty if it is used.
   std::string mapReason;
-  /// Where its conservative map was baked: "cpu" or "gpu". Empty if its map is another one, or
-  /// unused.
-  std::string rasterizer;
-  std::string rasterizerReason; ///< why there, as a clause
   /// Casting surfaces outside of all its views; 0 if the CPU bakes the map.
   int castersLeftOut = 0;
   /// The filter's kernel: a value of the setting `kernel`, or "disc" (adaptive), "square" (maps of

@@ -3,7 +3,6 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/exact/CellsOnCpu.h"
-#include "shadowtech/exact/CellsOnGpu.h"
 
 #include <glm/gtc/matrix_access.hpp>
 #include <tbb/parallel_for.h>
@@ -127,10 +126,10 @@ LookUp lookUpOf(const CasterScene& scene, const LightView& view)
 }
 
 //------------------------------------------------------------------------------
-MapRule certainRule(Covering covering, const CellsOnGpu* gpu)
+MapRule certainRule(Covering covering)
 {
-  return [covering, gpu](const LightView& view, bool hasBox, int sizeTexels,
-           const Occluders& occluders, const CasterEdges& edges)
+  return [covering](const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders,
+           const CasterEdges& edges)
   {
     const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
     LookUp lookUp = lookUpOf(scene, view);
@@ -140,9 +139,7 @@ MapRule certainRule(Covering covering, const CellsOnGpu* gpu)
     std::vector<TexelBounds> texels(
       static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
     const TakeCell take = [&](std::size_t i, const Cell& cell) { texels[i] = boundsOf(cell); };
-    const bool certain = gpu ? gpu->draw(scene, edges, sizeTexels, covering, take)
-                             : drawCellsOnCpu(scene, edges, sizeTexels, covering, take);
-    if (!certain)
+    if (!drawCellsOnCpu(scene, edges, sizeTexels, covering, take))
     {
       texels = {};
     }

@@ -18,7 +18,6 @@ namespace gnomon
 {
 
 class CasterEdges;
-class CellsOnGpu;
 struct ReceiverPixels;
 
 /// What a texel decides about receivers in it, by their depth (ConservativeMap).
@@ -118,9 +117,7 @@ using MapRule = std::function<ConservativeMap(const LightView& view, bool hasBox
 
 /// Return the rule that is never wrong about a shadow ray, rounding included.
 /// docs/theory/exact_maps.md proves it.
-/// @param gpu bakes the maps; null for the CPU. `Covering::Silhouette` needs null, as its parts
-/// must be rasterized one after another.
-MapRule certainRule(Covering covering, const CellsOnGpu* gpu = nullptr);
+MapRule certainRule(Covering covering);
 
 /// Return the lookup of exact positions, with no slack for rounding.
 LookUp lookUpOf(const CasterScene& scene, const LightView& view);

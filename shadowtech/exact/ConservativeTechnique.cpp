@@ -1,7 +1,6 @@
 #include "shadowtech/exact/ConservativeTechnique.h"
 
 #include "shadowtech/base/BakeSettings.h"
-#include "shadowtech/exact/CellsOnGpu.h"
 #include "shadowtech/tracing/EdgeSettings.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
@@ -24,9 +23,7 @@ TechniqueInfo infoOfExact(const std::string& name)
 //------------------------------------------------------------------------------
 void ConservativeTechnique::bake(const MapInput& input)
 {
-  const CellsOnGpu cells(input.shaders);
-  this->maps_.bake(input.light, input.views, input.occluders,
-    this->rule_(input.light, input.drawsOnGpu ? &cells : nullptr));
+  this->maps_.bake(input.light, input.views, input.occluders, this->rule_(input.light));
 }
 
 //------------------------------------------------------------------------------

@@ -8,11 +8,8 @@
 namespace gnomon
 {
 
-class CellsOnGpu;
-
 /// Returns how to bake a technique's maps for a light's settings.
-/// @param gpu bakes them, unless the technique needs the CPU; null for the CPU
-using RuleOfSettings = MapRule (*)(const ShadowSettings& settings, const CellsOnGpu* gpu);
+using RuleOfSettings = MapRule (*)(const ShadowSettings& settings);
 
 /// Conservative maps decide which receivers are certainly lit or in shadow. All others get their
 /// shadow ray.

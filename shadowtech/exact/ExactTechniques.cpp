@@ -24,13 +24,6 @@ TechniqueInfo infoOfCrsma()
   return info;
 }
 
-TechniqueInfo infoOfSilhouette()
-{
-  TechniqueInfo info = infoOfExact("silhouette");
-  info.onlyCpuDraws = "parts of the casters' surface are drawn one after another";
-  return info;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -48,17 +41,15 @@ const SettingsTable& crsmaSettings()
 const std::vector<ConservativeEntry>& exactTechniques()
 {
   static const std::vector<ConservativeEntry> entries = {
-    { infoOfCrsm(),
-      [](const ShadowSettings&, const CellsOnGpu* gpu)
-      { return certainRule(Covering::Triangle, gpu); } },
+    { infoOfCrsm(), [](const ShadowSettings&) { return certainRule(Covering::Triangle); } },
     { infoOfCrsma(),
-      [](const ShadowSettings& settings, const CellsOnGpu* gpu)
+      [](const ShadowSettings& settings)
       {
         const bool fan = settings.of<CrsmaSettings>().ring == AdjacencyRing::Vertices;
-        return certainRule(fan ? Covering::Fan : Covering::Ring, gpu);
+        return certainRule(fan ? Covering::Fan : Covering::Ring);
       } },
-    { infoOfSilhouette(),
-      [](const ShadowSettings&, const CellsOnGpu*) { return certainRule(Covering::Silhouette); } },
+    { infoOfExact("silhouette"),
+      [](const ShadowSettings&) { return certainRule(Covering::Silhouette); } },
   };
   return entries;
 }

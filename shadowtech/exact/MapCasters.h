@@ -23,8 +23,8 @@ enum class Covering
   Silhouette
 };
 
-/// The content of a conservative map for either rasterizer: triangles of casters, ends and sharp
-/// edges, and rings around triangles. Only the facing of triangles is computed up front.
+/// The content of a conservative map: triangles of casters, ends and sharp edges, and rings around
+/// triangles. Only the facing of triangles is computed up front.
 class MapCasters
 {
 public:

@@ -5,18 +5,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <cstddef>
 
 namespace gnomon
 {
 
 /// @file
-/// Finds the texels that polygons and edges meet, row by row. The CPU converts each shape once to a
-/// record, which shaders read as it lies in memory.
-///
-/// The rows are found here, or by the twins in texel_shapes.glsl. Neither divides nor fuses
-/// operations, so both get the same texels and depths to the last bit. That takes OpenGL that
-/// rounds to nearest even. GLSL does not promise it, so the tests check each driver.
+/// Finds the texels that polygons and edges meet, row by row. Rows do without division, so a row
+/// costs a multiplication per side.
 
 /// Offset from a texel's centre of the sample at which layers are counted, in texels. Edges of
 /// regular casters often pass through centres.
@@ -24,37 +20,6 @@ constexpr double sampleOffset = 1.0 / 61.0;
 /// Width, in texels, by which triangles grow at samples. A sample on an edge then counts in both
 /// triangles rather than in none.
 constexpr double sampleOnEdge = 1e-6;
-
-/// A side of a polygon: nx x + ny y + c >= 0 inside, with a unit normal.
-struct SideRecord
-{
-  double perNx; ///< boundPerRest(nx)
-  double ny, c;
-  double support; ///< how far a texel reaches along the normal
-};
-
-/// A convex polygon, in the layout of the shaders.
-struct PolygonRecord
-{
-  ///@{ Bounds of the centres of texels that it meets, and of its own x, in texels.
-  double touchedLeft, touchedRight;
-  double left, right;
-  ///@}
-  ///@{ Its plane: depth at a point, and its change per texel.
-  double originX, originY, originDepth;
-  double perX, perY;
-  ///@}
-  double toSample;      ///< change of depth from a texel's middle to its sample
-  double spread;        ///< the most that depth changes from a texel's middle to anywhere in it
-  float least, most;    ///< depths of its corners
-  float climb;          ///< the most that depth changes from anywhere in a texel to its sample
-  float slack;          ///< how far off its plane a tracer may see it, as depth
-  float noise;          ///< the same in world units
-  std::uint32_t covers; ///< 1 if it blocks every ray through its inside, else 0
-  std::uint32_t firstSide, sideCount;
-  std::int32_t firstRow, lastRow; ///< rows that it may meet
-};
-static_assert(sizeof(SideRecord) == 32 && sizeof(PolygonRecord) == 128, "as shaders read them");
 
 /// A convex polygon on the grid of texels.
 class PolygonOnTexels
@@ -65,7 +30,7 @@ public:
   PolygonOnTexels(const MapPolygon& polygon, double margin, Span rows);
 
   /// Return the rows that it may meet.
-  Span rows() const { return { this->record_.firstRow, this->record_.lastRow }; }
+  Span rows() const { return { this->firstRow_, this->lastRow_ }; }
 
   /// The polygon's spans in a row of texels.
   struct Row
@@ -81,54 +46,56 @@ public:
   /// Return bounds on its depth in a texel that it touches, and its depth at the sample.
   float nearest(const Row& row, int x) const
   {
-    return std::max(this->record_.least,
-             static_cast<float>(this->depthAt(row, x) - this->record_.spread)) -
-      this->record_.slack;
+    return std::max(this->least_, static_cast<float>(this->depthAt(row, x) - this->spread_)) -
+      this->slack_;
   }
   float farthest(const Row& row, int x) const
   {
-    return std::min(
-             this->record_.most, static_cast<float>(this->depthAt(row, x) + this->record_.spread)) +
-      this->record_.slack;
+    return std::min(this->most_, static_cast<float>(this->depthAt(row, x) + this->spread_)) +
+      this->slack_;
   }
   float atSample(const Row& row, int x) const
   {
-    return static_cast<float>(this->depthAt(row, x) + this->record_.toSample);
+    return static_cast<float>(this->depthAt(row, x) + this->toSample_);
   }
   ///@}
 
   /// Return the most that its depth changes from anywhere in a texel to the sample.
-  float climb() const { return this->record_.climb; }
+  float climb() const { return this->climb_; }
 
   /// Return how far off its plane a tracer may see it, in world units.
-  float noise() const { return this->record_.noise; }
-
-  /// Return the record for shaders. The caller fills in its first side.
-  const PolygonRecord& record() const { return this->record_; }
-  const SideRecord* sides() const { return this->sides_.data(); }
+  float noise() const { return this->noise_; }
 
 private:
-  double depthAt(const Row& row, int x) const { return row.depth + this->record_.perX * x; }
+  /// A side: nx x + ny y + c >= 0 inside, with a unit normal.
+  struct Side
+  {
+    double perNx; ///< boundPerRest(nx)
+    double ny, c;
+    double support; ///< how far a texel reaches along the normal
+  };
+
+  double depthAt(const Row& row, int x) const { return row.depth + this->perX_ * x; }
   void findSides(const MapPolygon& polygon, double orientation, double margin);
 
-  PolygonRecord record_;
-  std::array<SideRecord, mostCorners> sides_;
+  ///@{ Bounds of the centres of texels that it meets, and of its own x, in texels.
+  double touchedLeft_, touchedRight_;
+  double left_, right_;
+  ///@}
+  ///@{ Its plane: depth at a point, and its change per texel.
+  double originX_, originY_, originDepth_;
+  double perX_, perY_;
+  ///@}
+  double toSample_;        ///< change of depth from a texel's middle to its sample
+  double spread_;          ///< the most that depth changes from a texel's middle to anywhere in it
+  float least_, most_;     ///< depths of its corners
+  float climb_;            ///< the most that depth changes from anywhere in a texel to its sample
+  float slack_;            ///< how far off its plane a tracer may see it, as depth
+  float noise_;            ///< the same in world units
+  int firstRow_, lastRow_; ///< rows that it may meet
+  std::size_t sideCount_;
+  std::array<Side, mostCorners> sides_;
 };
-
-/// An edge, in the layout of the shaders.
-struct SegmentRecord
-{
-  double x, y, depth; ///< its first end
-  double alongX;      ///< from the first end to the second
-  double alongDepth;
-  double perX, perY; ///< share of its length per texel; 0 if it does not run that way
-  double margin;     ///< by which each texel grows
-  double slack;      ///< how much nearer its depth may be; may be infinite
-  std::uint32_t isEnd;
-  std::int32_t firstRow, lastRow; ///< rows that it may meet
-  std::uint32_t unused = 0;
-};
-static_assert(sizeof(SegmentRecord) == 88, "as shaders read it");
 
 /// An edge on the grid of texels.
 class SegmentOnTexels
@@ -139,37 +106,35 @@ public:
   SegmentOnTexels(const MapSegment& segment, double margin, Span rows);
 
   /// Return the rows that it may meet.
-  Span rows() const { return { this->record_.firstRow, this->record_.lastRow }; }
+  Span rows() const { return { this->firstRow_, this->lastRow_ }; }
 
   /// Visit the texels that it meets in one of its rows.
   /// @param visit called with the column and the edge's least depth there
   template <typename Visit>
   void visitRow(int y, int width, const Visit& visit) const
   {
-    const SegmentRecord& s = this->record_;
     Part ofRow{ 0.0, 1.0 };
-    if (!ofRow.keepBetween(s.y, s.perY, y - s.margin, y + 1.0 + s.margin))
+    if (!ofRow.keepBetween(this->y_, this->perY_, y - this->margin_, y + 1.0 + this->margin_))
     {
       return;
     }
-    const double x0 = s.x + ofRow.first * s.alongX;
-    const double x1 = s.x + ofRow.last * s.alongX;
-    const Span columns = spanOf(std::min(x0, x1) - s.margin, std::max(x0, x1) + s.margin, width);
+    const double x0 = this->x_ + ofRow.first * this->alongX_;
+    const double x1 = this->x_ + ofRow.last * this->alongX_;
+    const Span columns =
+      spanOf(std::min(x0, x1) - this->margin_, std::max(x0, x1) + this->margin_, width);
     for (int x = columns.first; x <= columns.last; ++x)
     {
       Part part = ofRow;
-      if (part.keepBetween(s.x, s.perX, x - s.margin, x + 1.0 + s.margin))
+      if (part.keepBetween(this->x_, this->perX_, x - this->margin_, x + 1.0 + this->margin_))
       {
         // -infinity if slack is infinite
         visit(x,
-          static_cast<float>(
-            s.depth + std::min(part.first * s.alongDepth, part.last * s.alongDepth) - s.slack));
+          static_cast<float>(this->depth_ +
+            std::min(part.first * this->alongDepth_, part.last * this->alongDepth_) -
+            this->slack_));
       }
     }
   }
-
-  /// Return the record for shaders.
-  const SegmentRecord& record() const { return this->record_; }
 
 private:
   /// A part of the edge, from 0 at its first end to 1.
@@ -195,7 +160,13 @@ private:
     }
   };
 
-  SegmentRecord record_;
+  double x_, y_, depth_; ///< its first end
+  double alongX_;        ///< from the first end to the second
+  double alongDepth_;
+  double perX_, perY_;     ///< share of its length per texel; 0 if it does not run that way
+  double margin_;          ///< by which each texel grows
+  double slack_;           ///< how much nearer its depth may be; may be infinite
+  int firstRow_, lastRow_; ///< rows that it may meet
 };
 
 } // namespace gnomon

@@ -77,45 +77,6 @@ public:
           });
       });
   }
-  /// Visit items of all placements in parts, so that results can be consumed part by part.
-  /// @param finishPart called by the calling thread after each part, the last one included
-  template <typename CountOf, typename Visit, typename FinishPart>
-  void visitInParts(const CountOf& countOf, const Visit& visit, const FinishPart& finishPart) const
-  {
-    constexpr std::uint32_t mostOfRange = 1024;
-    constexpr std::size_t rangesOfPart = 128;
-    struct Range
-    {
-      std::uint32_t placement, first, last;
-    };
-    std::vector<Range> part;
-    const auto visitPart = [&]
-    {
-      tbb::parallel_for(std::size_t(0), part.size(),
-        [&](std::size_t i)
-        {
-          for (std::uint32_t thing = part[i].first; thing < part[i].last; ++thing)
-          {
-            visit(part[i].placement, thing);
-          }
-        });
-      part.clear();
-      finishPart();
-    };
-    for (std::uint32_t placement = 0; placement < this->placements_.size(); ++placement)
-    {
-      const auto count = static_cast<std::uint32_t>(countOf(this->placements_[placement]));
-      for (std::uint32_t first = 0; first < count; first += mostOfRange)
-      {
-        part.push_back({ placement, first, std::min(first + mostOfRange, count) });
-        if (part.size() == rangesOfPart)
-        {
-          visitPart();
-        }
-      }
-    }
-    visitPart();
-  }
   /// Visit all casting triangles by their numbers in the snapshot, once per placement.
   template <typename Visit>
   void visitTriangles(const Visit& visit) const

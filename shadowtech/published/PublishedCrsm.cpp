@@ -15,7 +15,6 @@ TechniqueInfo infoOfPublished(const std::string& name)
   info.asPublished = name;
   info.exact = false;
   info.mapIsOptional = false;
-  info.onlyCpuDraws = onlyCpuDrawsPublished;
   return info;
 }
 
@@ -26,11 +25,9 @@ const std::vector<ConservativeEntry>& publishedCrsm()
 {
   static const std::vector<ConservativeEntry> entries = {
     { infoOfPublished("crsm_as_published"),
-      [](const ShadowSettings&, const CellsOnGpu*)
-      { return publishedRule(PublishedLayers::Crsm); } },
+      [](const ShadowSettings&) { return publishedRule(PublishedLayers::Crsm); } },
     { infoOfPublished("crsma_as_published"),
-      [](const ShadowSettings&, const CellsOnGpu*)
-      { return publishedRule(PublishedLayers::Crsma); } },
+      [](const ShadowSettings&) { return publishedRule(PublishedLayers::Crsma); } },
   };
   return entries;
 }

@@ -75,8 +75,4 @@ enum class PublishedLayers
 /// face the light where they cast. A map with a caster at the light itself decides nothing.
 MapRule publishedRule(PublishedLayers layers);
 
-/// TechniqueInfo::onlyCpuDraws of published maps.
-constexpr const char* onlyCpuDrawsPublished =
-  "maps by the letter of the publication are drawn by the CPU alone";
-
 } // namespace gnomon

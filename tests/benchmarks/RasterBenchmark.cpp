@@ -1,6 +1,5 @@
-// Compare conservative maps baked on the CPU and on the GPU: whole maps, from the snapshot to the
-// pixels' queries. Both take turns. Also measure finding the casters' edges, and updating them
-// after all casters have moved.
+// Measure conservative maps: whole maps, from the snapshot to the pixels' queries. Also measure
+// finding the casters' edges, and updating them after all casters have moved.
 
 #include "BenchmarkMain.h"
 #include "Machine.h"
@@ -8,14 +7,12 @@
 #include "SyntheticScene.h"
 #include "Timing.h"
 
+#include "lights/LightViews.h"
 #include "plugin/scene/OccluderCollector.h"
-#include "plugin/vtkGnomonEGLRenderWindow.h"
-#include "shadowtech/exact/CellsOnGpu.h"
 #include "shadowtech/exact/ConservativeMap.h"
 
 #include <CLI/CLI.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <vtkNew.h>
 
 #include <cstdint>
 #include <iostream>
@@ -31,7 +28,6 @@ struct Options
 {
   std::vector<std::string> scenes{ "bunny", "atrium", "terrain" };
   std::vector<int> mapSizes{ 512, 1024, 2048 };
-  std::string technique = "crsm";
   int repetitions = 21;
 };
 
@@ -104,39 +100,28 @@ void runEdges(const Subject& subject, const std::string& name, int repetitions)
   printTimes(ways, ways.front().name);
 }
 
-void runMaps(const Subject& subject, const std::string& name, int sizeTexels, Covering covering,
-  int repetitions, ShaderLibrary& shaders)
+void runMaps(const Subject& subject, const std::string& name, int sizeTexels, int repetitions)
 {
   const LightView view = subject.view(sizeTexels);
   std::vector<Way> ways;
-  const auto add = [&](const std::string& way, const CellsOnGpu* gpu)
+  const auto add = [&](const std::string& technique, Covering covering)
   {
-    ways.push_back({ way, [&view, &subject, sizeTexels, rule = certainRule(covering, gpu)] {
+    ways.push_back({ technique, [&view, &subject, sizeTexels, rule = certainRule(covering)] {
                       rule(view, false, sizeTexels, subject.occluders(), subject.edges());
                     } });
   };
-  add("cpu", nullptr);
-  const CellsOnGpu gpu(shaders);
-  const std::string why = CellTarget::whyUnsupported();
-  if (why.empty())
-  {
-    add("gpu", &gpu);
-  }
-  else
-  {
-    std::cout << "The GPU is not measured: " << why << "\n";
-  }
+  add("crsm", Covering::Triangle);
+  add("crsma", Covering::Ring);
+  add("silhouette", Covering::Silhouette);
   takeTurns(ways, repetitions);
   std::cout << name << ", " << CasterPlacements(subject.occluders()).triangleCount()
-            << " triangles, map " << sizeTexels << ", "
-            << (covering == Covering::Triangle ? "crsm" : "crsma") << "\n";
+            << " triangles, map " << sizeTexels << "\n";
   printTimes(ways, ways.front().name);
 }
 
 int runAll(int argc, char** argv)
 {
-  CLI::App app{ "Times conservative maps drawn by the processor and by OpenGL, taking turns, and "
-                "how casters' edges are found",
+  CLI::App app{ "Times conservative maps, and how casters' edges are found",
     "gnomon_benchmark_raster" };
   Options options;
   app.add_option("SCENES", options.scenes, "Scenes, as for gnomon, with a sun")
@@ -145,28 +130,19 @@ int runAll(int argc, char** argv)
     ->check(CLI::Range(16, 16384))
     ->delimiter(',')
     ->capture_default_str();
-  app.add_option("--technique", options.technique, "crsm or crsma")
-    ->check(CLI::IsMember({ "crsm", "crsma" }))
-    ->capture_default_str();
   app.add_option("--repetitions", options.repetitions, "Timed maps of each")
     ->check(CLI::Range(1, 10000))
     ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->Initialize();
-  window->MakeCurrent();
-  std::cout << tool::openGlName(window) << "; " << tool::processorName() << "; medians of "
-            << options.repetitions << "\n";
-  ShaderLibrary shaders;
-  const Covering covering = options.technique == "crsm" ? Covering::Triangle : Covering::Ring;
+  std::cout << tool::processorName() << "; medians of " << options.repetitions << "\n";
   for (const std::string& name : options.scenes)
   {
     const Subject subject(name);
     runEdges(subject, name, options.repetitions);
     for (const int size : options.mapSizes)
     {
-      runMaps(subject, name, size, covering, options.repetitions, shaders);
+      runMaps(subject, name, size, options.repetitions);
     }
   }
   return 0;

@@ -270,11 +270,9 @@ void FuzzScene::choosePass(Random& random)
   this->pass_->SetSmoothTerminators(chance(random, 0.3));
   this->pass_->SetKeepVisibility(chance(random, 0.7));
   this->pass_->SetRoute(chance(random, 0.7) ? 0 : static_cast<int>(random() % 4));
-  this->pass_->SetRasterizer(chance(random, 0.8) ? 0 : static_cast<int>(random() % 3));
   this->description_ += "pass: " + textOf(this->settings_) + ", keeps visibility " +
     std::to_string(this->pass_->GetKeepVisibility()) + ", route " +
-    std::to_string(this->pass_->GetRoute()) + ", rasterizer " +
-    std::to_string(this->pass_->GetRasterizer()) + ", smooth terminators " +
+    std::to_string(this->pass_->GetRoute()) + ", smooth terminators " +
     std::to_string(this->pass_->GetSmoothTerminators()) + "\n";
 }
 
@@ -414,7 +412,6 @@ void FuzzScene::replacePass(const NamedSettings& settings)
   fresh->SetSmoothTerminators(this->pass_->GetSmoothTerminators());
   fresh->SetKeepVisibility(this->pass_->GetKeepVisibility());
   fresh->SetRoute(this->pass_->GetRoute());
-  fresh->SetRasterizer(this->pass_->GetRasterizer());
   this->pass_->ReleaseGraphicsResources(this->window_);
   for (vtkRenderer* renderer : this->renderers_)
   {

@@ -591,7 +591,6 @@ TEST(CompareCommand, RefusesBadInputBeforeDrawing)
   EXPECT_THROW(compare({ "cube", "-o", report, "--map-sizes", "7" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--frames", "-1" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--route", "scenic" }), CLI::ParseError);
-  EXPECT_THROW(compare({ "cube", "-o", report, "--rasterizer", "pencil" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--all", "--techniques", "nsm" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube" }), CLI::ParseError);
 }

@@ -332,8 +332,6 @@ std::vector<BrokenInput> brokenInputs()
     option(
       "technique", "--technique", { "render", "cube", "-o", "out.png", "--technique", "magic" }),
     option("route", "--route", { "render", "cube", "-o", "out.png", "--route", "sideways" }),
-    option("rasterizer", "--rasterizer",
-      { "render", "cube", "-o", "out.png", "--rasterizer", "pencil" }),
     option("route_of_the_technique", "--route",
       { "render", "cube", "-o", "out.png", "--technique", "raytraced", "--route", "inline" }),
     option("light_type", "--light", { "render", "cube", "-o", "out.png", "--light", "laser:a=1" }),
@@ -442,27 +440,6 @@ TEST(Program, StatisticsAreOfAllFramesOfAPicture)
     stages += stage.at("milliseconds").get<double>();
   }
   EXPECT_LE(stages, several.at("wall_milliseconds").get<double>());
-}
-
-//------------------------------------------------------------------------------
-TEST(Program, TellsWhoDrewAConservativeMap)
-{
-  TestFolder folder;
-  const auto rasterizerOf = [&](const std::string& technique, const std::string& rasterizer)
-  {
-    const nlohmann::json light = statsOf(
-      folder, { "cube", "--size", "64x48", "--technique", technique, "--rasterizer", rasterizer })
-                                   .at("lights")
-                                   .at(0);
-    EXPECT_EQ(light.at("rasterizer_reason").get<std::string>().empty(),
-      light.at("rasterizer").get<std::string>().empty());
-    return light.at("rasterizer").get<std::string>();
-  };
-  EXPECT_EQ(rasterizerOf("crsm", "cpu"), "cpu");
-  EXPECT_EQ(rasterizerOf("crsm", "gpu"), "gpu");
-  EXPECT_EQ(rasterizerOf("crsma", "auto"), "cpu");
-  EXPECT_EQ(rasterizerOf("silhouette", "gpu"), "cpu");
-  EXPECT_EQ(rasterizerOf("nsm", "gpu"), "");
 }
 
 //------------------------------------------------------------------------------

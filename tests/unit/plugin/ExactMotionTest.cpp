@@ -26,7 +26,6 @@ struct ExactPass
 {
   const char* technique;
   std::vector<std::pair<const char*, const char*>> settings;
-  int rasterizer = vtkGnomonShadowPass::RASTERIZER_CPU;
 };
 
 std::string nameOfPass(const testing::TestParamInfo<ExactPass>& pass)
@@ -36,7 +35,7 @@ std::string nameOfPass(const testing::TestParamInfo<ExactPass>& pass)
   {
     name += std::string("_") + setting.first;
   }
-  return pass.param.rasterizer == vtkGnomonShadowPass::RASTERIZER_GPU ? name + "_gpu" : name;
+  return name;
 }
 
 /// Give each triangle corners of its own, so that moving points tears the surface.
@@ -103,7 +102,6 @@ protected:
     {
       this->scene.pass->SetSetting(name, value);
     }
-    this->scene.pass->SetRasterizer(GetParam().rasterizer);
     this->scene.pass->KeepVisibilityOn();
   }
 
@@ -257,9 +255,7 @@ INSTANTIATE_TEST_SUITE_P(Techniques, ExactInMotion,
   testing::Values(ExactPass{ "crsm", {} }, ExactPass{ "crsma", {} },
     ExactPass{ "crsma", { { "adjacency_ring", "vertices" } } }, ExactPass{ "silhouette", {} },
     ExactPass{ "silhouette", { { "fit", "frame" } } },
-    ExactPass{ "selective", { { "coherence", "off" }, { "contour", "image" } } },
-    ExactPass{ "crsm", {}, vtkGnomonShadowPass::RASTERIZER_GPU },
-    ExactPass{ "crsma", {}, vtkGnomonShadowPass::RASTERIZER_GPU }),
+    ExactPass{ "selective", { { "coherence", "off" }, { "contour", "image" } } }),
   nameOfPass);
 
 } // namespace

@@ -5,14 +5,10 @@
 #include "RandomScenes.h"
 
 #include "lights/ShadowSettings.h"
-#include "shadowtech/exact/CellsOnGpu.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
-
-#include "vtkGnomonEGLRenderWindow.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
-#include <vtkNew.h>
 
 #include <algorithm>
 #include <array>
@@ -183,27 +179,6 @@ TEST_P(ConservativeMapsBy, neverCallAReceiverBothLitAndInShadow)
   EXPECT_EQ(lit + shadow, decided(rule));
   EXPECT_GT(lit, 10000u);
   EXPECT_GT(shadow, 10000u);
-}
-
-/// Maps baked on the GPU, by the shape that covers texels.
-class ConservativeMapsOnGpu : public testing::TestWithParam<Covering>
-{
-};
-
-INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsOnGpu,
-  testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan), nameOfRule);
-
-TEST_P(ConservativeMapsOnGpu, areNeverWrong)
-{
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->Initialize();
-  window->MakeCurrent();
-  ASSERT_EQ(CellTarget::whyUnsupported(), "");
-  ShaderLibrary shaders;
-  const CellsOnGpu gpu(shaders);
-  const Tally sum = runAll(200, exactRuns(8) / 4, certainRule(GetParam(), &gpu));
-  EXPECT_GE(sum.receivers, 15000u);
-  EXPECT_LT(sum.traced, sum.receivers * 3 / 4);
 }
 
 class ConservativeMapsAnywhere : public testing::TestWithParam<Covering>

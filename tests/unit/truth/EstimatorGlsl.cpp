@@ -67,10 +67,13 @@ void runCompute(ShaderLibrary& library, const std::string& glsl, std::size_t cou
   ShaderLibrary::setUniforms(program, uniforms, 0, 0);
   ShaderLibrary::setUniform(program, { "inputCount", static_cast<int>(count) });
   GlBuffer buffers[2];
-  allocateStorage(buffers[0], givenBytes, given, "a test's input");
-  allocateStorage(buffers[1], resultBytes, nullptr, "a test's output");
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0].name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].name());
+  const auto bind = [&](GLuint binding, std::size_t bytes, const void* data)
+  {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffers[binding].create());
+    glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
+  };
+  bind(0, givenBytes, given);
+  bind(1, resultBytes, nullptr);
   glDispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(resultBytes), result);
