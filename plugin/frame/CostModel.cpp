@@ -41,26 +41,16 @@ bool isSoftwareRenderer(const std::string& renderer)
 CostFactors defaultFactors(bool software)
 {
   CostFactors factors;
-  factors.drawTriangle = 40.0;
-  factors.drawPixel = 20.0;
-  factors.askPixel = 9.5;
-  factors.bakeTriangle = 54.0;
-  factors.bakeTexel = 7.0;
-  factors.fetchPixel = 4.6;
-  factors.receiverTriangle = 26.0;
-  factors.receiverPixel = 12.0;
-  factors.tracePixel = 15.0;
-  factors.refitTriangle = 20.0;
-  if (!software)
-  {
-    constexpr double faster = 1.0 / 20.0;
-    for (double CostFactors::*drawn : { &CostFactors::drawTriangle, &CostFactors::drawPixel,
-           &CostFactors::askPixel, &CostFactors::bakeTriangle, &CostFactors::bakeTexel,
-           &CostFactors::fetchPixel, &CostFactors::receiverTriangle, &CostFactors::receiverPixel })
-    {
-      factors.*drawn *= faster;
-    }
-  }
+  factors.drawTriangle = software ? 40.0 : 0.9;
+  factors.drawPixel = software ? 20.0 : 0.47;
+  factors.askPixel = software ? 9.5 : 0.43;
+  factors.bakeTriangle = software ? 54.0 : 1.2;
+  factors.bakeTexel = software ? 7.0 : 0.13;
+  factors.fetchPixel = software ? 4.6 : 0.43;
+  factors.receiverTriangle = software ? 26.0 : 2.9;
+  factors.receiverPixel = software ? 12.0 : 3.4;
+  factors.tracePixel = software ? 15.0 : 6.5;
+  factors.refitTriangle = software ? 20.0 : 37.0;
   return factors;
 }
 

@@ -30,9 +30,8 @@ struct CostFactors
 /// True if OpenGL draws on the CPU, by the name of its renderer (GL_RENDERER).
 bool isSoftwareRenderer(const std::string& renderer);
 
-/// Return the factors of llvmpipe on two cores. For hardware OpenGL they are a guess, not measured:
-/// drawing costs a twentieth, tracing on the CPU costs the same. `gnomon calibrate` measures a
-/// machine.
+/// Return the factors of llvmpipe on two cores, or of an NVIDIA H200 beside 16 cores.
+/// `gnomon calibrate` measures a machine.
 CostFactors defaultFactors(bool software);
 
 ///@{

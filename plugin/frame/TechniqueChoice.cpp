@@ -50,10 +50,11 @@ CostFactors factorsOf(const FrameWishes& wishes)
     : defaultFactors(isSoftwareRenderer(name ? reinterpret_cast<const char*>(name) : ""));
 }
 
-/// True if a surface shows shadows but no probing camera ray finds it, as these meet casters only.
+/// True if a surface shows shadows where no probing camera ray finds it: these meet casters, where
+/// the snapshot has them.
 bool isUnseenReceiver(const Surface& surface)
 {
-  return surface.receives && !surface.casts && surface.triangleCount > 0;
+  return surface.receives && (!surface.casts || surface.isMoved) && surface.triangleCount > 0;
 }
 
 } // namespace
@@ -270,7 +271,7 @@ std::string TechniqueChoice::whyNoMaps() const
   if (std::any_of(
         this->occluders_.surfaces.begin(), this->occluders_.surfaces.end(), isUnseenReceiver))
   {
-    return "a surface shows shadows but casts none, so probes miss it";
+    return "a surface shows shadows but casts none, or shader code moves it, so probes miss it";
   }
   return {};
 }

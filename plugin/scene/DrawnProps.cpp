@@ -348,7 +348,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     this->memory_.cutouts.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
   prop.cutout = cutout.mask;
   prop.textureTransform = cutout.transform;
-  const bool moves = mayMoveVertices(actor);
+  prop.isMoved = mayMoveVertices(actor);
   const auto add = [&](bool translucent)
   {
     prop.translucent = translucent;
@@ -374,7 +374,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
       DrawnBlock& block = this->drawn_.blocks[i];
       block.textureCoordinates = textureCoordinates(mapper, cutout.texture, block.data);
     }
-    for (std::size_t i = prop.firstBlock; !moves && i < this->drawn_.blocks.size(); ++i)
+    for (std::size_t i = prop.firstBlock; !prop.isMoved && i < this->drawn_.blocks.size(); ++i)
     {
       takeNormals(actor, this->drawn_.blocks[i]);
     }
@@ -388,7 +388,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   if (opaque)
   {
     add(false);
-    if (eitherOr && !moves && !sizedInPixels && viewProp == actor &&
+    if (eitherOr && !prop.isMoved && !sizedInPixels && viewProp == actor &&
       this->drawn_.props.size() > before)
     {
       this->memory_.plainProps.remember(actor);
@@ -407,7 +407,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   }
   if (prop.casts && this->drawn_.props.size() > before)
   {
-    this->moved_ += moves ? 1 : 0;
+    this->moved_ += prop.isMoved ? 1 : 0;
     if (uncutReason)
     {
       ++this->uncut_[uncutReason];

@@ -69,6 +69,7 @@ struct DrawnProp
   bool casts = true;
   bool receives = true;
   bool oneSided = false;
+  bool isMoved = false;     ///< a user's shader code may move its vertices
   bool translucent = false; ///< listed because it was asked to cast
 
   std::shared_ptr<const CutoutMask> cutout; ///< a texture's holes in its blocks; null for none

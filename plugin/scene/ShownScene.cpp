@@ -50,6 +50,7 @@ void hashDrawn(std::size_t& seed, const DrawnProps& drawn)
     hashCombine(seed, prop.casts);
     hashCombine(seed, prop.receives);
     hashCombine(seed, prop.oneSided);
+    hashCombine(seed, prop.isMoved);
     hashCombine(seed, prop.cutout.get());
   }
   for (const DrawnBlock& block : drawn.blocks)

@@ -390,10 +390,12 @@ bool SnapshotSurfaces::updateFlags(const std::vector<WantedSurface>& wanted)
     const DrawnProp& prop = *wanted[i].prop;
     const auto cutout = wanted[i].block.textureCoordinates ? prop.cutout : nullptr;
     changed = changed || surface.casts != prop.casts || surface.receives != prop.receives ||
-      surface.oneSided != prop.oneSided || surface.cutout != cutout;
+      surface.oneSided != prop.oneSided || surface.isMoved != prop.isMoved ||
+      surface.cutout != cutout;
     surface.casts = prop.casts;
     surface.receives = prop.receives;
     surface.oneSided = prop.oneSided;
+    surface.isMoved = prop.isMoved;
     surface.cutout = cutout;
   }
   return changed;

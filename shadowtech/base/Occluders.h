@@ -29,6 +29,7 @@ struct Surface
   bool casts = true;     ///< its triangles block light
   bool receives = true;  ///< its pixels are shadowed; else their visibility is 1
   bool oneSided = false; ///< only triangles whose front (counter-clockwise) faces the light cast
+  bool isMoved = false;  ///< a user's shader code may show it elsewhere than the snapshot has it
 
   /// The holes that its texture cuts; null, as nearly always, if it has none.
   std::shared_ptr<const CutoutMask> cutout;

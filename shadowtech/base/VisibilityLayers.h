@@ -17,9 +17,9 @@ class ReceiverTarget;
 inline constexpr int noBit = -1;
 
 /// The visibility images of the image route: one 32-bit float layer per casting light, or three
-/// (red, green, blue) if the technique sees the light's texture (channelsOf()). Hard shadows are bits
-/// of one more image instead, which shaders fetch at once, and which is small to upload. Row 0 is
-/// the bottom row.
+/// (red, green, blue) if the technique sees the light's texture (channelsOf()). Hard shadows are
+/// bits of one more image instead, which shaders fetch at once, and which is small to upload. Row 0
+/// is the bottom row.
 class VisibilityLayers
 {
 public:

@@ -10,6 +10,7 @@
 
 #include <vtkObjectFactory.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkShaderProperty.h>
 
 #include <gmock/gmock.h>
 
@@ -352,6 +353,22 @@ TEST_F(Auto, surfacesThatProbesDoNotSeeTakeRays)
   this->move();
   EXPECT_EQ(this->technique(), "silhouette");
   EXPECT_THAT(this->report().choice, HasSubstr("casts none"));
+}
+
+//------------------------------------------------------------------------------
+// Probes hit casters where the snapshot has them.
+TEST_F(Auto, surfacesThatShaderCodeMovesTakeRays)
+{
+  vtkActor* const shelf = this->addFloor(2.0, 4.0);
+  this->rest();
+  this->move();
+  EXPECT_EQ(this->technique(), "nsm");
+  shelf->GetShaderProperty()->AddVertexShaderReplacement(
+    "//VTK::Camera::Impl", true, "//VTK::Camera::Impl\n  gl_Position.x += 0.1;\n", false);
+  this->rest();
+  this->move();
+  EXPECT_EQ(this->technique(), "silhouette");
+  EXPECT_THAT(this->report().choice, HasSubstr("shader code moves it"));
 }
 
 //------------------------------------------------------------------------------

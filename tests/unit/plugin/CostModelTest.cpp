@@ -113,3 +113,19 @@ TEST(CostModel, costsGrowWithWhatThereIs)
   counters.drawn = counters.triangles = 10000000;
   EXPECT_GT(costByMaps(counters, factors), 800.0) << "ms";
 }
+
+TEST(CostModel, onGpusMapsAreFastExceptAtRest)
+{
+  const CostFactors factors = defaultFactors(false);
+  FrameCounters counters;
+  counters.drawn = counters.triangles = 70000;
+  counters.pixels = 1 << 20;
+  counters.texels = 1 << 20;
+  counters.lights = 1;
+  EXPECT_LT(costByRays(counters, factors), 1.3 * costByMaps(counters, factors));
+  counters.viewMoved = true;
+  EXPECT_GT(costByRays(counters, factors), 4.0 * costByMaps(counters, factors));
+  counters.viewMoved = false;
+  counters.movedLights = 1;
+  EXPECT_GT(costByRays(counters, factors), 4.0 * costByMaps(counters, factors));
+}
