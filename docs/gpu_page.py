@@ -85,7 +85,7 @@ def main():
             auto_head=auto_page.HEAD,
             auto="\n".join(auto_rows(folder)),
             factors="\n".join(line for line in factors if line and not line.startswith("#")),
-            machine=f"{settings['Processor']}; OpenGL by {settings['OpenGL']}",
+            machine=f"{settings['Processor']};\nOpenGL by {settings['OpenGL']}",
         ),
         end="",
     )
