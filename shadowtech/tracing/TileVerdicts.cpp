@@ -172,7 +172,8 @@ std::vector<Group> partsOf(const std::vector<Group>& groups, const ReceiverBoxes
   return parts;
 }
 
-/// Judge groups of a level. Each task has a row of neighbours, whatever the number of threads.
+/// Judge groups of a level in parallel. The tasks are the same for any number of threads, so the
+/// verdicts are, too.
 std::vector<Certainty> judged(
   const std::vector<Group>& groups, const ReceiverBoxes::Level& level, const BoxJudge& judge)
 {

@@ -86,15 +86,22 @@ TEST_F(CostFactorsFile, ofAPassThatIsNoneIsAnError)
   pass->ReadCostFactors(nullptr); // the default ones
 }
 
-// Choices follow from the factors: if maps cost nothing, maps are chosen.
-TEST(CostModel, costsGrowWithWhatThereIs)
+/// Return the counters of the bunny under one light, at rest.
+FrameCounters countersOfTheBunny()
 {
-  const CostFactors factors = defaultFactors(true);
   FrameCounters counters;
   counters.drawn = counters.triangles = 70000;
   counters.pixels = 1 << 20;
   counters.texels = 1 << 20;
   counters.lights = 1;
+  return counters;
+}
+
+// Choices follow from the factors: if maps cost nothing, maps are chosen.
+TEST(CostModel, costsGrowWithWhatThereIs)
+{
+  const CostFactors factors = defaultFactors(true);
+  FrameCounters counters = countersOfTheBunny();
   const double atRest = costByRays(counters, factors);
   EXPECT_LT(atRest, costByMaps(counters, factors)) << "what is exact is fetched, maps are asked";
   counters.viewMoved = true;
@@ -117,11 +124,7 @@ TEST(CostModel, costsGrowWithWhatThereIs)
 TEST(CostModel, onGpusMapsAreFastExceptAtRest)
 {
   const CostFactors factors = defaultFactors(false);
-  FrameCounters counters;
-  counters.drawn = counters.triangles = 70000;
-  counters.pixels = 1 << 20;
-  counters.texels = 1 << 20;
-  counters.lights = 1;
+  FrameCounters counters = countersOfTheBunny();
   EXPECT_LT(costByRays(counters, factors), 1.3 * costByMaps(counters, factors));
   counters.viewMoved = true;
   EXPECT_GT(costByRays(counters, factors), 4.0 * costByMaps(counters, factors));

@@ -409,7 +409,7 @@ TEST_F(DepthLayersTest, ofACubeAreAsThickAsItsChords)
         ++counted;
         const glm::dvec2 slab = layers.slabs(x, y)[0];
         const double chord = layers.distanceAt(slab.y) - layers.distanceAt(slab.x);
-        ASSERT_NEAR(chord, last - first, 2e-4 * (last - first)) << x << ", " << y;
+        ASSERT_NEAR(chord, last - first, 1e-4 * (last - first)) << x << ", " << y;
       }
     }
     EXPECT_GT(counted, 2000);
