@@ -18,8 +18,7 @@ namespace gnomon
 class BakeBackoff
 {
 public:
-  /// Bounds of the patience. Maps pay for themselves after 7 to 30 frames
-  /// (docs/techniques/exact.md).
+  /// Bounds of the patience, in frames. When maps pay: docs/techniques/exact.md.
   static constexpr int leastPatience = 16;
   static constexpr int mostPatience = 1024;
 

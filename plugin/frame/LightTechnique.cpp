@@ -70,6 +70,26 @@ std::string LightTechnique::reasonAgainstReceivers(
 }
 
 //------------------------------------------------------------------------------
+/// Return why an optional map is neither used nor baked later, as a clause; empty if it may be.
+std::string LightTechnique::reasonAgainstMap(
+  const ShadowLight& light, const MapStage& stage, bool isBaked) const
+{
+  if (stage.occluders.castsSolids())
+  {
+    return "it cannot hold casters that are spheres or cylinders";
+  }
+  if (isBaked || light.of<BakeSettings>().time == BakeTime::Always)
+  {
+    return {};
+  }
+  if (stage.moves)
+  {
+    return "a picture that moves does not wait for a map";
+  }
+  return this->takesRays_ ? "" : "the light needs few shadow rays, or none, without a map";
+}
+
+//------------------------------------------------------------------------------
 void LightTechnique::updateMaps(
   const ShadowLight& light, const MapStage& stage, LightReport& report)
 {
@@ -78,30 +98,24 @@ void LightTechnique::updateMaps(
     return;
   }
   Bake wanted = this->wantedIn(light, stage);
-  if (this->info().mapIsOptional && stage.occluders.castsSolids())
+  const bool isBaked = this->baked_.changesTo(wanted).empty();
+  const bool isOptional = this->info().mapIsOptional;
+  std::string against = isOptional ? this->reasonAgainstMap(light, stage, isBaked) : "";
+  if (isOptional && against.empty() && light.of<BakeSettings>().time == BakeTime::Settled)
   {
-    this->backoff_ = BakeBackoff();
-    this->usesMap_ = false;
-    report.mapReason = "it cannot hold casters that are spheres or cylinders";
-  }
-  else if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always &&
-    !this->takesRays_ && !this->baked_.changesTo(wanted).empty())
-  {
-    this->backoff_ = BakeBackoff();
-    this->usesMap_ = false;
-    report.mapReason = "the light needs few shadow rays, or none, without a map";
-  }
-  else if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always)
-  {
-    this->usesMap_ = this->backoff_.usesMap(
-      this->wanted_.changesTo(wanted).empty(), this->baked_.changesTo(wanted).empty());
-    report.mapReason = this->backoff_.reason();
+    const bool rested = this->wanted_.changesTo(wanted).empty();
+    this->usesMap_ = this->backoff_.usesMap(rested, isBaked);
+    against = this->backoff_.reason();
     this->wanted_ = wanted;
   }
   else
   {
     this->backoff_ = BakeBackoff();
-    this->usesMap_ = true;
+    this->usesMap_ = against.empty();
+  }
+  if (isOptional)
+  {
+    report.mapReason = against;
   }
   if (!this->usesMap_)
   {

@@ -34,6 +34,7 @@ struct MapStage
   const glm::dmat4& centredFromView; ///< of the camera that drew them
   std::size_t receiversNumber;       ///< ReceiversValue::number
   ///@}
+  bool moves; ///< true if the picture moves (FrameWishes)
   FrameReport& report;
 };
 
@@ -90,6 +91,7 @@ private:
 
   std::string reasonAgainstReceivers(
     const ShadowLight& light, Route route, bool translucentReceivers) const;
+  std::string reasonAgainstMap(const ShadowLight& light, const MapStage& stage, bool isBaked) const;
   LightViews layOut(const ShadowLight& light, const MapStage& stage, const MapReach& reach);
   Bake wantedIn(const ShadowLight& light, const MapStage& stage);
   void bake(const ShadowLight& light, const MapStage& stage, Bake wanted);

@@ -514,7 +514,8 @@ MapStage RenderManager::mapStage()
 {
   return { this->frame_.camera, this->collector_.occluders(), this->buffers_,
     this->programs_.library, this->frame_.view->receivers.target,
-    this->frame_.space.centredFromView, this->frame_.view->receivers.number, this->frame_.report };
+    this->frame_.space.centredFromView, this->frame_.view->receivers.number,
+    this->frame_.wishes.moves, this->frame_.report };
 }
 
 //------------------------------------------------------------------------------

@@ -9,16 +9,25 @@ namespace
 {
 
 constexpr std::size_t mostFrames = 30;
+/// Of the last frames that show a load at once, a majority must be slow.
+constexpr std::size_t lastFrames = 5;
 
-double medianOf(std::deque<double> numbers, double ofNone)
+double medianOf(std::deque<double> numbers)
 {
-  if (numbers.empty())
-  {
-    return ofNone;
-  }
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
   std::nth_element(numbers.begin(), middle, numbers.end());
   return *middle;
+}
+
+/// Return the slowness of frames from old to new: a load counts at once, its end later.
+double slownessOf(const std::deque<double>& frames, double ofNone)
+{
+  if (frames.empty())
+  {
+    return ofNone;
+  }
+  const auto last = static_cast<std::ptrdiff_t>(std::min(frames.size(), lastFrames));
+  return std::max(medianOf(frames), medianOf({ frames.end() - last, frames.end() }));
 }
 
 } // namespace
@@ -54,13 +63,13 @@ void Slowness::end(double milliseconds)
 //------------------------------------------------------------------------------
 double Slowness::ofMaps() const
 {
-  return medianOf(this->maps_, medianOf(this->rays_, 1.0));
+  return slownessOf(this->maps_, slownessOf(this->rays_, 1.0));
 }
 
 //------------------------------------------------------------------------------
 double Slowness::ofRays() const
 {
-  return medianOf(this->rays_, medianOf(this->maps_, 1.0));
+  return slownessOf(this->rays_, slownessOf(this->maps_, 1.0));
 }
 
 } // namespace gnomon

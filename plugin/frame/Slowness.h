@@ -6,8 +6,8 @@ namespace gnomon
 {
 
 /// How much longer frames take than the model of costs says, by maps and by rays: the median of the
-/// last 30 frames each. Each frame of one way also drops the oldest of the other, so that the other
-/// is tried again after a load has passed.
+/// last 30 frames each, or of the last five if that is more. Each frame of one way also drops the
+/// oldest of the other, so that the other is tried again after a load has passed.
 class Slowness
 {
 public:

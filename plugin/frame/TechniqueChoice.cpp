@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gnomon
 {
@@ -172,6 +173,7 @@ void TechniqueChoice::rest()
   {
     choice.step -= choice.isProbed && choice.mayBeCoarser ? 1 : 0;
     choice.isProbed = false;
+    choice.probing = {};
   }
 }
 
@@ -223,6 +225,9 @@ void TechniqueChoice::chooseMoving(const std::vector<CastingLight*>& hard,
     for (CastingLight* const casting : hard)
     {
       this->frame_.lights.takeResting(*casting, this->frame_.report);
+      LightChoice& light = this->lights_[casting->light.sceneIndex];
+      light.isProbed = false; // by then a map may be off
+      light.probing = {};
     }
     choice = "the picture moves: rays, as " + whyRays;
   }
@@ -325,21 +330,24 @@ std::string TechniqueChoice::tryMap(
     {
       return {};
     }
-    WrongProbes wrong;
     try
     {
       bake(casting);
-      wrong = this->probe(casting, limit);
+      if (!this->probe(casting, limit, choice))
+      {
+        return {};
+      }
     }
     catch (const TextureMemoryError& error)
     {
       return error.what();
     }
+    const WrongProbes wrong = std::exchange(choice.probing, {}).found;
+    choice.sinceProbed = 0;
     // If no point of all looks faces the light, hardly one pixel in 4,000 does.
     choice.isProbed = wrong.asked == 0 || wrong.mostShare() <= limit;
     choice.mayBeCoarser =
       choice.step > 0 && WrongProbes{ wrong.asked, 4 * wrong.wrong }.mostShare() <= limit;
-    choice.sinceProbed = 0;
     if (choice.isProbed)
     {
       return {};
@@ -349,51 +357,55 @@ std::string TechniqueChoice::tryMap(
       return "only " + std::to_string(wrong.asked) +
         " of the probed pixels face the light, too few to show the error";
     }
-    // Wrong pixels lie along edges, and their number is in proportion to the texels' width.
-    const double factor = std::max(wrong.share() / limit, 2.0);
-    const int step = choice.step + static_cast<int>(std::log2(factor));
-    if (step > mostSteps)
+    if (choice.step == mostSteps)
     {
       return "of " + std::to_string(wrong.asked) + " pixels " + std::to_string(wrong.wrong) +
         " are wrong with a map of " + std::to_string(casting.light.mapSizeTexels) + " texels";
     }
-    choice.step = step;
+    // Wrong pixels lie along edges, and their number is in proportion to the texels' width.
+    const double factor = std::max(wrong.share() / limit, 2.0);
+    choice.step = std::min(choice.step + static_cast<int>(std::log2(factor)), mostSteps);
   }
 }
 
 //------------------------------------------------------------------------------
-/// Probe a light's map until it is clear on which side of a limit its error is. If the light shines
-/// on a small part of the picture, look there.
-WrongProbes TechniqueChoice::probe(const CastingLight& casting, double limit)
+/// Probe a light's map until it is clear on which side of a limit its error is. If it kept the
+/// limit before, it is shown meanwhile, and one look is enough in this frame. If the light shines
+/// on a small part of the picture, look there, too.
+/// @return true if it is clear
+bool TechniqueChoice::probe(const CastingLight& casting, double limit, LightChoice& choice)
 {
-  WrongProbes all;
+  WrongProbes& found = choice.probing.found;
+  const std::size_t before = found.asked;
+  bool isClear = false;
   bool isAimed = false;
-  for (std::size_t looks = 0; looks < mostLooks; ++looks)
+  bool goesOn = false;
+  do
   {
-    this->looked_ = this->looked_ && looks == 0;
     this->look();
     const WrongProbes wrong =
       this->probes_.wrongOf(*casting.own.as<PointwiseTechnique>(), casting.light,
         this->frame_.space, this->occluders_, this->visibility_.tracer(), this->shaders_);
-    all.asked += wrong.asked;
-    all.wrong += wrong.wrong;
-    if (all.mostShare() <= limit || all.share() > limit)
-    {
-      break;
-    }
-    if (!isAimed && wrong.asked > 0 && wrong.asked < Probes::count / 4)
+    found.asked += wrong.asked;
+    found.wrong += wrong.wrong;
+    isClear =
+      found.mostShare() <= limit || found.share() > limit || ++choice.probing.looks >= mostLooks;
+    const bool aims = !isAimed && wrong.asked > 0 && wrong.asked < Probes::count / 4;
+    goesOn = !isClear && (aims || !choice.isProbed);
+    if (goesOn && aims)
     {
       this->probes_.aimAtFacing();
       isAimed = true;
     }
-  }
+    this->looked_ = !goesOn;
+  } while (goesOn);
   if (isAimed)
   {
     this->probes_.aimEverywhere();
     this->looked_ = false;
   }
-  this->frame_.report.probes += static_cast<std::int64_t>(all.asked);
-  return all;
+  this->frame_.report.probes += static_cast<std::int64_t>(found.asked - before);
+  return isClear;
 }
 
 //------------------------------------------------------------------------------

@@ -25,7 +25,8 @@ namespace gnomon
 ///
 /// In motion, area lights have as few samples as the error allows. Lights with hard shadows use
 /// maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h). A map
-/// is compared with rays at some pixels (Probes.h) before it is shown, and again from time to time.
+/// is compared with rays at some pixels (Probes.h) before it is shown, and again from time to time,
+/// over several frames.
 /// It grows until its error is kept. If no map keeps it, all lights use rays, and maps are tried
 /// again after 30 frames at the earliest.
 class TechniqueChoice
@@ -49,6 +50,12 @@ private:
   using Place = std::tuple<glm::dvec3, glm::dvec3, double>;
   /// The request that a choice answers: soft or hard, map side in texels, samples, error limit.
   using Asked = std::tuple<bool, int, int, double>;
+  /// A probe of a map that may take several frames.
+  struct Probing
+  {
+    WrongProbes found;
+    std::size_t looks = 0;
+  };
   /// The state of one light's choice while the picture moves.
   struct LightChoice
   {
@@ -57,8 +64,9 @@ private:
     bool isProbed = false;     ///< true if that keeps the error
     bool mayBeCoarser = false; ///< true if one step less would keep it, too
     int sinceProbed = 0;       ///< frames
-    Place place{};             ///< in the last frame
-    Asked asked{};             ///< in the last frame
+    Probing probing;
+    Place place{}; ///< in the last frame
+    Asked asked{}; ///< in the last frame
   };
 
   FrameCounters takeChanges(const std::vector<CastingLight*>& hard);
@@ -68,7 +76,7 @@ private:
   std::string whyNoMaps() const;
   std::string whyRaysAreFast(double byMaps, double byRays) const;
   std::string tryMap(CastingLight& casting, const std::function<void(CastingLight&)>& bake);
-  WrongProbes probe(const CastingLight& casting, double limit);
+  bool probe(const CastingLight& casting, double limit, LightChoice& choice);
   void takeSamples(CastingLight& casting);
   void refine(CastingLight& casting);
   void look();

@@ -479,6 +479,29 @@ TEST_F(Auto, aTimeBudgetChoosesWhatIsMostAccurateInIt)
 }
 
 //------------------------------------------------------------------------------
+// A map is proved before it is shown. Later its probes are spread over frames.
+TEST_F(Auto, laterProbesTakeOneLookAFrame)
+{
+  constexpr std::int64_t look = 4096;
+  this->pass->SetMaximumError(0.0003);                       // 13,000 right answers show it
+  this->lookFrom({ -12.0, -9.0, 7.0 }, { -12.0, 0.0, 0.0 }); // far from the shadow
+  this->rest();
+  this->move();
+  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
+  EXPECT_GT(this->report().probes, look);
+  int probed = 0;
+  for (int frame = 0; frame < 30; ++frame)
+  {
+    this->move();
+    ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
+    EXPECT_LE(this->report().probes, look);
+    probed += this->report().probes > 0 ? 1 : 0;
+  }
+  EXPECT_GT(probed, 1);
+  EXPECT_LE(probed, 14) << "eight looks every 16 frames at most";
+}
+
+//------------------------------------------------------------------------------
 TEST(Slowness, forgetsWhatIsNotTaken)
 {
   gnomon::Slowness slowness;
@@ -496,6 +519,10 @@ TEST(Slowness, forgetsWhatIsNotTaken)
   EXPECT_EQ(slowness.ofMaps(), 2.0) << "nothing else is known";
   take(false, 50.0, 1);
   EXPECT_EQ(slowness.ofRays(), 2.0) << "one frame changes nothing";
+  take(false, 4.0, 2);
+  EXPECT_EQ(slowness.ofRays(), 4.0) << "most of the last five are slow";
+  take(false, 2.0, 5);
+  EXPECT_EQ(slowness.ofRays(), 2.0);
   take(true, 3.0, 10);
   EXPECT_EQ(slowness.ofMaps(), 3.0);
   EXPECT_EQ(slowness.ofRays(), 2.0);

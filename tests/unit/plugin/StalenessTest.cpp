@@ -388,6 +388,40 @@ TEST(OptionalMaps, areBakedOnceNothingMoves)
 }
 
 //------------------------------------------------------------------------------
+/// A picture that moves would stand still while an optional map is baked. It shows an earlier map.
+TEST(OptionalMaps, areNotBakedWhileThePictureMoves)
+{
+  PassScene scene(200, 150);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  vtkLight* const sun = scene.addSun({ 1.0, 0.3, -1.5 });
+  scene.pass->SetTechnique("silhouette");
+  scene.pass->SetSetting("bake", "settled");
+  int bakes = 0;
+  const auto draw = [&](int wish)
+  {
+    scene.pass->SetInteractive(wish);
+    bakes = 0;
+    for (int frame = 0; frame < 3 * gnomon::BakeBackoff::leastPatience; ++frame)
+    {
+      scene.lookFrom({ 0.01 * (frame % 2), -9.0, 7.0 });
+      scene.render();
+      bakes += scene.report().mapBakes;
+    }
+    return scene.report().lights[0].mapReason;
+  };
+  EXPECT_THAT(draw(vtkGnomonShadowPass::INTERACTIVE_ON), testing::HasSubstr("moves"));
+  EXPECT_EQ(bakes, 0);
+  EXPECT_EQ(draw(vtkGnomonShadowPass::INTERACTIVE_OFF), "");
+  EXPECT_EQ(bakes, 1);
+  EXPECT_EQ(draw(vtkGnomonShadowPass::INTERACTIVE_ON), "");
+  EXPECT_EQ(bakes, 0);
+  sun->SetPosition(3.0, 3.0, 5.0);
+  EXPECT_THAT(draw(vtkGnomonShadowPass::INTERACTIVE_ON), testing::HasSubstr("moves"));
+  EXPECT_EQ(bakes, 0);
+}
+
+//------------------------------------------------------------------------------
 /// Views fitted once stay at their first camera, also before a map is baked.
 TEST(OptionalMaps, thatAreFittedOnceNeedNoCameraThatRests)
 {
