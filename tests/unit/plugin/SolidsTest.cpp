@@ -500,9 +500,9 @@ TEST_F(SolidsTest, mapsShowThemWithoutAcne)
 }
 
 //------------------------------------------------------------------------------
-/// While the picture moves, `auto` takes a map. It is probed on the solids, too: without the floor
-/// there is nothing else.
-TEST_F(SolidsTest, movingPicturesHaveMapsProbedOnSolids)
+/// While the picture moves, `auto` takes a map, or few samples of an area light. These are probed
+/// on the solids, too: without the floor there is nothing else.
+TEST_F(SolidsTest, movingPicturesAreProbedOnSolids)
 {
   for (const bool hasFloor : { true, false })
   {
@@ -516,6 +516,10 @@ TEST_F(SolidsTest, movingPicturesHaveMapsProbedOnSolids)
     scene.render();
     EXPECT_GT(scene.report().probes, 300) << hasFloor;
     EXPECT_TRUE(!hasFloor || scene.report().lights[0].technique == "nsm") << scene.report().choice;
+    scene.pass->SetSetting("light_radius", "10");
+    scene.render();
+    EXPECT_GT(scene.report().lights[0].lightSamples, 1) << "if no probe finds a shadow";
+    EXPECT_LT(scene.report().lights[0].lightSamples, 64);
   }
 }
 
