@@ -37,6 +37,19 @@ int samplesOf(int step)
   return 1 << (2 * step);
 }
 
+/// Return by how many steps a choice may go down.
+/// @param keepsError tells whether the error is kept that many steps down
+template <typename KeepsError>
+int spareSteps(int step, const KeepsError& keepsError)
+{
+  int spare = 0;
+  while (spare < step && keepsError(spare + 1))
+  {
+    ++spare;
+  }
+  return spare;
+}
+
 std::string percent(double share)
 {
   const std::string text = std::to_string(100.0 * share);
@@ -163,7 +176,7 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& har
 }
 
 //------------------------------------------------------------------------------
-/// Reset the hysteresis. Maps and samples that were finer than needed go one step down.
+/// Reset the hysteresis. Maps and samples that were finer than needed become coarser.
 void TechniqueChoice::rest()
 {
   this->patience_ = 0;
@@ -171,7 +184,7 @@ void TechniqueChoice::rest()
   this->byMaps_ = 0;
   for (auto& [sceneIndex, choice] : this->lights_)
   {
-    choice.step -= choice.isProbed && choice.mayBeCoarser ? 1 : 0;
+    choice.step -= choice.isProbed ? choice.spareSteps : 0;
     choice.isProbed = false;
     choice.probing = {};
   }
@@ -346,8 +359,12 @@ std::string TechniqueChoice::tryMap(
     choice.sinceProbed = 0;
     // If no point of all looks faces the light, hardly one pixel in 4,000 does.
     choice.isProbed = wrong.asked == 0 || wrong.mostShare() <= limit;
-    choice.mayBeCoarser =
-      choice.step > 0 && WrongProbes{ wrong.asked, 4 * wrong.wrong }.mostShare() <= limit;
+    choice.spareSteps = spareSteps(choice.step,
+      [&](int steps)
+      {
+        const std::size_t expected = wrong.wrong << (steps + 1); // twice as many, to be safe
+        return WrongProbes{ wrong.asked, std::min(expected, wrong.asked) }.mostShare() <= limit;
+      });
     if (choice.isProbed)
     {
       return {};
@@ -428,7 +445,8 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
     this->frame_.report.probes += static_cast<std::int64_t>(Probes::count) / 4;
     choice.sinceProbed = 0;
     choice.isProbed = error <= limit;
-    choice.mayBeCoarser = choice.step > 0 && 2.0 * error <= limit;
+    choice.spareSteps =
+      spareSteps(choice.step, [&](int steps) { return std::ldexp(error, steps) <= limit; });
     choice.step += choice.isProbed ? 0 : 1;
   }
   choice.samples = std::min(samplesOf(choice.step), all);

@@ -59,11 +59,11 @@ private:
   /// The state of one light's choice while the picture moves.
   struct LightChoice
   {
-    int step = 0;              ///< doublings of its map's side, or quadruplings of its samples
-    int samples = 0;           ///< of an area light in the last moving frame; 0: all
-    bool isProbed = false;     ///< true if that keeps the error
-    bool mayBeCoarser = false; ///< true if one step less would keep it, too
-    int sinceProbed = 0;       ///< frames
+    int step = 0;          ///< doublings of its map's side, or quadruplings of its samples
+    int samples = 0;       ///< of an area light in the last moving frame; 0: all
+    bool isProbed = false; ///< true if that keeps the error
+    int spareSteps = 0;    ///< as many less would keep it, too
+    int sinceProbed = 0;   ///< frames
     Probing probing;
     Place place{}; ///< in the last frame
     Asked asked{}; ///< in the last frame
