@@ -37,14 +37,18 @@ int samplesOf(int step)
   return 1 << (2 * step);
 }
 
-/// Return by how many steps a choice may go down.
-/// @param keepsError tells whether the error is kept that many steps down
-template <typename KeepsError>
-int spareSteps(int step, const KeepsError& keepsError)
+/// Return by how many steps a map's side may be halved, as its probes say: wrong pixels lie along
+/// edges, and their number is in proportion to the texels' width.
+int spareSteps(const WrongProbes& probes, int step, double limit)
 {
   int spare = 0;
-  while (spare < step && keepsError(spare + 1))
+  while (spare < step)
   {
+    const std::size_t wrong = probes.wrong << (spare + 2); // twice as many, to be safe
+    if (WrongProbes{ probes.asked, std::min(wrong, probes.asked) }.mostShare() > limit)
+    {
+      break;
+    }
     ++spare;
   }
   return spare;
@@ -176,7 +180,7 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& har
 }
 
 //------------------------------------------------------------------------------
-/// Reset the hysteresis. Maps and samples that were finer than needed become coarser.
+/// Reset the hysteresis. The next motion proves its choices again.
 void TechniqueChoice::rest()
 {
   this->patience_ = 0;
@@ -184,7 +188,8 @@ void TechniqueChoice::rest()
   this->byMaps_ = 0;
   for (auto& [sceneIndex, choice] : this->lights_)
   {
-    choice.step -= choice.isProbed ? choice.spareSteps : 0;
+    const bool isSoft = std::get<bool>(choice.asked);
+    choice.step = isSoft ? 0 : choice.step;
     choice.isProbed = false;
     choice.probing = {};
   }
@@ -313,7 +318,8 @@ std::string TechniqueChoice::whyRaysAreFast(double byMaps, double byRays) const
 }
 
 //------------------------------------------------------------------------------
-/// Shade a light by a map, the coarsest from the present step on that keeps the error.
+/// Shade a light by a map, the coarsest from the present step on that keeps the error. Before a
+/// motion shows a map, it may be a coarser one, too.
 /// @return why there is none, as a clause; empty on success
 std::string TechniqueChoice::tryMap(
   CastingLight& casting, const std::function<void(CastingLight&)>& bake)
@@ -331,6 +337,8 @@ std::string TechniqueChoice::tryMap(
   {
     ++mostSteps;
   }
+  const bool isShown = choice.isProbed;
+  bool hasShrunk = false;
   for (;;)
   {
     const std::string refusal =
@@ -358,17 +366,19 @@ std::string TechniqueChoice::tryMap(
     const WrongProbes wrong = std::exchange(choice.probing, {}).found;
     choice.sinceProbed = 0;
     // If no point of all looks faces the light, hardly one pixel in 4,000 does.
-    choice.isProbed = wrong.asked == 0 || wrong.mostShare() <= limit;
-    choice.spareSteps = spareSteps(choice.step,
-      [&](int steps)
-      {
-        const std::size_t expected = wrong.wrong << (steps + 1); // twice as many, to be safe
-        return WrongProbes{ wrong.asked, std::min(expected, wrong.asked) }.mostShare() <= limit;
-      });
-    if (choice.isProbed)
+    if (wrong.asked == 0 || wrong.mostShare() <= limit)
     {
-      return {};
+      const int spare = isShown || hasShrunk ? 0 : spareSteps(wrong, choice.step, limit);
+      choice.isProbed = spare == 0;
+      if (choice.isProbed)
+      {
+        return {};
+      }
+      choice.step -= spare;
+      hasShrunk = true;
+      continue;
     }
+    choice.isProbed = false;
     if (wrong.wrong == 0)
     {
       return "only " + std::to_string(wrong.asked) +
@@ -379,8 +389,7 @@ std::string TechniqueChoice::tryMap(
       return "of " + std::to_string(wrong.asked) + " pixels " + std::to_string(wrong.wrong) +
         " are wrong with a map of " + std::to_string(casting.light.mapSizeTexels) + " texels";
     }
-    // Wrong pixels lie along edges, and their number is in proportion to the texels' width.
-    const double factor = std::max(wrong.share() / limit, 2.0);
+    const double factor = std::max(wrong.share() / limit, 2.0); // as in spareSteps()
     choice.step = std::min(choice.step + static_cast<int>(std::log2(factor)), mostSteps);
   }
 }
@@ -405,8 +414,8 @@ bool TechniqueChoice::probe(const CastingLight& casting, double limit, LightChoi
         this->frame_.space, this->occluders_, this->visibility_.tracer(), this->shaders_);
     found.asked += wrong.asked;
     found.wrong += wrong.wrong;
-    isClear =
-      found.mostShare() <= limit || found.share() > limit || ++choice.probing.looks >= mostLooks;
+    isClear = found.mostShare() <= limit || found.leastShare() > limit ||
+      ++choice.probing.looks >= mostLooks;
     const bool aims = !isAimed && wrong.asked > 0 && wrong.asked < Probes::count / 4;
     goesOn = !isClear && (aims || !choice.isProbed);
     if (goesOn && aims)
@@ -445,8 +454,6 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
     this->frame_.report.probes += static_cast<std::int64_t>(Probes::count) / 4;
     choice.sinceProbed = 0;
     choice.isProbed = error <= limit;
-    choice.spareSteps =
-      spareSteps(choice.step, [&](int steps) { return std::ldexp(error, steps) <= limit; });
     choice.step += choice.isProbed ? 0 : 1;
   }
   choice.samples = std::min(samplesOf(choice.step), all);

@@ -26,9 +26,8 @@ namespace gnomon
 /// In motion, area lights have as few samples as the error allows. Lights with hard shadows use
 /// maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h). A map
 /// is compared with rays at some pixels (Probes.h) before it is shown, and again from time to time,
-/// over several frames.
-/// It grows until its error is kept. If no map keeps it, all lights use rays, and maps are tried
-/// again after 30 frames at the earliest.
+/// over several frames. It grows until its error is kept, and shrinks between motions. If no map
+/// keeps it, all lights use rays, and maps are tried again after 30 frames at the earliest.
 class TechniqueChoice
 {
 public:
@@ -62,7 +61,6 @@ private:
     int step = 0;          ///< doublings of its map's side, or quadruplings of its samples
     int samples = 0;       ///< of an area light in the last moving frame; 0: all
     bool isProbed = false; ///< true if that keeps the error
-    int spareSteps = 0;    ///< as many less would keep it, too
     int sinceProbed = 0;   ///< frames
     Probing probing;
     Place place{}; ///< in the last frame

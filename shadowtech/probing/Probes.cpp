@@ -27,19 +27,29 @@ double spread(std::size_t number, double step)
   return value - std::floor(value);
 }
 
+/// Return an end of Wilson's interval with z = 2.
+/// @param side -1 for the lower one, 1 for the upper one
+double wilson(const WrongProbes& probes, double side)
+{
+  constexpr double z2 = 4.0;
+  const auto n = static_cast<double>(probes.asked);
+  const auto k = static_cast<double>(probes.wrong);
+  const double half = std::sqrt(z2 * (k * (1.0 - probes.share()) + 0.25 * z2));
+  return (k + 0.5 * z2 + side * half) / (n + z2);
+}
+
 } // namespace
+
+//------------------------------------------------------------------------------
+double WrongProbes::leastShare() const
+{
+  return wilson(*this, -1.0);
+}
 
 //------------------------------------------------------------------------------
 double WrongProbes::mostShare() const
 {
-  if (this->asked == 0)
-  {
-    return 1.0;
-  }
-  constexpr double z2 = 4.0;
-  const auto n = static_cast<double>(this->asked);
-  const auto k = static_cast<double>(this->wrong);
-  return std::min((k + 0.5 * z2 + std::sqrt(z2 * (k * (1.0 - k / n) + 0.25 * z2))) / (n + z2), 1.0);
+  return wilson(*this, 1.0);
 }
 
 //------------------------------------------------------------------------------

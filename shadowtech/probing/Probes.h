@@ -33,10 +33,13 @@ struct WrongProbes
     return static_cast<double>(this->wrong) / static_cast<double>(std::max<std::size_t>(asked, 1));
   }
 
-  /// Return an upper bound of the share of wrong pixels in the population of which these are a
-  /// sample. It is exceeded in one case of forty: Wilson's interval (Wilson 1927) with z = 2.
-  /// Without points it is 1. Sampling until the bound is low enough makes it wrong more often.
+  ///@{
+  /// Return a bound of the share of wrong pixels in the population of which these are a sample.
+  /// The share is beyond it in one case of forty: Wilson's interval (Wilson 1927) with z = 2.
+  /// Without points the bounds are 0 and 1. Sampling until one is clear makes it wrong more often.
+  double leastShare() const;
   double mostShare() const;
+  ///@}
 };
 
 /// Compares a cheap visibility with traced visibility at some pixels, before the picture is drawn.

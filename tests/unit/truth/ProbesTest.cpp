@@ -191,20 +191,24 @@ TEST_F(ProbesTest, fewerSamplesHaveALargerError)
   EXPECT_LT(of4, 0.2);
 }
 
-// The bound is the share at which the count found is two standard deviations too small.
-TEST(WrongProbes, mostShareIsWilsonsBound)
+// At the bounds the count found is two standard deviations too small or too large.
+TEST(WrongProbes, boundsAreWilsons)
 {
   for (const std::size_t asked : { 100u, 4096u })
   {
     for (const std::size_t wrong : { 0u, 1u, 20u, 99u })
     {
       const WrongProbes probes{ asked, wrong };
+      const auto deviation = [&](double share)
+      { return std::sqrt(share * (1.0 - share) / static_cast<double>(asked)); };
       const double most = probes.mostShare();
-      const double deviation = std::sqrt(most * (1.0 - most) / static_cast<double>(asked));
-      EXPECT_NEAR((most - probes.share()) / deviation, 2.0, 1e-9);
+      EXPECT_NEAR(most - probes.share(), 2.0 * deviation(most), 1e-9);
+      const double least = probes.leastShare();
+      EXPECT_NEAR(probes.share() - least, 2.0 * deviation(least), 1e-9);
     }
   }
   EXPECT_EQ(WrongProbes().mostShare(), 1.0);
+  EXPECT_EQ(WrongProbes().leastShare(), 0.0);
 }
 
 } // namespace gnomon::test
