@@ -82,7 +82,7 @@ std::string LightTechnique::reasonAgainstMap(
   {
     return {};
   }
-  if (stage.moves)
+  if (!stage.bakesOptional)
   {
     return "a picture that moves does not wait for a map";
   }

@@ -34,7 +34,7 @@ struct MapStage
   const glm::dmat4& centredFromView; ///< of the camera that drew them
   std::size_t receiversNumber;       ///< ReceiversValue::number
   ///@}
-  bool moves; ///< true if the picture moves (FrameWishes)
+  bool bakesOptional; ///< false: optional maps are used, but not baked
   FrameReport& report;
 };
 

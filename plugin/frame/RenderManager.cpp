@@ -183,7 +183,7 @@ void RenderManager::chooseTechniques()
     [this](CastingLight& casting)
     {
       casting.own.updateMaps(
-        casting.light, this->mapStage(), reportOf(this->frame_.report, casting.light));
+        casting.light, this->mapStage(casting), reportOf(this->frame_.report, casting.light));
     });
   this->frame_.endStage("choice");
 }
@@ -509,21 +509,23 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
 }
 
 //------------------------------------------------------------------------------
-/// What the lights' maps are drawn from.
-MapStage RenderManager::mapStage()
+/// What a light's maps are drawn from. A moving picture that leaves the technique to the pass would
+/// stand still while an optional map is baked.
+MapStage RenderManager::mapStage(const CastingLight& casting)
 {
+  const bool bakesOptional = !(casting.asked && this->frame_.wishes.moves);
   return { this->frame_.camera, this->collector_.occluders(), this->buffers_,
     this->programs_.library, this->frame_.view->receivers.target,
-    this->frame_.space.centredFromView, this->frame_.view->receivers.number,
-    this->frame_.wishes.moves, this->frame_.report };
+    this->frame_.space.centredFromView, this->frame_.view->receivers.number, bakesOptional,
+    this->frame_.report };
 }
 
 //------------------------------------------------------------------------------
 void RenderManager::bakeMaps()
 {
-  const MapStage stage = this->mapStage();
   for (CastingLight& casting : this->frame_.lights)
   {
+    const MapStage stage = this->mapStage(casting);
     LightReport& report = reportOf(this->frame_.report, casting.light);
     const bool shadesByOwn = casting.shadesAtPoints && casting.own.info().isPointwise();
     if (this->frame_.route == Route::Inline || casting.isStale || shadesByOwn)

@@ -122,7 +122,7 @@ public:
   const VisibilityImages& visibility() const { return this->visibility_.images(); }
 
 private:
-  MapStage mapStage();
+  MapStage mapStage(const CastingLight& casting);
   bool readsPoints() const;
   ValueKey receiversKey(const vtkRenderState* s) const;
   std::string whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const;

@@ -170,7 +170,8 @@ public:
     const double own = median(this->automatic().milliseconds);
     const double least = median(best->milliseconds);
     std::cout << "," << own << "," << least << "," << own / least << ","
-              << best->variant.spec().name() << ",\"" << this->report_.choice << "\"" << std::endl;
+              << best->variant.spec().name() << ","
+              << (chosen.technique == "nsm" ? "" : "\"" + this->report_.choice + "\"") << std::endl;
   }
 
 private:
@@ -519,7 +520,7 @@ int run(int argc, char** argv)
   std::cout << (options.budget > 0.0
       ? "scene,budget ms,frames,possible,late,frames under load,possible,late,changes,by maps,"
         "by rays\n"
-      : "scene,place,technique,map texels,wrong share,ms,best ms,over best,best,why\n");
+      : "scene,place,technique,map texels,wrong share,ms,best ms,over best,best,why rays\n");
   for (const std::string& name : options.scenes)
   {
     const Scene scene = withoutShadowSettings(loadScene(name));
