@@ -244,7 +244,7 @@ void TechniqueChoice::chooseMoving(const std::vector<CastingLight*>& hard,
     {
       this->frame_.lights.takeResting(*casting, this->frame_.report);
       LightChoice& light = this->lights_[casting->light.sceneIndex];
-      light.isProbed = false; // by then a map may be off
+      light.isProbed = false; // the next map is proved before it is shown
       light.probing = {};
     }
     choice = "the picture moves: rays, as " + whyRays;
