@@ -1,8 +1,9 @@
 #!/bin/bash
-# Measures how well `auto` chooses while the camera moves, and writes docs/results/auto.md and
-# docs/results/auto.csv: 200 random places in each of 17 scenes, 512 x 512 pixels; at COMPARED of
-# them `auto` is timed beside single techniques. The table has a line for each of these, and for
-# each place where the error was not kept. PLACES and SCENES ask for others.
+# Measures how well `auto` chooses while the camera moves, and writes docs/results/auto.md,
+# docs/results/auto.csv and docs/results/auto_flights.csv: 200 random places in each of 17 scenes,
+# 512 x 512 pixels; at COMPARED of them `auto` is timed beside single techniques. The table has a
+# line for each of these, and for each place where the error was not kept. PLACES and SCENES ask for
+# others. Flights have a time budget, and an error or none.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source docs/comparisons.sh
@@ -15,4 +16,11 @@ buildTests gnomon_benchmark_auto
 build/release/bin/gnomon_benchmark_auto $scenes --places "${PLACES:-200}" \
   --compared "${COMPARED:-12}" > out/auto.csv
 awk -F, 'NR == 1 || $7 != "" || !($5 <= 0.005)' out/auto.csv > docs/results/auto.csv
-python3 docs/auto_page.py out/auto.csv "$(machine)" > docs/results/auto.md
+for error in 0.005 1; do
+  for budget in 1.6 2.4; do
+    build/release/bin/gnomon_benchmark_auto bunny atrium posts terrain --error $error \
+      --budget $budget
+  done
+done | awk 'NR == 1 || !/^scene,/' > docs/results/auto_flights.csv
+python3 docs/auto_page.py out/auto.csv docs/results/auto_flights.csv \
+  "$(machine)" > docs/results/auto.md

@@ -6,7 +6,7 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-bool BakeBackoff::usesMap(bool rested, bool baked)
+bool BakeBackoff::usesMap(bool rested, bool baked, bool mayBake)
 {
   if (this->served_ > 0 && !baked)
   {
@@ -15,9 +15,9 @@ bool BakeBackoff::usesMap(bool rested, bool baked)
       : std::max(this->patience_ / 2, leastPatience);
     this->served_ = 0;
   }
-  if (!baked && (!rested || this->rested_ < this->patience_))
+  if (!baked && (!rested || !mayBake || this->rested_ < this->patience_))
   {
-    this->rested_ = rested ? this->rested_ + 1 : 0;
+    this->rested_ = rested ? std::min(this->rested_ + 1, mostPatience) : 0;
     return false;
   }
   this->rested_ = 0;

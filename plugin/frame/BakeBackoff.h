@@ -26,8 +26,9 @@ public:
   /// @param rested true if the map would be baked from the same light and casters as in the last
   /// frame
   /// @param baked true if there is a map that can be reused
+  /// @param mayBake false: the bake waits for a later frame
   /// @return true if the frame uses the map: the caller bakes it if there is none
-  bool usesMap(bool rested, bool baked);
+  bool usesMap(bool rested, bool baked, bool mayBake);
 
   /// Return why the last frame was traced, as a clause; empty if it used the map.
   std::string reason() const;

@@ -82,10 +82,6 @@ std::string LightTechnique::reasonAgainstMap(
   {
     return {};
   }
-  if (!stage.bakesOptional)
-  {
-    return "a picture that moves does not wait for a map";
-  }
   return this->takesRays_ ? "" : "the light needs few shadow rays, or none, without a map";
 }
 
@@ -104,8 +100,9 @@ void LightTechnique::updateMaps(
   if (isOptional && against.empty() && light.of<BakeSettings>().time == BakeTime::Settled)
   {
     const bool rested = this->wanted_.changesTo(wanted).empty();
-    this->usesMap_ = this->backoff_.usesMap(rested, isBaked);
-    against = this->backoff_.reason();
+    this->usesMap_ = this->backoff_.usesMap(rested, isBaked, stage.bakesOptional);
+    against = this->usesMap_ || stage.bakesOptional ? this->backoff_.reason()
+                                                    : "a picture that moves waits for no map";
     this->wanted_ = wanted;
   }
   else

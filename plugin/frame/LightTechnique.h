@@ -34,7 +34,7 @@ struct MapStage
   const glm::dmat4& centredFromView; ///< of the camera that drew them
   std::size_t receiversNumber;       ///< ReceiversValue::number
   ///@}
-  bool bakesOptional; ///< false: optional maps are used, but not baked
+  bool bakesOptional; ///< false: bakes of optional maps wait for a later frame
   FrameReport& report;
 };
 

@@ -37,19 +37,20 @@ int samplesOf(int step)
   return 1 << (2 * step);
 }
 
-/// Return by how many steps a map's side may be halved, as its probes say: wrong pixels lie along
-/// edges, and their number is in proportion to the texels' width.
+/// Return by how many steps a map's side is to be halved, as its probes say: wrong pixels lie along
+/// edges, and their number is in proportion to the texels' width. As many probes as there may be
+/// are to prove the smaller map if they go on like these, with twice as many wrong, to be safe.
 int spareSteps(const WrongProbes& probes, int step, double limit)
 {
+  WrongProbes expected{ mostLooks * probes.asked, 2 * mostLooks * probes.wrong };
   int spare = 0;
-  while (spare < step)
+  for (; spare < step; ++spare)
   {
-    const std::size_t wrong = probes.wrong << (spare + 2); // twice as many, to be safe
-    if (WrongProbes{ probes.asked, std::min(wrong, probes.asked) }.mostShare() > limit)
+    expected.wrong = std::min(2 * expected.wrong, expected.asked);
+    if (expected.mostShare() > limit)
     {
       break;
     }
-    ++spare;
   }
   return spare;
 }

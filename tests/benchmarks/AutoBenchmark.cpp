@@ -42,7 +42,8 @@ struct Options
   int compared = 20; ///< the first of them, at which `auto` is compared
   unsigned int seed = 1;
   int sidePixels = 512;
-  double budget = 0.0; ///< as a multiple of plain VTK's frame; 0: none
+  double error = 0.005; ///< share of wrong pixels that is allowed
+  double budget = 0.0;  ///< as a multiple of plain VTK's frame; 0: none
 };
 
 /// Frames timed at a place, and untimed frames that precede them.
@@ -55,9 +56,6 @@ constexpr double stepDegrees = 0.2;
 constexpr double slowerAtFirst = 2.0;
 constexpr std::size_t framesOfAll = 3;
 constexpr std::size_t fastest = 2;
-
-/// The error that the pass allows by default.
-constexpr double allowedShare = 0.005;
 
 /// The study's techniques for hard shadows, with which `auto` is compared.
 std::vector<VariantSpec> singles()
@@ -127,15 +125,18 @@ void wander(vtkCamera* camera, std::mt19937& random)
 class Ways
 {
 public:
-  Ways(const Scene& scene, int sidePixels)
+  Ways(const Scene& scene, const Options& options)
     : scene_(scene)
+    , options_(options)
   {
+    const int sidePixels = options.sidePixels;
     for (const VariantSpec& spec : singles())
     {
       this->runners_.push_back(std::make_unique<Runner>(spec, scene, sidePixels));
     }
     this->runners_.push_back(
       std::make_unique<Runner>(VariantSpec{ automaticTechnique, 1024 }, scene, sidePixels));
+    this->automatic().variant.pass()->SetMaximumError(options.error);
     for (const auto& runner : this->runners_) // compile and bake what is the same at all places
     {
       runner->draw();
@@ -202,7 +203,7 @@ private:
     double most = std::numeric_limits<double>::infinity();
     for (const auto& [milliseconds, runner] : drawn)
     {
-      if (milliseconds <= most && this->wrongShare(*runner, camera) <= allowedShare)
+      if (milliseconds <= most && this->wrongShare(*runner, camera) <= this->options_.error)
       {
         most = std::min(most, slowerAtFirst * milliseconds);
         this->rivals_.push_back(runner);
@@ -305,6 +306,7 @@ private:
   }
 
   const Scene& scene_;
+  const Options& options_;
   std::vector<std::unique_ptr<Runner>> runners_;
   std::vector<Runner*> rivals_; ///< drawn in turns with `auto`
   VisibilityImages truth_;      ///< of the last frame at this place
@@ -314,7 +316,7 @@ private:
 void compareWithSingles(const Scene& scene, const Options& options)
 {
   std::mt19937 random(options.seed);
-  Ways ways(scene, options.sidePixels);
+  Ways ways(scene, options);
   vtkNew<vtkCamera> start;
   start->DeepCopy(ways.automatic().variant.renderer()->GetActiveCamera());
   for (int place = 0; place < options.places; ++place)
@@ -368,6 +370,7 @@ class Flight
 public:
   Flight(const Scene& scene, const Options& options)
     : scene_(scene)
+    , options_(options)
     , plain_({ plainTechnique }, scene, options.sidePixels)
     , rays_({ "raytraced" }, scene, options.sidePixels)
     , automatic_({ automaticTechnique, 1024 }, scene, options.sidePixels)
@@ -380,13 +383,14 @@ public:
     }
     this->camera_->DeepCopy(this->plain_.variant.renderer()->GetActiveCamera());
     this->survey();
-    this->budget_ = options.budget * median(this->plain_.milliseconds);
+    this->budget_ = this->options_.budget * median(this->plain_.milliseconds);
   }
 
   /// Fly, then print a line.
   void fly()
   {
     this->automatic_.variant.pass()->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+    this->automatic_.variant.pass()->SetMaximumError(this->options_.error);
     this->automatic_.variant.pass()->SetTimeBudget(this->budget_);
     std::unique_ptr<Load> load;
     for (int frame = 0; frame < frames; ++frame)
@@ -402,7 +406,8 @@ public:
         this->count(load ? this->busy_ : this->idle_, milliseconds, best);
       }
     }
-    std::cout << this->scene_.name << "," << this->budget_;
+    std::cout << this->scene_.name << "," << this->options_.error << "," << this->options_.budget
+              << "," << this->budget_;
     for (const Count& count : { this->idle_, this->busy_ })
     {
       std::cout << "," << count.frames << "," << count.possible << "," << count.late;
@@ -449,7 +454,7 @@ private:
         Runner& map = *this->maps_[i];
         const VisibilityError off =
           measureError(this->visibility(map, frame), truth, this->scene_.lights);
-        coarsest = off.share(off.wrongPixels()) <= allowedShare ? &map : nullptr;
+        coarsest = off.share(off.wrongPixels()) <= this->options_.error ? &map : nullptr;
       }
       this->coarsest_.push_back(coarsest);
     }
@@ -477,6 +482,7 @@ private:
   }
 
   const Scene& scene_;
+  const Options& options_;
   Runner plain_, rays_, automatic_;
   std::vector<std::unique_ptr<Runner>> maps_; ///< from coarse to fine
   std::vector<Runner*> coarsest_;             ///< that keeps the error; null: none
@@ -509,6 +515,9 @@ int run(int argc, char** argv)
   app.add_option("--size", options.sidePixels, "Side of the window in pixels")
     ->check(CLI::Range(1, 16384))
     ->capture_default_str();
+  app.add_option("--error", options.error, "The share of wrong pixels that is allowed")
+    ->check(CLI::Range(0.0, 1.0))
+    ->capture_default_str();
   app
     .add_option("--budget", options.budget,
       "Fly around each scene instead, with this multiple of plain VTK's time as a budget")
@@ -518,8 +527,8 @@ int run(int argc, char** argv)
 
   const VtkMessages messages;
   std::cout << (options.budget > 0.0
-      ? "scene,budget ms,frames,possible,late,frames under load,possible,late,changes,by maps,"
-        "by rays\n"
+      ? "scene,error,plain frames,budget ms,frames,possible,late,loaded,loaded possible,"
+        "loaded late,changes,by maps,by rays\n"
       : "scene,place,technique,map texels,wrong share,ms,best ms,over best,best,why rays\n");
   for (const std::string& name : options.scenes)
   {

@@ -285,6 +285,30 @@ TEST_F(Auto, mapsShrinkWhereSmallerOnesWillDo)
 }
 
 //------------------------------------------------------------------------------
+// A motion after one with a large map has a map hardly larger than a first motion's.
+TEST_F(Auto, mapsShrinkAsFarAsTheyGrow)
+{
+  const auto sideFrom = [&](double height)
+  {
+    this->lookFrom({ 0.4 * height, -0.9 * height, 0.7 * height });
+    this->rest();
+    this->move();
+    return this->report().lights[0].mapSizeTexels;
+  };
+  this->pass->SetMapSize(16);
+  for (double height = 8.0; height <= 40.0; height *= 1.2)
+  {
+    this->pass->SetMaximumError(0.2);
+    this->move();
+    this->pass->SetMaximumError(0.005);
+    const int first = sideFrom(height);
+    const int large = sideFrom(4.0);
+    EXPECT_GE(large, 4 * first) << height;
+    EXPECT_LE(sideFrom(height), 2 * first) << height;
+  }
+}
+
+//------------------------------------------------------------------------------
 // Windows with several samples draw a headlight's shadows by the image route, with any technique.
 TEST_F(Auto, severalSamplesAndAHeadlight)
 {

@@ -25,7 +25,7 @@ struct Light
   {
     ++this->frames;
     const bool baked = this->hasMap && !changes;
-    this->hasMap = this->backoff.usesMap(!changes, baked);
+    this->hasMap = this->backoff.usesMap(!changes, baked, this->mayBake);
     this->bakes += this->hasMap && !baked ? 1 : 0;
     return this->hasMap;
   }
@@ -40,6 +40,7 @@ struct Light
   }
 
   BakeBackoff backoff;
+  bool mayBake = true;
   bool hasMap = false;
   int frames = 0;
   int bakes = 0;
@@ -107,11 +108,24 @@ TEST(BakeBackoff, halvesThePatienceWhenAMapServedForLongEnough)
   EXPECT_EQ(light.backoff.patience(), least);
 }
 
+TEST(BakeBackoff, countsRestingFramesInWhichNoMapMayBeBaked)
+{
+  Light light;
+  light.mayBake = false;
+  light.moveAndRest(2 * most);
+  EXPECT_EQ(light.bakes, 0);
+  light.mayBake = true;
+  EXPECT_TRUE(light.draw(false));
+  light.mayBake = false;
+  EXPECT_TRUE(light.draw(false)) << "the map is there";
+  EXPECT_EQ(light.bakes, 1);
+}
+
 /// A map may be there because the pass baked at once earlier.
 TEST(BakeBackoff, usesAMapThatIsThere)
 {
   BakeBackoff backoff;
-  EXPECT_TRUE(backoff.usesMap(false, true));
+  EXPECT_TRUE(backoff.usesMap(false, true, false));
   EXPECT_EQ(backoff.reason(), "");
 }
 
