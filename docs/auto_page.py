@@ -77,10 +77,11 @@ def main():
     print("## With a time budget")
     print()
     print(
-        "The camera flies once around the scene in 180 frames; a third of the flight is under load. A\n"
-        "frame is possible if rays, or the coarsest map that keeps the error, take at most 1.2 of the\n"
-        "budget in that frame, and late if `auto` takes longer. Changes are those between maps and\n"
-        "rays. Where 100 % may be wrong, the budget alone counts. [All figures](auto_flights.csv)."
+        "The camera flies once around the scene in 180 frames; a third of the flight is under\n"
+        "load. A frame is possible if rays, or the coarsest map that keeps the error, take at most\n"
+        "1.2 of the budget in that frame, and late if `auto` takes longer. Changes are those\n"
+        "between maps and rays. Where 100 % may be wrong, the budget alone counts.\n"
+        "[All figures](auto_flights.csv)."
     )
     print()
     print(FLIGHTS_HEAD)
