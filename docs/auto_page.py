@@ -61,12 +61,12 @@ def main():
     print("# How well `auto` chooses")
     print()
     print(
-        "The camera moves by small steps from random places. The error is the share of wrong pixels in\n"
-        "the last frame; 0.50 % is allowed. At the first places `auto` is compared with single\n"
-        "techniques. The best one, known afterwards, is the fastest that keeps the error there\n"
-        "with maps that are baked already: `nsm`, `lispsm`, `tsm` or `pssm` with maps of several\n"
-        "sizes, `silhouette` or `raytraced`. Times are medians of ten frames, of `auto` and the\n"
-        "two fastest single techniques in turns."
+        "The camera moves by small steps from random places. The error is the share of wrong\n"
+        "pixels in the last frame; 0.50 % is allowed. At the first places `auto` is compared\n"
+        "with single techniques. The best one, known afterwards, is the fastest that keeps the\n"
+        "error there with maps that are baked already: `nsm`, `lispsm`, `tsm` or `pssm` with\n"
+        "maps of several sizes, `silhouette` or `raytraced`. Times are medians of ten frames, of\n"
+        "`auto` and the two fastest single techniques in turns."
     )
     print()
     print(HEAD)
@@ -78,8 +78,8 @@ def main():
     print()
     print(
         "The camera flies once around the scene in 180 frames; a third of the flight is under\n"
-        "load. A frame is possible if rays, or the coarsest map that keeps the error, take at most\n"
-        "1.2 of the budget in that frame, and late if `auto` takes longer. Changes are those\n"
+        "load. A frame is possible if rays, or the coarsest map that keeps the error, take at\n"
+        "most 1.2 of the budget in that frame, and late if `auto` takes longer. Changes are those\n"
         "between maps and rays. Where 100 % may be wrong, the budget alone counts.\n"
         "[All figures](auto_flights.csv)."
     )

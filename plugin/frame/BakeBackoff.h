@@ -9,9 +9,9 @@ namespace gnomon
 /// picture is the same with and without the map, so the decision changes times only.
 ///
 /// A map is baked once `patience()` frames in a row were traced while the light and the casters
-/// rested. The patience starts at `leastPatience`. It doubles, up to `mostPatience`, when a map
-/// goes stale after fewer frames than the patience. It halves, down to `leastPatience`, when a map
-/// has lasted at least as many.
+/// rested, in the next frame that may bake. The patience starts at `leastPatience`. It doubles, up
+/// to `mostPatience`, when a map goes stale after fewer frames than the patience. It halves, down
+/// to `leastPatience`, when a map has lasted at least as many.
 ///
 /// So n frames bake at most n / (2 leastPatience) + 1/2 maps: a map that fails at the least
 /// patience costs leastPatience + 2 frames at least, and the one after it twice as many.
