@@ -16,11 +16,6 @@ buildTests gnomon_benchmark_auto
 build/release/bin/gnomon_benchmark_auto $scenes --places "${PLACES:-200}" \
   --compared "${COMPARED:-12}" > out/auto.csv
 awk -F, 'NR == 1 || $7 != "" || !($5 <= 0.005)' out/auto.csv > docs/results/auto.csv
-for error in 0.005 1; do
-  for budget in 1.6 2.4; do
-    build/release/bin/gnomon_benchmark_auto bunny atrium posts terrain --error $error \
-      --budget $budget
-  done
-done | awk 'NR == 1 || !/^scene,/' > docs/results/auto_flights.csv
+flights build/release/bin/gnomon_benchmark_auto > docs/results/auto_flights.csv
 python3 docs/auto_page.py out/auto.csv docs/results/auto_flights.csv \
   "$(machine)" > docs/results/auto.md

@@ -10,7 +10,34 @@ import sys
 ALLOWED = 0.005
 DEAREST = 1.3
 
-HEAD = (
+PAGE = """# How well `auto` chooses
+
+The camera moves by small steps from random places. The error is the share of wrong
+pixels in the last frame; 0.50 % is allowed. At the first places `auto` is compared
+with single techniques. The best one, known afterwards, is the fastest that keeps the
+error there with maps that are baked already: `nsm`, `lispsm`, `tsm` or `pssm` with
+maps of several sizes, `silhouette` or `raytraced`. Times are medians of ten frames, of
+`auto` and the two fastest single techniques in turns.
+
+{places}
+
+## With a time budget
+
+The camera flies once around the scene in 180 frames; a third of the flight is under
+load. A frame is possible if rays, or the coarsest map that keeps the error, take at
+most 1.2 of the budget in that frame, and late if `auto` takes longer. Changes are those
+between maps and rays. Where 100 % may be wrong, the budget alone counts.
+[All figures](auto_flights.csv).
+
+{flights}
+
+`docs/auto.sh` measures this; [the table](auto.csv) has a line for each place that was
+compared, and for each where the error was not kept.
+
+Measured on: {machine}.
+"""
+
+PLACES_HEAD = (
     "| scene | places | with maps | error kept | largest error | compared "
     "| at most 1.3 times the best | over the best: median | most |\n"
     "|---|---|---|---|---|---|---|---|---|"
@@ -27,7 +54,7 @@ def share(rows, keeps):
     return f"{100 * sum(keeps(row) for row in rows) / len(rows):.1f} %"
 
 
-def line(name, rows):
+def place_line(name, rows):
     compared = [row for row in rows if row["best"]]
     if not compared:
         raise SystemExit(f"{name}: no place was compared")
@@ -42,7 +69,7 @@ def line(name, rows):
     )
 
 
-def flight(row):
+def flight_line(row):
     return (
         f"| `{row['scene']}` | {100 * float(row['error']):g} % | {row['plain frames']} "
         f"| {row['possible']} of {row['frames']} | {row['late']} "
@@ -55,45 +82,27 @@ def read(path):
         return list(csv.DictReader(table))
 
 
+def places_table(path):
+    """The table of the places in the lines of gnomon_benchmark_auto."""
+    rows = read(path)
+    lines = [
+        place_line(f"`{scene}`", [row for row in rows if row["scene"] == scene])
+        for scene in dict.fromkeys(row["scene"] for row in rows)
+    ]
+    return "\n".join([PLACES_HEAD, *lines, place_line("all", rows)])
+
+
+def flights_table(path):
+    """The table of flights in the lines of gnomon_benchmark_auto --budget."""
+    return "\n".join([FLIGHTS_HEAD, *map(flight_line, read(path))])
+
+
 def main():
-    rows = read(sys.argv[1])
-    scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    print("# How well `auto` chooses")
-    print()
+    places, flights, machine = sys.argv[1:]
     print(
-        "The camera moves by small steps from random places. The error is the share of wrong\n"
-        "pixels in the last frame; 0.50 % is allowed. At the first places `auto` is compared\n"
-        "with single techniques. The best one, known afterwards, is the fastest that keeps the\n"
-        "error there with maps that are baked already: `nsm`, `lispsm`, `tsm` or `pssm` with\n"
-        "maps of several sizes, `silhouette` or `raytraced`. Times are medians of ten frames, of\n"
-        "`auto` and the two fastest single techniques in turns."
+        PAGE.format(places=places_table(places), flights=flights_table(flights), machine=machine),
+        end="",
     )
-    print()
-    print(HEAD)
-    for scene in scenes:
-        print(line(f"`{scene}`", [row for row in rows if row["scene"] == scene]))
-    print(line("all", rows))
-    print()
-    print("## With a time budget")
-    print()
-    print(
-        "The camera flies once around the scene in 180 frames; a third of the flight is under\n"
-        "load. A frame is possible if rays, or the coarsest map that keeps the error, take at\n"
-        "most 1.2 of the budget in that frame, and late if `auto` takes longer. Changes are those\n"
-        "between maps and rays. Where 100 % may be wrong, the budget alone counts.\n"
-        "[All figures](auto_flights.csv)."
-    )
-    print()
-    print(FLIGHTS_HEAD)
-    for row in read(sys.argv[2]):
-        print(flight(row))
-    print()
-    print(
-        "`docs/auto.sh` measures this; [the table](auto.csv) has a line for each place that was\n"
-        "compared, and for each where the error was not kept."
-    )
-    print()
-    print(f"Measured on: {sys.argv[3]}.")
 
 
 if __name__ == "__main__":

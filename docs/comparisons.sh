@@ -32,6 +32,17 @@ compareOnce()
   mv "$folder.part" "$folder"
 }
 
+# flights PROGRAM : flights of gnomon_benchmark_auto, with a time budget and an error or none
+flights()
+{
+  local error budget
+  for error in 0.005 1; do
+    for budget in 1.6 2.4; do
+      "$1" bunny atrium posts terrain --error "$error" --budget "$budget"
+    done
+  done | awk 'NR == 1 || !/^scene,/'
+}
+
 # What was measured on.
 machine()
 {

@@ -6,16 +6,17 @@
 #   docs/gpu.sh [PROGRAMS]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source docs/comparisons.sh
 programs="${1:-}"
 if [ -z "$programs" ]; then
-  source docs/comparisons.sh
   prepare
   buildTests gnomon_benchmark_auto
   programs=build/release/bin
 fi
 
 hard=(bunny terrain atrium city)
-places=(bunny posts plates screens office terrain props atrium)
+places=(bunny horse cat posts plates panels screens pole stack long-cube letter cups office terrain
+  props trees-side atrium)
 rm -rf out/gpu
 mkdir -p out/gpu
 for scene in "${hard[@]}"; do
@@ -25,5 +26,6 @@ done
 "$programs/gnomon" compare bunny -o out/gpu/soft \
   --techniques pcss,montecarlo,sampled,penumbra,raytraced --route image --frames 11 --light-radius 5
 "$programs/gnomon" calibrate -o out/gpu/factors.txt
-"$programs/gnomon_benchmark_auto" "${places[@]}" --places 10 > out/gpu/auto.csv
+"$programs/gnomon_benchmark_auto" "${places[@]}" --places 20 > out/gpu/auto.csv
+flights "$programs/gnomon_benchmark_auto" > out/gpu/flights.csv
 python3 docs/gpu_page.py out/gpu "${hard[@]}" > docs/results/gpu.md

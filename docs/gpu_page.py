@@ -2,7 +2,6 @@
 """Writes the page of docs/gpu.sh, to the standard output, from the folder of its results and the
 names of the scenes with hard shadows."""
 
-import csv
 import json
 import sys
 from pathlib import Path
@@ -33,10 +32,12 @@ error is the root mean square error of visibility, against 4,096 points.
 
 ## `auto` in motion
 
-As in [the table of software OpenGL](auto.md), at 512 x 512 pixels, with the factors below.
+As in [the tables of software OpenGL](auto.md), at 512 x 512 pixels, with the shipped factors of
+hardware.
 
-{auto_head}
-{auto}
+{places}
+
+{flights}
 
 ## Factors of costs
 
@@ -63,15 +64,6 @@ def soft_rows(folder: Path):
         yield f"| {' | '.join(cells)} |"
 
 
-def auto_rows(folder: Path):
-    """The table's rows of `auto`."""
-    with open(folder / "auto.csv", newline="", encoding="utf-8") as table:
-        rows = list(csv.DictReader(table))
-    for scene in dict.fromkeys(row["scene"] for row in rows):
-        yield auto_page.line(f"`{scene}`", [row for row in rows if row["scene"] == scene])
-    yield auto_page.line("all", rows)
-
-
 def main():
     folder, scenes = Path(sys.argv[1]), sys.argv[2:]
     settings = json.loads((folder / scenes[0] / "results.json").read_text())["settings"]
@@ -82,8 +74,8 @@ def main():
             head=exact_price_page.HEAD,
             hard="\n".join(hard),
             soft="\n".join(soft_rows(folder)),
-            auto_head=auto_page.HEAD,
-            auto="\n".join(auto_rows(folder)),
+            places=auto_page.places_table(folder / "auto.csv"),
+            flights=auto_page.flights_table(folder / "flights.csv"),
             factors="\n".join(line for line in factors if line and not line.startswith("#")),
             machine=f"{settings['Processor']};\nOpenGL by {settings['OpenGL']}",
         ),
