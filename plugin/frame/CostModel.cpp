@@ -159,8 +159,8 @@ double costByRays(const FrameCounters& counters, const CostFactors& factors)
   {
     nanoseconds += drawn * factors.receiverTriangle + pixels * factors.receiverPixel;
   }
-  const auto traced =
-    static_cast<double>(counters.viewMoved ? counters.lights : counters.movedLights);
+  const double traced =
+    counters.viewMoved ? counters.tracedLights : static_cast<double>(counters.movedLights);
   nanoseconds += pixels * traced * factors.tracePixel;
   nanoseconds += counters.castersMoved ? drawn * factors.refitTriangle : 0.0;
   return millisecondsOfNanoseconds * nanoseconds;

@@ -56,6 +56,7 @@ struct FrameCounters
   std::size_t pixels = 0;
   std::size_t texels = 0;      ///< of one light's map
   std::size_t lights = 0;      ///< with hard shadows
+  double tracedLights = 0.0;   ///< parts of them that rays decide if the view moves, summed
   std::size_t movedLights = 0; ///< lights whose maps are stale
   std::size_t newMaps = 0;     ///< lights whose maps are perhaps not baked yet, and then reused
   bool viewMoved = false;      ///< the camera or what it sees

@@ -169,6 +169,7 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& har
       const auto side = static_cast<std::size_t>(light.mapSizeTexels) << choice.step;
       const std::size_t views = static_cast<std::size_t>(std::max(mostViews(light), 1));
       counters.texels = std::max(counters.texels, side * side * views);
+      counters.tracedLights += moved ? 1.0 : choice.tracedShare;
       counters.movedLights += moved ? 1 : 0;
       counters.newMaps += !moved && !choice.isProbed ? 1 : 0;
     }
@@ -486,6 +487,15 @@ void TechniqueChoice::look()
 void TechniqueChoice::endFrame(double milliseconds)
 {
   const FrameReport& report = this->frame_.report;
+  for (const LightReport& light : report.lights)
+  {
+    const auto known = this->lights_.find(light.sceneIndex);
+    const int tiles = light.tilesLit + light.tilesDark + light.tilesTraced;
+    if (known != this->lights_.end() && tiles > 0)
+    {
+      known->second.tracedShare = static_cast<double>(light.tilesTraced) / tiles;
+    }
+  }
   if (report.newPrograms > 0 || report.bvhBuilds > 0)
   {
     this->slowness_.drop();

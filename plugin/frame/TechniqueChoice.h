@@ -24,7 +24,8 @@ namespace gnomon
 /// lights and route. At rest they are exact. In motion they are as FrameWishes asks.
 ///
 /// In motion, area lights have as few samples as the error allows. Lights with hard shadows use
-/// maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h). A map
+/// maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h): rays
+/// are expected in as large a part of the picture as when its tiles were last counted. A map
 /// is compared with rays at some pixels (Probes.h) before it is shown, and again from time to time,
 /// over several frames. It grows until its error is kept, and shrinks between motions. If no map
 /// keeps it, all lights use rays, and maps are tried again after 30 frames at the earliest.
@@ -39,7 +40,8 @@ public:
   /// @param bake bakes a light's map if it is stale
   void choose(const std::function<void(CastingLight&)>& bake);
 
-  /// Record the time of a frame that has a time budget. OpenGL must have finished it.
+  /// Record how much of the picture had rays, and the time of a frame that has a time budget. OpenGL
+  /// must have finished that.
   void endFrame(double milliseconds);
 
   std::size_t bytes() const { return this->probes_.bytes(); }
@@ -63,8 +65,9 @@ private:
     bool isProbed = false; ///< true if that keeps the error
     int sinceProbed = 0;   ///< frames
     Probing probing;
-    Place place{}; ///< in the last frame
-    Asked asked{}; ///< in the last frame
+    double tracedShare = 1.0; ///< of its tiles that had rays when they were last counted
+    Place place{};            ///< in the last frame
+    Asked asked{};            ///< in the last frame
   };
 
   FrameCounters takeChanges(const std::vector<CastingLight*>& hard);

@@ -137,29 +137,21 @@ void readDepths(
 }
 
 //------------------------------------------------------------------------------
-StorageBindingsGuard::StorageBindingsGuard(GLuint count)
-  : indexed_(count)
+StorageBindingsGuard::StorageBindingsGuard()
 {
   glGetIntegerv(GL_SHADER_STORAGE_BUFFER_BINDING, &this->general_);
-  for (GLuint i = 0; i < count; ++i)
-  {
-    glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, i, &this->indexed_[i].buffer);
-    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, i, &this->indexed_[i].start);
-    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, i, &this->indexed_[i].size);
-  }
+  glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 0, &this->indexed_);
+  glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, 0, &this->start_);
+  glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, 0, &this->size_);
 }
 
 //------------------------------------------------------------------------------
 StorageBindingsGuard::~StorageBindingsGuard()
 {
-  for (GLuint i = 0; i < this->indexed_.size(); ++i)
-  {
-    const auto& [buffer, start, size] = this->indexed_[i];
-    const auto name = static_cast<GLuint>(buffer);
-    size > 0 ? glBindBufferRange(GL_SHADER_STORAGE_BUFFER, i, name, static_cast<GLintptr>(start),
-                 static_cast<GLsizeiptr>(size))
-             : glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, name);
-  }
+  const auto indexed = static_cast<GLuint>(this->indexed_);
+  this->size_ > 0 ? glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 0, indexed,
+                      static_cast<GLintptr>(this->start_), static_cast<GLsizeiptr>(this->size_))
+                  : glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, indexed);
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(this->general_));
 }
 

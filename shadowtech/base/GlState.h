@@ -50,24 +50,19 @@ private:
 void readDepths(
   GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size, std::vector<float>& depths);
 
-/// Saves the shader storage buffer bindings, and restores them at the end of its scope.
+/// Saves the first indexed binding of shader storage buffers and the general one, and restores them
+/// at the end of its scope.
 class StorageBindingsGuard
 {
 public:
-  /// @param count bindings, from 0 on
-  explicit StorageBindingsGuard(GLuint count);
+  StorageBindingsGuard();
   ~StorageBindingsGuard();
   StorageBindingsGuard(const StorageBindingsGuard&) = delete;
   StorageBindingsGuard& operator=(const StorageBindingsGuard&) = delete;
 
 private:
-  struct Binding
-  {
-    GLint buffer = 0;
-    GLint64 start = 0, size = 0; ///< 0: all of it
-  };
-  std::vector<Binding> indexed_;
-  GLint general_ = 0;
+  GLint general_ = 0, indexed_ = 0;
+  GLint64 start_ = 0, size_ = 0; ///< of the indexed one; 0: all of it
 };
 
 } // namespace gnomon

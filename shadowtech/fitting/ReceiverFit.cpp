@@ -47,7 +47,7 @@ public:
   ComputeBindingsGuard& operator=(const ComputeBindingsGuard&) = delete;
 
 private:
-  StorageBindingsGuard buffer_{ 1 };
+  StorageBindingsGuard buffer_;
   GLint image_ = 0, level_ = 0, layered_ = 0, layer_ = 0, access_ = 0, format_ = 0;
 };
 

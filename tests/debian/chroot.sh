@@ -1,5 +1,6 @@
-# Chroots of Debian releases, shared by tests/vtk/run.sh and tests/packages/run.sh, which source it.
-# They run as root and need debootstrap. Mirror and proxies are those of this machine's apt.
+# Chroots of Debian releases, shared by tests/{vtk,packages,paraview}/run.sh, which source it and
+# set $folder and $release. They run as root and need debootstrap. Mirror and proxies are those of
+# this machine's apt.
 
 # own_mounts SCRIPT [ARGUMENT...]: runs a script again in a mount namespace of its own, unless it
 # runs in one: what it mounts ends with it.
@@ -21,6 +22,18 @@ inside()
   local root=$1
   shift
   chroot "$root" env -u DISPLAY -u TMPDIR DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@"
+}
+
+# logged NAME COMMAND...: keeps a command's output in $folder/$release-NAME.log, and shows it if the
+# command fails.
+logged()
+{
+  local log=$folder/$release-$1.log
+  shift
+  "$@" > "$log" 2>&1 || {
+    cat "$log" >&2
+    return 1
+  }
 }
 
 # remove_chroot ROOT

@@ -43,17 +43,6 @@ announce()
   echo "$SECONDS s: $step"
 }
 
-# logged NAME COMMAND...: keeps a command's output in a file, and shows it if it fails.
-logged()
-{
-  local log=$folder/$release-$1.log
-  shift
-  "$@" > "$log" 2>&1 || {
-    cat "$log" >&2
-    return 1
-  }
-}
-
 announce "making the chroots"
 if [ "$fresh" = yes ]; then
   remove_chroot "$system"

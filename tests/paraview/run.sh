@@ -33,17 +33,6 @@ work=/tmp/gnomon # in the chroot
 data=$work/data
 scripts=/src/tests/paraview
 
-# logged NAME COMMAND...: keeps a command's output in a file, and shows it if it fails.
-logged()
-{
-  local log=$folder/$1.log
-  shift
-  "$@" > "$log" 2>&1 || {
-    cat "$log" >&2
-    return 1
-  }
-}
-
 # with_display COMMAND...: runs a command in the chroot on a display of its own. The servers of
 # displays need -noreset: processes come and go.
 with_display()

@@ -63,11 +63,7 @@ inside "$root" apt-get install -qq --yes --no-install-recommends -o Dpkg::Use-Pt
 inside "$root" dpkg-query -W -f '${Package} ${Version}\n' g++ libvtk9-dev libembree-dev libgl1-mesa-dri
 
 echo "$SECONDS s: building"
-log=$folder/$release-configure.log
-inside "$root" sh -c 'cd /src && cmake --preset ci -B /build' > "$log" 2>&1 || {
-  cat "$log" >&2
-  exit 1
-}
+logged configure inside "$root" sh -c 'cd /src && cmake --preset ci -B /build'
 inside "$root" cmake --build /build --target gnomon_quick_tests examples/all
 
 echo "$SECONDS s: testing"

@@ -330,6 +330,30 @@ TEST_F(Auto, severalSamplesAndAHeadlight)
 }
 
 //------------------------------------------------------------------------------
+// Lights that needed no rays are expected to need none in motion.
+TEST_F(Auto, lightsThatReachNothingTakeRays)
+{
+  this->pass->SetSetting("bake", "settled");
+  this->renderer->RemoveLight(this->sun);
+  vtkLight* const lamp = this->addSpot({ 0.0, 0.0, 4.0 }, { 0.0, 0.0, 9.0 }, 40.0);
+  vtkLight* const other = this->addSpot({ 2.0, 0.0, 4.0 }, { 2.0, 0.0, 9.0 }, 40.0);
+  this->rest();
+  ASSERT_THAT(this->report().lights[0].skipReason, HasSubstr("cone reaches nothing"));
+  for (int i = 0; i < 40; ++i)
+  {
+    this->move();
+    EXPECT_EQ(this->technique(), "silhouette") << i;
+    EXPECT_THAT(this->report().choice, HasSubstr("nearly as little time")) << i;
+  }
+  lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  other->SetFocalPoint(0.0, 0.0, 0.0);
+  this->rest();
+  ASSERT_EQ(this->report().lights[0].skipReason, "");
+  this->move();
+  EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
+}
+
+//------------------------------------------------------------------------------
 // An area light without extent only uses its texture's mean.
 TEST_F(Auto, texturesWithoutAnAreaAreExact)
 {

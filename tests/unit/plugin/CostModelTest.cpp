@@ -94,6 +94,7 @@ FrameCounters countersOfTheBunny()
   counters.pixels = 1 << 20;
   counters.texels = 1 << 20;
   counters.lights = 1;
+  counters.tracedLights = 1.0;
   return counters;
 }
 

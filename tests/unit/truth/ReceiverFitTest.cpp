@@ -243,7 +243,7 @@ template <typename Number>
 std::vector<Number> readBuffer(GLuint buffer)
 {
   const GlStateGuard guard;
-  const StorageBindingsGuard bindings(1);
+  const StorageBindingsGuard bindings;
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   GLint bytes = 0;
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer);
