@@ -40,8 +40,8 @@ public:
   /// @param bake bakes a light's map if it is stale
   void choose(const std::function<void(CastingLight&)>& bake);
 
-  /// Record how much of the picture had rays, and the time of a frame that has a time budget. OpenGL
-  /// must have finished that.
+  /// Record how much of the picture had rays, and the time of a frame that has a time budget.
+  /// OpenGL must have finished that.
   void endFrame(double milliseconds);
 
   std::size_t bytes() const { return this->probes_.bytes(); }
