@@ -163,13 +163,14 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& har
     const bool moved = counters.castersMoved || (isAlike && choice.place != place);
     choice.asked = asked;
     choice.place = place;
+    choice.tracedShare = moved ? 1.0 : choice.tracedShare;
     choice.sinceProbed += moved ? framesPerProbe / framesPerProbeOfMoved : 1;
     if (casting.asked && !light.area)
     {
       const auto side = static_cast<std::size_t>(light.mapSizeTexels) << choice.step;
       const std::size_t views = static_cast<std::size_t>(std::max(mostViews(light), 1));
       counters.texels = std::max(counters.texels, side * side * views);
-      counters.tracedLights += moved ? 1.0 : choice.tracedShare;
+      counters.tracedLights += choice.tracedShare;
       counters.movedLights += moved ? 1 : 0;
       counters.newMaps += !moved && !choice.isProbed ? 1 : 0;
     }

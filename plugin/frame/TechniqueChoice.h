@@ -40,8 +40,8 @@ public:
   /// @param bake bakes a light's map if it is stale
   void choose(const std::function<void(CastingLight&)>& bake);
 
-  /// Record how much of the picture had rays, and the time of a frame that has a time budget.
-  /// OpenGL must have finished that.
+  /// Record how much of the picture had rays and, with a time budget, the time of the frame, which
+  /// OpenGL must have finished.
   void endFrame(double milliseconds);
 
   std::size_t bytes() const { return this->probes_.bytes(); }
@@ -65,7 +65,7 @@ private:
     bool isProbed = false; ///< true if that keeps the error
     int sinceProbed = 0;   ///< frames
     Probing probing;
-    double tracedShare = 1.0; ///< of its tiles that had rays when they were last counted
+    double tracedShare = 1.0; ///< of its tiles, as last counted, that had rays; 1: not known
     Place place{};            ///< in the last frame
     Asked asked{};            ///< in the last frame
   };
