@@ -174,7 +174,7 @@ bool isLeafDrawnByPasses(vtkProp* leaf)
 {
   // These draw internal props without handing on their property keys.
   if (leaf->IsA("vtkAxisFollower") || leaf->IsA("vtkProp3DAxisFollower") ||
-    leaf->IsA("vtkImageStack"))
+    leaf->IsA("vtkImageStack") || leaf->IsA("vtkSkybox"))
   {
     return false;
   }

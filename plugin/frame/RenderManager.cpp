@@ -674,8 +674,7 @@ void RenderManager::setShaderParameters(
     // The snapshot need not hold what shaders of a user's own draw. Of triangles that clipping
     // planes cut it holds pieces.
     const bool isCut = mapper->GetClippingPlanes() && mapper->GetNumberOfClippingPlanes() > 0;
-    if (numbers.isNew(program, primitives) && !isCut && !prop->IsA("vtkSkybox") &&
-      !hasOwnShaders(prop))
+    if (numbers.isNew(program, primitives) && !isCut && !hasOwnShaders(prop))
     {
       numbers.add(program, primitives, drawn.index);
     }

@@ -115,6 +115,17 @@ std::string moveToSolid(const std::string& fragmentShader, const std::string& un
   return moves;
 }
 
+/// Mark the end of a user's whole fragment shader, which lacks VTK's marks. Its main becomes a
+/// function, so that it may return early.
+void markEndOfMain(std::string& fragmentShader)
+{
+  static const std::regex head(R"(\bvoid\s+main\s*\(\s*(void)?\s*\))");
+  fragmentShader = std::regex_replace(
+    fragmentShader, head, "void gnomonMain()", std::regex_constants::format_first_only);
+  fragmentShader +=
+    "\n" + declarationMarker + "\nvoid main()\n{\n  gnomonMain();\n  " + endMarker + "\n}\n";
+}
+
 /// Above this many layers, a loop is used. For fewer, Mesa makes a branch of each element of the
 /// loop's array, which compiles longer than separate fetches. First frames by fetches and by the
 /// loop, in s: with 14 lights 1.9 and 2.9, with 16 2.4 and 1.2, with 20 3.9 and 1.7 (llvmpipe,
@@ -279,6 +290,12 @@ bool passInstance(std::string& vertexShader, std::string& geometryShader)
 void ShaderManager::markShader(
   std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const
 {
+  const std::string light = "//VTK::Light::Impl";
+  if (fragmentShader.find(light) == std::string::npos)
+  {
+    markEndOfMain(fragmentShader);
+    return;
+  }
   if (passInstance(vertexShader, geometryShader))
   {
     replace(fragmentShader, "//VTK::PrimID::Dec",
@@ -288,7 +305,6 @@ void ShaderManager::markShader(
   replace(
     fragmentShader, "//VTK::UniformFlow::Impl", uniformFlowMarker + "\n  //VTK::UniformFlow::Impl");
   // VTK lights, then multiplies by textures. A user's own shaders may lack the texture mark.
-  const std::string light = "//VTK::Light::Impl";
   const std::string texture = "//VTK::TCoord::Impl";
   const std::string& last = fragmentShader.find(texture) != std::string::npos ? texture : light;
   replace(fragmentShader, last, last + "\n  " + endMarker);
@@ -310,10 +326,11 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
   std::string& fragmentShader, bool drawsReceivers, int corners)
 {
   ++this->rebuilds_;
+  const auto has = [&](const std::string& text)
+  { return fragmentShader.find(text) != std::string::npos; };
   // Unlit surfaces have no view coordinates and no lights to shadow. They only hide other surfaces.
   // If no light casts, only receivers are needed, which need neither.
-  const bool receives =
-    this->lights_.empty() || fragmentShader.find("vec4 vertexVC") != std::string::npos;
+  const bool receives = has(beginMarker) && (this->lights_.empty() || has("vec4 vertexVC"));
   std::string declarations;
   std::string uniformFlow;
   std::string begin;
@@ -326,7 +343,7 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
   }
   if (this->variant_.route != Route::Inline && drawsReceivers)
   {
-    const bool instanced = fragmentShader.find("gnomonInstanceVSOutput") != std::string::npos;
+    const bool instanced = has("gnomonInstanceVSOutput");
     std::string primitive = "gl_PrimitiveID";
     if (this->numbersByGeometryShaders_ && corners > 0 && receives && geometryShader.empty())
     {

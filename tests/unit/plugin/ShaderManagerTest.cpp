@@ -91,3 +91,32 @@ TEST(ShaderManagerWithCode, ReadsVtksLightingByBothRoutes)
               render("nsm", vtkGnomonShadowPass::ROUTE_IMAGE), 2),
     1u);
 }
+
+//------------------------------------------------------------------------------
+/// A user's whole shader has no marks for lighting. What it draws hides receivers, and has no rays.
+TEST(ShaderManagerWithCode, DrawsAWholeShaderUnchanged)
+{
+  PassScene scene(64, 48);
+  scene.addFloor(9.0);
+  vtkActor* const plate = scene.addFloor(1.5, 1.0);
+  plate->GetShaderProperty()->SetFragmentShaderCode("//VTK::System::Dec\n"
+                                                    "//VTK::Output::Dec\n"
+                                                    "void main(void)\n"
+                                                    "{\n"
+                                                    "  gl_FragData[0] = vec4(1.0, 0.0, 1.0, 1.0);\n"
+                                                    "  if (gl_FragCoord.x < 32.0) { return; }\n"
+                                                    "  gl_FragData[0].g = 1.0;\n"
+                                                    "}\n");
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookDown(3.0);
+  scene.choose({ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+  const Picture picture = scene.render();
+  std::int64_t platePixels = 0;
+  for (std::size_t i = 0; i < picture.pixels(); ++i)
+  {
+    platePixels += picture.rgb[3 * i] == 255 && picture.rgb[3 * i + 2] == 255 ? 1 : 0;
+  }
+  EXPECT_GT(platePixels, 500);
+  EXPECT_EQ(scene.report().lights.at(0).tracedPixels + platePixels,
+    static_cast<std::int64_t>(picture.pixels()));
+}
