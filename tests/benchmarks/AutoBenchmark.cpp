@@ -23,6 +23,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <string>
 #include <thread>
@@ -76,6 +77,18 @@ std::vector<VariantSpec> singles()
   specs.push_back({ "silhouette", 1024 });
   specs.push_back({ "raytraced" });
   return specs;
+}
+
+/// Single techniques are left out where the maps of a scene's lights would take more.
+constexpr double mostMapBytes = 2.0 * 1024 * 1024 * 1024;
+
+/// Return what maps of 4 bytes a texel take, six for each light that shines all around.
+double mapBytes(const VariantSpec& spec, const Scene& scene)
+{
+  const auto maps = std::accumulate(scene.lights.begin(), scene.lights.end(), 0.0,
+    [](double sum, const SceneLight& light)
+    { return sum + (light.type == SceneLight::Type::Point ? 6.0 : 1.0); });
+  return maps * spec.mapSizeTexels * spec.mapSizeTexels * 4.0;
 }
 
 /// A way to draw the scene, with its results at the present place.
@@ -132,7 +145,10 @@ public:
     const int sidePixels = options.sidePixels;
     for (const VariantSpec& spec : singles())
     {
-      this->runners_.push_back(std::make_unique<Runner>(spec, scene, sidePixels));
+      if (mapBytes(spec, scene) <= mostMapBytes)
+      {
+        this->runners_.push_back(std::make_unique<Runner>(spec, scene, sidePixels));
+      }
     }
     this->runners_.push_back(
       std::make_unique<Runner>(VariantSpec{ automaticTechnique, 1024 }, scene, sidePixels));
