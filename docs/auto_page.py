@@ -18,8 +18,7 @@ pixels in the last frame among those that face a light, of which some places sho
 best one, known afterwards, is the fastest that keeps the error there with maps that are
 baked already: `nsm`, `lispsm`, `tsm` or `pssm` with maps of several sizes (at most 2 GiB
 for all lights), `silhouette` or `raytraced`. Times are medians of ten frames, of `auto`
-and the two fastest single techniques in turns. The city of 10 million triangles is left
-out: it does not fit into memory as often as there are techniques.
+and the two fastest single techniques in turns.
 
 {places}
 
