@@ -161,13 +161,8 @@ void DeferredPicture::read(ReceiverImages& images) const
   images.height = this->size_.y;
   images.fragments.resize(
     static_cast<std::size_t>(this->size_.x) * static_cast<std::size_t>(this->size_.y));
-  const GlStateGuard guard;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, this->framebuffer_.name());
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(this->origin_.x, this->origin_.y, this->size_.x, this->size_.y, GL_RG, GL_FLOAT,
-    images.fragments.data());
+  readFramebuffer(
+    this->framebuffer_.name(), this->origin_, this->size_, GL_RG, images.fragments.data());
 }
 
 //------------------------------------------------------------------------------

@@ -19,6 +19,16 @@ void bindAgain(GLenum target, GLint texture)
   glBindTexture(target, glIsTexture(name) ? name : 0);
 }
 
+/// Prepare to read an image to the processor's memory.
+void beginReading()
+{
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  // Reading should wait for what draws the image. But llvmpipe (Mesa 22.3) at times returns what
+  // the image held before.
+  glFinish();
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -125,15 +135,35 @@ GlStateGuard::~GlStateGuard()
 }
 
 //------------------------------------------------------------------------------
+void readFramebuffer(
+  GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size, GLenum format, void* floats)
+{
+  const GlStateGuard guard;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  if (format != GL_DEPTH_COMPONENT)
+  {
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+  }
+  beginReading();
+  glReadPixels(origin.x, origin.y, size.x, size.y, format, GL_FLOAT, floats);
+}
+
+//------------------------------------------------------------------------------
 void readDepths(
   GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size, std::vector<float>& depths)
 {
   depths.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+  readFramebuffer(framebuffer, origin, size, GL_DEPTH_COMPONENT, depths.data());
+}
+
+//------------------------------------------------------------------------------
+void readTexture(GLuint texture, GLenum format, GLenum type, void* texels)
+{
   const GlStateGuard guard;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(origin.x, origin.y, size.x, size.y, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  beginReading();
+  glGetTexImage(GL_TEXTURE_2D, 0, format, type, texels);
 }
 
 //------------------------------------------------------------------------------

@@ -46,9 +46,19 @@ private:
   std::array<GLint, textureUnits> texture2D_, texture2DArray_;
 };
 
+/// Read floats of a part of a framebuffer: window depths, or channels of its first attachment.
+/// @param format GL_DEPTH_COMPONENT, or the channels' format
+/// @param floats as many per pixel as the format has
+void readFramebuffer(GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size,
+  GLenum format, void* floats);
+
 /// Read window depths of a part of a framebuffer, one per pixel.
 void readDepths(
   GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size, std::vector<float>& depths);
+
+/// Read the texels of a 2D texture's first level, side by side.
+/// @param format, type of the values, as glGetTexImage takes them
+void readTexture(GLuint texture, GLenum format, GLenum type, void* texels);
 
 /// Saves the first indexed binding of shader storage buffers and the general one, and restores them
 /// at the end of its scope.

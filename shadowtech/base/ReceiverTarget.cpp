@@ -95,12 +95,8 @@ void ReceiverTarget::read(ReceiverImages& images) const
   const std::size_t pixels =
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
   images.fragments.resize(pixels);
-  const GlStateGuard guard;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, this->framebuffer_.name());
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(0, 0, this->width_, this->height_, GL_RG, GL_FLOAT, images.fragments.data());
+  readFramebuffer(this->framebuffer_.name(), glm::ivec2(0), { this->width_, this->height_ }, GL_RG,
+    images.fragments.data());
 }
 
 //------------------------------------------------------------------------------

@@ -145,11 +145,7 @@ void VisibilityLayers::estimate(int layer, const PointwiseTechnique& technique,
   this->screenPass_.fill(
     { { this->texture_.name(), layer }, { ofPixels.name() } }, this->width_, this->height_);
   classes->resize(static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, ofPixels.name());
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, classes->data());
+  readTexture(ofPixels.name(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, classes->data());
 }
 
 //------------------------------------------------------------------------------
@@ -248,10 +244,8 @@ void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.create());
   glFramebufferTextureLayer(
     GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->texture_.name(), 0, layer);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(0, 0, this->width_, this->height_, GL_RED, GL_FLOAT, visibility.data());
+  readFramebuffer(
+    framebuffer.name(), glm::ivec2(0), { this->width_, this->height_ }, GL_RED, visibility.data());
 }
 
 //------------------------------------------------------------------------------

@@ -235,11 +235,7 @@ void MonteCarlo::readClasses(const LayerInput& input) const
   }
   std::vector<glm::vec4> texels(
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, this->unfiltered_.name());
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
+  readTexture(this->unfiltered_.name(), GL_RGBA, GL_FLOAT, texels.data());
   input.classes->resize(texels.size());
   std::transform(texels.begin(), texels.end(), input.classes->begin(),
     [channel = this->channels_](const glm::vec4& texel)

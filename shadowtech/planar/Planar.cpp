@@ -331,11 +331,7 @@ std::int64_t Planar::countPixelsOffPlanes() const
 {
   std::vector<GLuint> planes(
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, this->planesOfPixels_.name());
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glGetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, planes.data());
+  readTexture(this->planesOfPixels_.name(), GL_RED_INTEGER, GL_UNSIGNED_INT, planes.data());
   return std::count(planes.begin(), planes.end(), offPlanes);
 }
 

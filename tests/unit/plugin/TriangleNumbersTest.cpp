@@ -243,6 +243,27 @@ TEST_F(RightNumbers, areBelievedWhereVtkOffsetsPolygons)
   vtkMapper::SetResolveCoincidentTopologyToDefault();
 }
 
+/// Cleared by a frame that shows nothing, the image is filled from inside a sphere.
+TEST_F(RightNumbers, areReadOnceTheyAreDrawn)
+{
+  PassScene scene(64, 48);
+  scene.addSphere(glm::dvec3(0.0), 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  const auto drawBy = [&](int route)
+  {
+    scene.choose({ "esm", route });
+    scene.render();
+    return scene.report().numbersChecked;
+  };
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  drawBy(vtkGnomonShadowPass::ROUTE_INLINE);
+  scene.lookFrom({ 0.0, -9.0, 7.0 }, { 0.0, -20.0, 20.0 });
+  EXPECT_EQ(drawBy(vtkGnomonShadowPass::ROUTE_IMAGE), 0);
+  drawBy(vtkGnomonShadowPass::ROUTE_INLINE);
+  scene.lookFrom(glm::dvec3(0.0), { 1.0, 1.0, 0.0 });
+  EXPECT_EQ(drawBy(vtkGnomonShadowPass::ROUTE_IMAGE), 64 * 48);
+}
+
 /// All ways to draw receivers, in turn with all looks, with wrong numbers from one mapper.
 class NumberedKinds
   : public PassTest
