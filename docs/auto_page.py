@@ -3,22 +3,22 @@
 python3 docs/auto_page.py auto.csv flights.csv MACHINE
 """
 
+import collections
 import csv
 import statistics
 import sys
 
-ALLOWED = 0.005
 DEAREST = 1.3
+SAMPLES = (1, 4, 16, 64)
 
 PAGE = """# How well `auto` chooses
 
-The camera moves by small steps from random places. The error is the share of wrong
-pixels in the last frame among those that face a light, of which some places show few;
-0.50 % is allowed. At the first places `auto` is compared with single techniques. The
-best one, known afterwards, is the fastest that keeps the error there with maps that are
-baked already: `nsm`, `lispsm`, `tsm` or `pssm` with maps of several sizes (at most 2 GiB
-for all lights), `silhouette` or `raytraced`. Times are medians of ten frames, of `auto`
-and the two fastest single techniques in turns.
+## From random places
+
+The camera moves by small steps from random places. The error is that of the last frame.
+At the first places `auto` is compared with single techniques. The best one, known
+afterwards, is the fastest that keeps the error there with maps that are baked already.
+Times are medians of ten frames, of `auto` and the two fastest single techniques in turns.
 
 {places}
 
@@ -38,8 +38,24 @@ compared, and for each where the error was not kept.
 Measured on: {machine}.
 """
 
+HARD = """### Hard shadows
+
+The error is the share of wrong pixels among those that face a light, of which some places
+show few; 0.50 % is allowed. Single techniques are `nsm`, `lispsm`, `tsm` or `pssm` with
+maps of several sizes (at most 2 GiB for all lights), `silhouette` or `raytraced`.
+
+"""
+
+SOFT = """### Soft shadows
+
+The error is the root mean square of the difference from rays to 1,024 points of the light;
+0.03 is allowed. Single techniques are `penumbra` or `raytraced` with 1, 4, 16 or 64 samples,
+`pcss`, `montecarlo`, or `nsm` and `silhouette`, which take the light for a point.
+
+"""
+
 PLACES_HEAD = (
-    "| scene | places | with maps | error kept | largest error | compared "
+    "| scene | places | {chosen} | error kept | largest error | compared "
     "| at most 1.3 times the best | over the best: median | most |\n"
     "|---|---|---|---|---|---|---|---|---|"
 )
@@ -55,16 +71,28 @@ def share(rows, keeps):
     return f"{100 * sum(keeps(row) for row in rows) / len(rows):.1f} %"
 
 
-def place_line(name, rows):
+def with_maps(rows):
+    return str(sum(row["technique"] == "nsm" for row in rows))
+
+
+def by_samples(rows):
+    counts = collections.Counter(int(row["samples"]) for row in rows)
+    return ", ".join(str(counts[samples]) for samples in SAMPLES)
+
+
+def percent(error):
+    return f"{100 * error:.2f} %"
+
+
+def place_line(name, rows, chosen, error):
     compared = [row for row in rows if row["best"]]
     if not compared:
         raise SystemExit(f"{name}: no place was compared")
     over = [float(row["over best"]) for row in compared]
-    maps = [row for row in rows if row["technique"] == "nsm"]
     return (
-        f"| {name} | {len(rows)} | {len(maps)} "
-        f"| {share(rows, lambda row: float(row['wrong share']) <= ALLOWED)} "
-        f"| {100 * max(float(row['wrong share']) for row in rows):.2f} % "
+        f"| {name} | {len(rows)} | {chosen(rows)} "
+        f"| {share(rows, lambda row: float(row['error']) <= float(row['allowed']))} "
+        f"| {error(max(float(row['error']) for row in rows))} "
         f"| {len(compared)} | {share(compared, lambda row: float(row['over best']) <= DEAREST)} "
         f"| {statistics.median(over):.2f} | {max(over):.2f} |"
     )
@@ -83,14 +111,34 @@ def read(path):
         return list(csv.DictReader(table))
 
 
-def places_table(path):
-    """The table of the places in the lines of gnomon_benchmark_auto."""
-    rows = read(path)
+def table(rows, head, chosen, error):
+    """The lines of scenes whose errors are of one kind."""
     lines = [
-        place_line(f"`{scene}`", [row for row in rows if row["scene"] == scene])
+        place_line(f"`{scene}`", [row for row in rows if row["scene"] == scene], chosen, error)
         for scene in dict.fromkeys(row["scene"] for row in rows)
     ]
-    return "\n".join([PLACES_HEAD, *lines, place_line("all", rows)])
+    return "\n".join([head, *lines, place_line("all", rows, chosen, error)])
+
+
+def is_soft(row):
+    return int(row["samples"]) > 1 or row["technique"] == "penumbra"
+
+
+def places_table(path):
+    """The tables of the places in the lines of gnomon_benchmark_auto."""
+    rows = read(path)
+    soft = [row for row in rows if is_soft(row)]
+    hard = [row for row in rows if not is_soft(row)]
+    samples = f"with {', '.join(map(str, SAMPLES))} samples"
+    tables = [
+        text + table(of, PLACES_HEAD.format(chosen=head), chosen, error)
+        for text, of, head, chosen, error in (
+            (HARD, hard, "with maps", with_maps, percent),
+            (SOFT, soft, samples, by_samples, "{:.3f}".format),
+        )
+        if of
+    ]
+    return "\n\n".join(tables)
 
 
 def flights_table(path):

@@ -26,6 +26,8 @@ constexpr int framesPerProbeOfMoved = 4;
 
 /// The most sets of pixels that are probed to decide whether a map keeps the error.
 constexpr std::size_t mostLooks = 8;
+/// The same for area lights, whose samples are counted in one frame.
+constexpr int mostSoftLooks = 4;
 
 /// The largest side to which an error limit enlarges a map.
 constexpr int mostTexels = 4096;
@@ -451,16 +453,30 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
   const int all = casting.light.lightSamples;
   while (samplesOf(choice.step) < all && !(choice.isProbed && choice.sinceProbed < framesPerProbe))
   {
-    this->look();
-    const double error = this->probes_.rmsOf(
-      samplesOf(choice.step), casting.light, this->occluders_, this->visibility_.tracer());
-    this->frame_.report.probes += static_cast<std::int64_t>(Probes::count) / 4;
     choice.sinceProbed = 0;
-    choice.isProbed = error <= limit;
+    choice.isProbed = this->keepsError(casting.light, samplesOf(choice.step), limit);
     choice.step += choice.isProbed ? 0 : 1;
   }
   choice.samples = std::min(samplesOf(choice.step), all);
   casting.light.lightSamples = choice.samples;
+}
+
+//------------------------------------------------------------------------------
+/// Probe an area light's visibility until it is clear on which side of a limit its error is.
+/// @return true if it is clear that so few samples keep the limit
+bool TechniqueChoice::keepsError(const ShadowLight& light, int samples, double limit)
+{
+  SquaredErrors found;
+  bool isClear = false;
+  for (int looks = 0; looks < mostSoftLooks && !isClear; ++looks)
+  {
+    this->looked_ = this->looked_ && looks == 0;
+    this->look();
+    found.add(this->probes_.errorsOf(samples, light, this->occluders_, this->visibility_.tracer()));
+    this->frame_.report.probes += static_cast<std::int64_t>(Probes::count) / 4;
+    isClear = found.mostRms() <= limit || found.leastRms() > limit;
+  }
+  return found.mostRms() <= limit;
 }
 
 //------------------------------------------------------------------------------

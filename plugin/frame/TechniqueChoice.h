@@ -79,6 +79,7 @@ private:
   std::string tryMap(CastingLight& casting, const std::function<void(CastingLight&)>& bake);
   bool probe(const CastingLight& casting, double limit, LightChoice& choice);
   void takeSamples(CastingLight& casting);
+  bool keepsError(const ShadowLight& light, int samples, double limit);
   void refine(CastingLight& casting);
   void look();
 

@@ -27,15 +27,18 @@ double spread(std::size_t number, double step)
   return value - std::floor(value);
 }
 
-/// Return an end of Wilson's interval with z = 2.
+/// Return an end of Wilson's interval of a share with z = 2, where k of n were counted.
 /// @param side -1 for the lower one, 1 for the upper one
-double wilson(const WrongProbes& probes, double side)
+double wilson(double k, double n, double side)
 {
   constexpr double z2 = 4.0;
-  const auto n = static_cast<double>(probes.asked);
-  const auto k = static_cast<double>(probes.wrong);
-  const double half = std::sqrt(z2 * (k * (1.0 - probes.share()) + 0.25 * z2));
+  const double half = std::sqrt(z2 * (k * (1.0 - k / std::max(n, 1.0)) + 0.25 * z2));
   return (k + 0.5 * z2 + side * half) / (n + z2);
+}
+
+double wilson(const WrongProbes& probes, double side)
+{
+  return wilson(static_cast<double>(probes.wrong), static_cast<double>(probes.asked), side);
 }
 
 } // namespace
@@ -50,6 +53,25 @@ double WrongProbes::leastShare() const
 double WrongProbes::mostShare() const
 {
   return wilson(*this, 1.0);
+}
+
+//------------------------------------------------------------------------------
+void SquaredErrors::add(const SquaredErrors& others)
+{
+  this->points += others.points;
+  this->sum += others.sum;
+  this->sumOfSquares += others.sumOfSquares;
+  this->expected = std::max(this->expected, others.expected);
+}
+
+//------------------------------------------------------------------------------
+double SquaredErrors::rms(double side) const
+{
+  const double size =
+    this->sum > 0.0 ? std::max(this->sumOfSquares / this->sum, this->expected) : this->expected;
+  return size > 0.0
+    ? std::sqrt(size * wilson(this->sum / size, static_cast<double>(this->points), side))
+    : 0.0;
 }
 
 //------------------------------------------------------------------------------
@@ -182,7 +204,7 @@ void Probes::aimAtFacing()
 }
 
 //------------------------------------------------------------------------------
-double Probes::rmsOf(
+SquaredErrors Probes::errorsOf(
   int few, const ShadowLight& light, const Occluders& occluders, EmbreeTracer& tracer)
 {
   // Each point has all of the light's rays, so every fourth point is enough.
@@ -197,18 +219,23 @@ double Probes::rmsOf(
   ShadowLight sparse = light;
   sparse.lightSamples = few;
   tracer.traceArea(sparse, occluders, receivers, this->asked_);
-  double squares = 0.0;
-  std::size_t answers = 0;
-  for (std::size_t i = 0; i < this->traced_.size(); ++i)
+  SquaredErrors errors;
+  errors.expected = 0.25 / few; // the variance of independent samples, half of which are hidden
+  for (std::size_t i = 0; i < count; ++i)
   {
-    if (this->classes_[i % count] == static_cast<std::uint8_t>(TracedClass::Traced))
+    if (this->classes_[i] == static_cast<std::uint8_t>(TracedClass::Traced))
     {
-      const auto off = static_cast<double>(this->asked_[i] - this->traced_[i]);
-      squares += off * off;
-      ++answers;
+      double squares = 0.0;
+      for (std::size_t at = i; at < this->traced_.size(); at += count)
+      {
+        const auto off = static_cast<double>(this->asked_[at] - this->traced_[at]);
+        squares += off * off;
+      }
+      const double mean = squares * count / static_cast<double>(this->traced_.size());
+      errors.add({ 1, mean, mean * mean });
     }
   }
-  return answers > 0 ? std::sqrt(squares / static_cast<double>(answers)) : 0.0;
+  return errors;
 }
 
 //------------------------------------------------------------------------------

@@ -42,6 +42,26 @@ struct WrongProbes
   ///@}
 };
 
+/// A sum of the squared errors of an area light's visibility.
+struct SquaredErrors
+{
+  std::size_t points = 0;    ///< that face the light
+  double sum = 0.0;          ///< of the squares, means over the visibility's channels
+  double sumOfSquares = 0.0; ///< of these again
+  double expected = 0.0;     ///< what a square in a penumbra may be; rare ones may be missed
+
+  void add(const SquaredErrors& others);
+  ///@{
+  /// Return a bound of the root mean square error of the population of which these are a sample:
+  /// Wilson's, as if all squares but zeros were of one size, at least the expected one.
+  double leastRms() const { return this->rms(-1.0); }
+  double mostRms() const { return this->rms(1.0); }
+  ///@}
+
+private:
+  double rms(double side) const;
+};
+
 /// Compares a cheap visibility with traced visibility at some pixels, before the picture is drawn.
 /// Camera rays find the receivers. They miss surfaces that do not cast, and hit the surface behind.
 class Probes
@@ -70,9 +90,10 @@ public:
   /// apart from all points found.
   void aimAtFacing();
 
-  /// Return the root mean square error of an area light's visibility with fewer samples.
+  /// Sum up the errors of an area light's visibility with fewer samples, at every fourth point.
   /// @param few the number of samples; fewer than the light has
-  double rmsOf(int few, const ShadowLight& light, const Occluders& occluders, EmbreeTracer& tracer);
+  SquaredErrors errorsOf(
+    int few, const ShadowLight& light, const Occluders& occluders, EmbreeTracer& tracer);
 
   std::size_t bytes() const;
 

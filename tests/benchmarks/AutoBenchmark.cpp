@@ -1,7 +1,8 @@
 // Measure how well `auto` chooses; print lines of CSV.
 // Places: from random places in a scene the camera moves by small steps; the error is that of the
-// last frame. At the first places `auto` is compared with single techniques, too; the best one
-// within the allowed error is known only afterwards.
+// last frame: the share of wrong pixels, or the root mean square error if a light has an area. At
+// the first places `auto` is compared with single techniques, too; the best one within the allowed
+// error is known only afterwards.
 // Budget: the camera flies around the scene with a time budget.
 
 #include "BenchmarkMain.h"
@@ -43,8 +44,9 @@ struct Options
   int compared = 20; ///< the first of them, at which `auto` is compared
   unsigned int seed = 1;
   int sidePixels = 512;
-  double error = 0.005; ///< share of wrong pixels that is allowed
-  double budget = 0.0;  ///< as a multiple of plain VTK's frame; 0: none
+  double error = 0.005;    ///< share of wrong pixels that is allowed
+  double softError = 0.03; ///< root mean square error that is allowed under area lights
+  double budget = 0.0;     ///< as a multiple of plain VTK's frame; 0: none
 };
 
 /// Frames timed at a place, and untimed frames that precede them.
@@ -58,26 +60,58 @@ constexpr double slowerAtFirst = 2.0;
 constexpr std::size_t framesOfAll = 3;
 constexpr std::size_t fastest = 2;
 
+/// A technique that looks maps up in the props' shaders.
+VariantSpec inlineMap(const char* technique, int mapSizeTexels)
+{
+  return { technique, mapSizeTexels, vtkGnomonShadowPass::ROUTE_INLINE, true };
+}
+
+VariantSpec ofSamples(const char* technique, int lightSamples)
+{
+  VariantSpec spec{ technique };
+  spec.settings["light_samples"] = std::to_string(lightSamples);
+  return spec;
+}
+
 /// The study's techniques for hard shadows, with which `auto` is compared.
-std::vector<VariantSpec> singles()
+std::vector<VariantSpec> hardSingles()
 {
   std::vector<VariantSpec> specs;
-  const auto addMaps = [&](const char* technique, const std::vector<int>& sizes)
+  for (const int size : { 512, 1024, 2048, 4096 })
   {
-    for (const int size : sizes)
-    {
-      VariantSpec spec{ technique, size, vtkGnomonShadowPass::ROUTE_INLINE, true };
-      specs.push_back(spec);
-    }
-  };
-  addMaps("nsm", { 512, 1024, 2048, 4096 });
-  addMaps("lispsm", { 1024, 2048 });
-  addMaps("tsm", { 1024, 2048 });
-  addMaps("pssm", { 1024, 2048 });
+    specs.push_back(inlineMap("nsm", size));
+  }
+  for (const char* technique : { "lispsm", "tsm", "pssm" })
+  {
+    specs.push_back(inlineMap(technique, 1024));
+    specs.push_back(inlineMap(technique, 2048));
+  }
   specs.push_back({ "silhouette", 1024 });
   specs.push_back({ "raytraced" });
   return specs;
 }
+
+/// The study's techniques for soft shadows, and those for hard ones that may err little enough.
+std::vector<VariantSpec> softSingles()
+{
+  std::vector<VariantSpec> specs = { inlineMap("nsm", 1024), { "silhouette", 1024 },
+    { "pcss", 1024 }, { "montecarlo", 1024 } };
+  for (const int samples : { 1, 4, 16, 64 })
+  {
+    specs.push_back(ofSamples("penumbra", samples));
+    specs.push_back(ofSamples("raytraced", samples));
+  }
+  return specs;
+}
+
+bool hasAreaLights(const Scene& scene)
+{
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+    [](const SceneLight& light) { return light.area.has_value(); });
+}
+
+/// The samples of area lights in the truth.
+constexpr int trueSamples = 1024;
 
 /// Single techniques are left out where the maps of a scene's lights would take more.
 constexpr double mostMapBytes = 2.0 * 1024 * 1024 * 1024;
@@ -140,10 +174,13 @@ class Ways
 public:
   Ways(const Scene& scene, const Options& options)
     : scene_(scene)
-    , options_(options)
+    , isSoft_(hasAreaLights(scene))
+    , allowed_(isSoft_ ? options.softError : options.error)
+    , exact_(isSoft_ ? ofSamples("raytraced", trueSamples) : VariantSpec{ "raytraced" }, scene,
+        options.sidePixels)
   {
     const int sidePixels = options.sidePixels;
-    for (const VariantSpec& spec : singles())
+    for (const VariantSpec& spec : this->isSoft_ ? softSingles() : hardSingles())
     {
       if (mapBytes(spec, scene) <= mostMapBytes)
       {
@@ -153,6 +190,7 @@ public:
     this->runners_.push_back(
       std::make_unique<Runner>(VariantSpec{ automaticTechnique, 1024 }, scene, sidePixels));
     this->automatic().variant.pass()->SetMaximumError(options.error);
+    this->automatic().variant.pass()->SetMaximumSoftError(options.softError);
     for (const auto& runner : this->runners_) // compile and bake what is the same at all places
     {
       runner->draw();
@@ -168,7 +206,7 @@ public:
   {
     this->move(camera);
     const LightReport chosen = this->chosen();
-    this->truth_ = this->visibility(*this->single("raytraced"), camera);
+    this->truth_ = visibility(this->exact_, camera);
     this->printChoice(place, chosen, this->error(chosen, camera));
     std::cout << ",,,,," << std::endl;
   }
@@ -205,7 +243,7 @@ private:
   /// fastest. Each draws a frame here.
   void findRivals(vtkCamera* camera)
   {
-    this->truth_ = this->visibility(*this->single("raytraced"), camera);
+    this->truth_ = visibility(this->exact_, camera);
     std::vector<std::pair<double, Runner*>> drawn;
     for (std::size_t i = 0; i + 1 < this->runners_.size(); ++i)
     {
@@ -219,7 +257,7 @@ private:
     double most = std::numeric_limits<double>::infinity();
     for (const auto& [milliseconds, runner] : drawn)
     {
-      if (milliseconds <= most && this->wrongShare(*runner, camera) <= this->options_.error)
+      if (milliseconds <= most && this->error(*runner, camera) <= this->allowed_)
       {
         most = std::min(most, slowerAtFirst * milliseconds);
         this->rivals_.push_back(runner);
@@ -278,14 +316,16 @@ private:
     return chosen;
   }
 
-  /// @return null if there is none
-  Runner* single(const std::string& technique, int mapSizeTexels = 0) const
+  /// Return the single technique that shows the same, or null if there is none.
+  Runner* single(const LightReport& chosen) const
   {
     for (std::size_t i = 0; i + 1 < this->runners_.size(); ++i)
     {
       const VariantSpec& spec = this->runners_[i]->variant.spec();
-      if (spec.technique == technique &&
-        (technique != "nsm" || spec.mapSizeTexels == mapSizeTexels))
+      const auto samples = spec.settings.find("light_samples");
+      if (spec.technique == chosen.technique &&
+        (spec.technique != "nsm" || spec.mapSizeTexels == chosen.mapSizeTexels) &&
+        (samples == spec.settings.end() || samples->second == std::to_string(chosen.lightSamples)))
       {
         return this->runners_[i].get();
       }
@@ -296,7 +336,8 @@ private:
   void printChoice(int place, const LightReport& chosen, double error) const
   {
     std::cout << this->scene_.name << "," << place << "," << chosen.technique << ","
-              << chosen.mapSizeTexels << "," << error;
+              << chosen.mapSizeTexels << "," << chosen.lightSamples << "," << this->allowed_ << ","
+              << error;
   }
 
   /// Return the visibility of the last frame of a motion.
@@ -309,20 +350,22 @@ private:
   /// Return the error of a choice, or NaN if no single technique equals it.
   double error(const LightReport& chosen, vtkCamera* camera) const
   {
-    Runner* const single = this->single(chosen.technique, chosen.mapSizeTexels);
-    return single ? this->wrongShare(*single, camera) : std::nan("");
+    Runner* const single = this->single(chosen);
+    return single ? this->error(*single, camera) : std::nan("");
   }
 
-  /// Return the share of wrong pixels in the last frame of a motion.
-  double wrongShare(Runner& runner, vtkCamera* camera) const
+  /// Return the error in the last frame of a motion.
+  double error(Runner& runner, vtkCamera* camera) const
   {
     const VisibilityError off =
       measureError(visibility(runner, camera), this->truth_, this->scene_.lights);
-    return off.share(off.wrongPixels());
+    return this->isSoft_ ? off.rootMeanSquare : off.share(off.wrongPixels());
   }
 
   const Scene& scene_;
-  const Options& options_;
+  const bool isSoft_;
+  const double allowed_;
+  Runner exact_;
   std::vector<std::unique_ptr<Runner>> runners_;
   std::vector<Runner*> rivals_; ///< drawn in turns with `auto`
   VisibilityImages truth_;      ///< of the last frame at this place
@@ -535,6 +578,11 @@ int run(int argc, char** argv)
     ->check(CLI::Range(0.0, 1.0))
     ->capture_default_str();
   app
+    .add_option("--soft-error", options.softError,
+      "The root mean square error that is allowed in scenes with area lights")
+    ->check(CLI::Range(0.0, 1.0))
+    ->capture_default_str();
+  app
     .add_option("--budget", options.budget,
       "Fly around each scene instead, with this multiple of plain VTK's time as a budget")
     ->check(CLI::Range(0.0, 1e6))
@@ -545,7 +593,8 @@ int run(int argc, char** argv)
   std::cout << (options.budget > 0.0
       ? "scene,error,plain frames,budget ms,frames,possible,late,loaded,loaded possible,"
         "loaded late,changes,by maps,by rays\n"
-      : "scene,place,technique,map texels,wrong share,ms,best ms,over best,best,why rays\n");
+      : "scene,place,technique,map texels,samples,allowed,error,ms,best ms,over best,best,why "
+        "rays\n");
   for (const std::string& name : options.scenes)
   {
     const Scene scene = withoutShadowSettings(loadScene(name));

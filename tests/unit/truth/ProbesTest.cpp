@@ -184,11 +184,13 @@ TEST_F(ProbesTest, fewerSamplesHaveALargerError)
   light.area = ballArea(0.5);
   light.lightSamples = 64;
   scene.look(this->probes_, 0);
-  const double of4 = this->probes_.rmsOf(4, light, scene.occluders, scene.tracer);
-  const double of16 = this->probes_.rmsOf(16, light, scene.occluders, scene.tracer);
-  EXPECT_GT(of16, 0.001);
-  EXPECT_GT(of4, 1.5 * of16);
-  EXPECT_LT(of4, 0.2);
+  const auto errorsOf = [&](int few)
+  { return this->probes_.errorsOf(few, light, scene.occluders, scene.tracer); };
+  const SquaredErrors of4 = errorsOf(4);
+  const SquaredErrors of16 = errorsOf(16);
+  EXPECT_GT(of16.leastRms(), 0.001);
+  EXPECT_GT(of4.leastRms(), 1.5 * of16.mostRms());
+  EXPECT_LT(of4.mostRms(), 0.2);
 }
 
 // At the bounds the count found is two standard deviations too small or too large.
@@ -209,6 +211,26 @@ TEST(WrongProbes, boundsAreWilsons)
   }
   EXPECT_EQ(WrongProbes().mostShare(), 1.0);
   EXPECT_EQ(WrongProbes().leastShare(), 0.0);
+}
+
+// If all squares but zeros are of one size, their share has Wilson's bounds.
+TEST(SquaredErrors, boundsAreThoseOfTheShareThatErrs)
+{
+  SquaredErrors errors;
+  for (int i = 0; i < 900; ++i)
+  {
+    const double square = i % 10 == 0 ? 0.25 : 0.0;
+    errors.add({ 1, square, square * square });
+  }
+  const WrongProbes wrong{ 900, 90 };
+  EXPECT_NEAR(errors.mostRms(), 0.5 * std::sqrt(wrong.mostShare()), 1e-9);
+  EXPECT_NEAR(errors.leastRms(), 0.5 * std::sqrt(wrong.leastShare()), 1e-9);
+
+  // All may have missed the only ones that err.
+  SquaredErrors none{ 900 };
+  none.expected = 0.25;
+  EXPECT_NEAR(none.mostRms(), 0.5 * std::sqrt(WrongProbes{ 900, 0 }.mostShare()), 1e-9);
+  EXPECT_EQ(none.leastRms(), 0.0);
 }
 
 } // namespace gnomon::test
