@@ -24,10 +24,8 @@ constexpr int mostPatience = 960;
 constexpr int framesPerProbe = 16;
 constexpr int framesPerProbeOfMoved = 4;
 
-/// The most sets of pixels that are probed to decide whether a map keeps the error.
+/// The most sets of pixels that are probed to decide whether the error is kept.
 constexpr std::size_t mostLooks = 8;
-/// The same for area lights, whose samples are counted in one frame.
-constexpr int mostSoftLooks = 4;
 
 /// The largest side to which an error limit enlarges a map.
 constexpr int mostTexels = 4096;
@@ -468,7 +466,7 @@ bool TechniqueChoice::keepsError(const ShadowLight& light, int samples, double l
 {
   SquaredErrors found;
   bool isClear = false;
-  for (int looks = 0; looks < mostSoftLooks && !isClear; ++looks)
+  for (std::size_t looks = 0; looks < mostLooks && !isClear; ++looks)
   {
     this->looked_ = this->looked_ && looks == 0;
     this->look();
