@@ -10,6 +10,7 @@
 #include "plugin/vtkGnomonShadowPass.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 
+#include <vtkCamera.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
@@ -73,8 +74,27 @@ protected:
     {
       this->pass_->SetSetting("light_radius", GetParam().sunDegrees);
     }
-    this->truth_ = this->draw("raytraced", { { "light_samples", "1024" }, { "light_seed", "1" } });
+    this->findTruth("1024");
+  }
+
+  void findTruth(const char* samples)
+  {
+    this->truth_ = this->draw("raytraced", { { "light_samples", samples }, { "light_seed", "1" } });
     this->pass_->SetSetting("light_seed", "0");
+  }
+
+  /// Turn the camera and return the error of the first frame that moves.
+  double errorOfMotion(double degrees)
+  {
+    this->renderer_->GetActiveCamera()->Azimuth(degrees);
+    this->renderer_->ResetCameraClippingRange();
+    this->findTruth("256");
+    this->draw("auto", { { "light_samples", "64" } }); // at rest
+    this->pass_->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+    const double error = this->errorOf(this->draw("auto", {})).rootMeanSquare;
+    this->pass_->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
+    EXPECT_LT(this->pass_->GetReport().lights[0].lightSamples, 64);
+    return error;
   }
 
   /// Compare with rays to 1,024 other points of the light, over the pixels that face it. Expect the
@@ -308,6 +328,22 @@ TEST(SoftHalfPlane, montecarloLeavesThePenumbraAsWideAsItIs)
       EXPECT_GT(pixels[tenth], 100.0) << side;
       EXPECT_NEAR(offBy[tenth] / pixels[tenth], 0.0, 0.05) << side << ", " << tenth;
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Where few points show the error of few samples: thin penumbrae, and errors near the limit.
+using MovingSoftScenes = SoftSceneTest;
+
+INSTANTIATE_TEST_SUITE_P(Builtin, MovingSoftScenes,
+  testing::Values(SoftScene{ "soft-plates" }, SoftScene{ "soft-long-cube" }), nameOfScene);
+
+TEST_P(MovingSoftScenes, keepTheErrorFromAllSides)
+{
+  this->show(tool::loadScene(GetParam().name));
+  for (int side = 0; side < 12; ++side)
+  {
+    EXPECT_LE(this->errorOfMotion(30.0), 0.03) << side;
   }
 }
 
