@@ -9,7 +9,7 @@ import statistics
 import sys
 
 DEAREST = 1.3
-SAMPLES = (1, 4, 16, 64)
+SAMPLES = (1, 4, 6, 16, 64)
 
 PAGE = """# How well `auto` chooses
 
@@ -49,7 +49,7 @@ maps of several sizes (at most 2 GiB for all lights), `silhouette` or `raytraced
 SOFT = """### Soft shadows
 
 The error is the root mean square of the difference from rays to 1,024 points of the light;
-0.03 is allowed. Single techniques are `penumbra` or `raytraced` with 1, 4, 16 or 64 samples,
+0.03 is allowed. Single techniques are `penumbra` or `raytraced` with 1, 4, 6, 16 or 64 samples,
 `pcss`, `montecarlo`, or `nsm` and `silhouette`, which take the light for a point.
 
 """

@@ -30,11 +30,12 @@ constexpr std::size_t mostLooks = 8;
 /// The largest side to which an error limit enlarges a map.
 constexpr int mostTexels = 4096;
 
-/// Return the samples of an area light at a step of its choice: square numbers. One is enough if
-/// penumbrae are narrower than a pixel.
+/// Return the samples of an area light at a step of its choice: 1, 4, 6, 16, 64... One is enough if
+/// penumbrae are narrower than a pixel. Frames of 6 take 1.1 times as long as those of 4, frames of
+/// 16 1.3 times.
 int samplesOf(int step)
 {
-  return 1 << (2 * step);
+  return step == 2 ? 6 : 1 << (2 * (step < 2 ? step : step - 1));
 }
 
 /// Return by how many steps a map's side is to be halved, as its probes say: wrong pixels lie along

@@ -60,7 +60,7 @@ private:
   /// The state of one light's choice while the picture moves.
   struct LightChoice
   {
-    int step = 0;          ///< doublings of its map's side, or quadruplings of its samples
+    int step = 0;          ///< doublings of its map's side, or the step of its samples
     int samples = 0;       ///< of an area light in the last moving frame; 0: all
     bool isProbed = false; ///< true if that keeps the error
     int sinceProbed = 0;   ///< frames

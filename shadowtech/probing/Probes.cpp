@@ -69,7 +69,7 @@ double SquaredErrors::rms(double side) const
 {
   const double size =
     this->sum > 0.0 ? std::max(this->sumOfSquares / this->sum, this->expected) : this->expected;
-  return size > 0.0
+  return size > 0.0 && this->points > 0
     ? std::sqrt(size * wilson(this->sum / size, static_cast<double>(this->points), side))
     : 0.0;
 }

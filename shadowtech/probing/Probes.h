@@ -53,7 +53,8 @@ struct SquaredErrors
   void add(const SquaredErrors& others);
   ///@{
   /// Return a bound of the root mean square error of the population of which these are a sample:
-  /// Wilson's, as if all squares but zeros were of one size, at least the expected one.
+  /// Wilson's, as if all squares but zeros were of one size, at least the expected one. Without
+  /// points both are 0.
   double leastRms() const { return this->rms(-1.0); }
   double mostRms() const { return this->rms(1.0); }
   ///@}

@@ -231,6 +231,8 @@ TEST(SquaredErrors, boundsAreThoseOfTheShareThatErrs)
   none.expected = 0.25;
   EXPECT_NEAR(none.mostRms(), 0.5 * std::sqrt(WrongProbes{ 900, 0 }.mostShare()), 1e-9);
   EXPECT_EQ(none.leastRms(), 0.0);
+  none.points = 0; // nothing faces the light
+  EXPECT_EQ(none.mostRms(), 0.0);
 }
 
 } // namespace gnomon::test
