@@ -332,7 +332,7 @@ TEST(SoftHalfPlane, montecarloLeavesThePenumbraAsWideAsItIs)
 }
 
 //------------------------------------------------------------------------------
-/// Where few points show the error of few samples: thin penumbrae, and errors near the limit.
+/// `auto` in motion, where few probes show an error (thin penumbrae) or it is near the limit.
 using MovingSoftScenes = SoftSceneTest;
 
 INSTANTIATE_TEST_SUITE_P(Builtin, MovingSoftScenes,

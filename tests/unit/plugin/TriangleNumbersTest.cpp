@@ -243,7 +243,8 @@ TEST_F(RightNumbers, areBelievedWhereVtkOffsetsPolygons)
   vtkMapper::SetResolveCoincidentTopologyToDefault();
 }
 
-/// Cleared by a frame that shows nothing, the image is filled from inside a sphere.
+/// Read too soon, the image would be as the frame before left it, which shows nothing (llvmpipe).
+/// From inside a sphere all pixels are drawn.
 TEST_F(RightNumbers, areReadOnceTheyAreDrawn)
 {
   PassScene scene(64, 48);
