@@ -75,7 +75,8 @@ public:
    *
    * "auto" shows exact shadows in every picture at rest: `silhouette`, of area lights `penumbra`.
    * While the picture moves (see Interactive) it takes what MaximumError, MaximumSoftError and
-   * TimeBudget allow: plain maps in place of rays for hard shadows, fewer samples of area lights.
+   * TimeBudget allow: plain maps in place of rays for hard shadows, hard shadows or fewer samples
+   * of area lights.
    * GetReport() says what it took, and why.
    */
   virtual void SetTechnique(const char* name);

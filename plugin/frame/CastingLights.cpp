@@ -1,5 +1,6 @@
 #include "plugin/frame/CastingLights.h"
 
+#include "lights/LightPointSettings.h"
 #include "lights/SettingsTable.h"
 #include "plugin/frame/FrameWishes.h"
 #include "plugin/frame/MemoryBudget.h"
@@ -56,7 +57,8 @@ std::string techniquesOfOldOpenGl()
   return names;
 }
 
-/// Return the estimator of a light, and complete the light.
+/// Return the estimator of a light, and complete the light. If it traces no samples of an area, it
+/// shows the hard shadows of the area's centre.
 /// @throws CompositionError also if OpenGL is too old for it
 const EstimatorEntry& composeHere(ShadowLight& light)
 {
@@ -65,6 +67,11 @@ const EstimatorEntry& composeHere(ShadowLight& light)
   {
     throw CompositionError("'" + light.technique +
       "' needs OpenGL 4.3, and this context has less; it suffices for " + techniquesOfOldOpenGl());
+  }
+  const TechniqueInfo& info = estimator.info;
+  if (info.evaluation == Evaluation::ScreenCpu && !info.has(lightSampleSettings()))
+  {
+    light.area.reset();
   }
   return estimator;
 }
@@ -235,10 +242,13 @@ void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
   lights = std::move(casting);
 }
 
-/// Restore the resting technique of a light that a map shades.
+/// Restore the resting technique of a light that another shades, and keep a map.
 void putBack(CastingLight& casting)
 {
-  casting.plain = std::move(casting.own);
+  if (casting.own.info().isPointwise())
+  {
+    casting.plain = std::move(casting.own);
+  }
   casting.own = std::move(casting.resting->technique);
   casting.light = std::move(casting.resting->light);
   casting.resting.reset();
@@ -404,10 +414,26 @@ std::string CastingLights::takeMap(CastingLight& casting, int mapSizeTexels, Fra
   ShadowLight light = *casting.asked;
   light.technique = plainTechnique;
   light.mapSizeTexels = mapSizeTexels;
+  return this->takeOther(casting, std::move(light), report);
+}
+
+//------------------------------------------------------------------------------
+std::string CastingLights::takeCentre(CastingLight& casting, FrameReport& report)
+{
+  ShadowLight light = *casting.asked;
+  light.area.reset();
+  return this->takeOther(casting, std::move(light), report);
+}
+
+//------------------------------------------------------------------------------
+/// Shade a light in this frame as if it were another one.
+/// @return why this is impossible, as a clause; empty on success
+std::string CastingLights::takeOther(CastingLight& casting, ShadowLight other, FrameReport& report)
+{
   const EstimatorEntry* estimator = nullptr;
   try
   {
-    estimator = &composeHere(light);
+    estimator = &composeHere(other);
   }
   catch (const CompositionError& error)
   {
@@ -415,16 +441,18 @@ std::string CastingLights::takeMap(CastingLight& casting, int mapSizeTexels, Fra
   }
   if (!casting.resting)
   {
-    LightTechnique map = casting.plain ? std::move(*casting.plain) : LightTechnique(*estimator);
-    casting.plain.reset();
+    const bool isKept = casting.plain && &casting.plain->estimator() == estimator;
+    LightTechnique technique = isKept ? std::move(*casting.plain) : LightTechnique(*estimator);
+    if (isKept)
+    {
+      casting.plain.reset();
+    }
     casting.resting.emplace(
       CastingLight::Resting{ std::move(casting.light), std::move(casting.own) });
-    casting.own = std::move(map);
+    casting.own = std::move(technique);
   }
-  casting.light = std::move(light);
-  casting.channels = channelsOf(estimator->info, casting.light);
-  reportOf(report, casting.light) = reportOfCasting(casting.light, estimator->info);
-  this->placeVisibility();
+  casting.light = std::move(other);
+  this->tell(casting, report);
   return {};
 }
 
@@ -436,6 +464,13 @@ void CastingLights::takeResting(CastingLight& casting, FrameReport& report)
     return;
   }
   putBack(casting);
+  this->tell(casting, report);
+}
+
+//------------------------------------------------------------------------------
+/// Note that another technique shades a light in this frame.
+void CastingLights::tell(CastingLight& casting, FrameReport& report)
+{
   casting.channels = channelsOf(casting.own.info(), casting.light);
   reportOf(report, casting.light) = reportOfCasting(casting.light, casting.own.info());
   this->placeVisibility();

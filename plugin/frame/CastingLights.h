@@ -51,7 +51,7 @@ struct CastingLight : KeptTechniques
   int mostMapTexels = std::numeric_limits<int>::max();
   /// The request of a light that leaves its technique to the pass; none for others.
   std::optional<ShadowLight> asked = std::nullopt;
-  /// Its resting technique while a map shades it.
+  /// Its resting technique while another shades it.
   struct Resting
   {
     ShadowLight light;
@@ -84,10 +84,11 @@ public:
     TechniquesOfLights& ofView, FrameReport& report);
 
   ///@{
-  /// Shade a light that leaves its technique to the pass by a plain map in this frame, or by its
-  /// resting technique.
-  /// @return takeMap: why this is impossible, as a clause; empty on success
+  /// Shade a light that leaves its technique to the pass by a plain map in this frame, by exact
+  /// hard shadows of its area's centre, or by its resting technique.
+  /// @return why this is impossible, as a clause; empty on success
   std::string takeMap(CastingLight& casting, int mapSizeTexels, FrameReport& report);
+  std::string takeCentre(CastingLight& casting, FrameReport& report);
   void takeResting(CastingLight& casting, FrameReport& report);
   ///@}
 
@@ -119,6 +120,8 @@ public:
   ///@}
 
 private:
+  std::string takeOther(CastingLight& casting, ShadowLight other, FrameReport& report);
+  void tell(CastingLight& casting, FrameReport& report);
   void placeVisibility();
   TechniquesOfLights& placeOf(const ShadowLight& light, TechniquesOfLights& ofView);
   CastingLight take(ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView);

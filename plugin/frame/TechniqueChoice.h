@@ -23,7 +23,8 @@ namespace gnomon
 /// Chooses techniques for lights that leave theirs to the pass (`auto`), between the stages of
 /// lights and route. At rest they are exact. In motion they are as FrameWishes asks.
 ///
-/// In motion, area lights have as few samples as the error allows. Lights with hard shadows use
+/// In motion, area lights have hard shadows if the error allows it, else as few samples as it
+/// allows. Lights with hard shadows use
 /// maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h): rays
 /// are expected in as large a part of the picture as when its tiles were last counted. A map
 /// is compared with rays at some pixels (Probes.h) before it is shown, and again from time to time,
@@ -60,8 +61,8 @@ private:
   /// The state of one light's choice while the picture moves.
   struct LightChoice
   {
-    int step = 0;          ///< doublings of its map's side, or the step of its samples
-    int samples = 0;       ///< of an area light in the last moving frame; 0: all
+    int step = 0;          ///< doublings of its map's side, or the step of its samples (0: hard)
+    int samples = 0;       ///< with which an area light begins at rest; 0: all
     bool isProbed = false; ///< true if that keeps the error
     int sinceProbed = 0;   ///< frames
     Probing probing;
@@ -79,7 +80,7 @@ private:
   std::string tryMap(CastingLight& casting, const std::function<void(CastingLight&)>& bake);
   bool probe(const CastingLight& casting, double limit, LightChoice& choice);
   void takeSamples(CastingLight& casting);
-  bool keepsError(const ShadowLight& light, int samples, double limit);
+  bool keepsError(const ShadowLight& other, const ShadowLight& light, double limit);
   void refine(CastingLight& casting);
   void look();
 

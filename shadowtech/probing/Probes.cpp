@@ -204,23 +204,35 @@ void Probes::aimAtFacing()
 }
 
 //------------------------------------------------------------------------------
-SquaredErrors Probes::errorsOf(
-  int few, const ShadowLight& light, const Occluders& occluders, EmbreeTracer& tracer)
+SquaredErrors Probes::errorsOf(const ShadowLight& other, const ShadowLight& light,
+  const Occluders& occluders, EmbreeTracer& tracer)
 {
-  // Each point has all of the light's rays, so every fourth point is enough.
-  ReceiverPixels some = this->receivers_;
-  for (std::size_t i = 0; i < count; ++i)
+  const bool isHard = !other.area;
+  ShadowLight traced = light;
+  ReceiverPixels some;
+  if (isHard)
   {
-    const bool isTaken = i % 2 == 0 && i / across % 2 == 0;
-    some.surface[i] = isTaken ? some.surface[i] : ReceiverPixels::notCovered;
+    // The error of so many samples is small beside a hard shadow's.
+    traced.lightSamples = std::min(light.lightSamples, 16);
   }
-  const Receivers receivers(some);
-  tracer.traceArea(light, occluders, receivers, this->traced_, nullptr, &this->classes_);
-  ShadowLight sparse = light;
-  sparse.lightSamples = few;
-  tracer.traceArea(sparse, occluders, receivers, this->asked_);
+  else
+  {
+    // Each point has all of the light's rays, so every fourth point is enough.
+    some = this->receivers_;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const bool isTaken = i % 2 == 0 && i / across % 2 == 0;
+      some.surface[i] = isTaken ? some.surface[i] : ReceiverPixels::notCovered;
+    }
+  }
+  const Receivers receivers(isHard ? this->receivers_ : some);
+  tracer.traceArea(traced, occluders, receivers, this->traced_, nullptr, &this->classes_);
+  isHard ? tracer.trace(other, occluders, receivers, this->asked_)
+         : tracer.traceArea(other, occluders, receivers, this->asked_);
   SquaredErrors errors;
-  errors.expected = 0.25 / few; // the variance of independent samples, half of which are hidden
+  // The variance of independent samples, half of which are hidden; and the mean over a penumbra
+  // that darkens evenly, of which half is lit.
+  errors.expected = isHard ? 1.0 / 12.0 : 0.25 / other.lightSamples;
   for (std::size_t i = 0; i < count; ++i)
   {
     if (this->classes_[i] == static_cast<std::uint8_t>(TracedClass::Traced))

@@ -91,10 +91,10 @@ public:
   /// apart from all points found.
   void aimAtFacing();
 
-  /// Sum up the errors of an area light's visibility with fewer samples, at every fourth point.
-  /// @param few the number of samples; fewer than the light has
-  SquaredErrors errorsOf(
-    int few, const ShadowLight& light, const Occluders& occluders, EmbreeTracer& tracer);
+  /// Sum up the errors of an area light's visibility at every fourth point, if it is traced from
+  /// another light: with fewer samples, or with no area.
+  SquaredErrors errorsOf(const ShadowLight& other, const ShadowLight& light,
+    const Occluders& occluders, EmbreeTracer& tracer);
 
   std::size_t bytes() const;
 

@@ -70,6 +70,18 @@ TEST_F(AreaLights, areTheirCentreForHardTechniques)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(AreaLights, haveSmoothEdgesWhereTheirShadowsAreHard)
+{
+  this->scene.pass->SetTechnique("silhouette");
+  this->scene.pass->SetSetting("edge_samples", "4");
+  const std::vector<float> smooth = this->visibility();
+  EXPECT_GT(between(smooth), 50);
+  this->light->SetWidth(0.0);
+  this->light->SetHeight(0.0);
+  EXPECT_EQ(this->visibility(), smooth);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(AreaLights, areSoftForThoseThatTakeSamples)
 {
   for (const char* technique : { "raytraced", "planar", "sampled", "coherence" })

@@ -502,6 +502,27 @@ TEST_F(Auto, areaLightsTakeFewerSamplesWhileTheyMove)
 }
 
 //------------------------------------------------------------------------------
+// Where penumbrae are thin, hard shadows keep the error. At rest they are soft again.
+TEST_F(Auto, areaLightsHaveHardShadowsInMotionWherePenumbraeAreThin)
+{
+  this->pass->SetSetting("light_radius", "0.1");
+  this->rest();
+  const Picture moving = this->move();
+  EXPECT_EQ(this->technique(), "silhouette");
+  EXPECT_EQ(this->report().raysTraced, this->report().lights[0].tracedPixels) << "one a pixel";
+  const Picture soft = this->rest();
+  EXPECT_EQ(this->technique(), "penumbra");
+  EXPECT_EQ(this->report().lights[0].lightSamples, 64);
+  EXPECT_TRUE(soft == this->by("penumbra"));
+  EXPECT_TRUE(moving == this->by("silhouette"));
+  EXPECT_FALSE(moving == soft);
+
+  this->pass->SetSetting("light_radius", "3");
+  this->move();
+  EXPECT_EQ(this->technique(), "penumbra");
+}
+
+//------------------------------------------------------------------------------
 // If nothing keeps the budget, the allowed error counts; if there is time, rays are traced.
 TEST_F(Auto, aTimeBudgetChoosesWhatIsMostAccurateInIt)
 {

@@ -185,7 +185,11 @@ TEST_F(ProbesTest, fewerSamplesHaveALargerError)
   light.lightSamples = 64;
   scene.look(this->probes_, 0);
   const auto errorsOf = [&](int few)
-  { return this->probes_.errorsOf(few, light, scene.occluders, scene.tracer); };
+  {
+    ShadowLight sparse = light;
+    sparse.lightSamples = few;
+    return this->probes_.errorsOf(sparse, light, scene.occluders, scene.tracer);
+  };
   const SquaredErrors of4 = errorsOf(4);
   const SquaredErrors of16 = errorsOf(16);
   EXPECT_GT(of16.leastRms(), 0.001);
