@@ -28,7 +28,7 @@ constexpr const char* rowsFile = "rows.json";
 
 /// Return a scene's camera, turned about its target: by 25 degrees to one side, to the other side,
 /// by 50 degrees, and so on.
-SceneCamera cameraOf(const SceneCamera& camera, int view)
+SceneCamera turnedTo(const SceneCamera& camera, int view)
 {
   constexpr double stepDegrees = 25.0;
   const double degrees = stepDegrees * ((view + 1) / 2) * (view % 2 == 0 ? -1.0 : 1.0);
@@ -186,7 +186,7 @@ std::vector<StudyRow> runCase(const StudyCase& of, const ComparisonPlan& plan,
   const std::function<void(double, const std::string&)>& progress)
 {
   Scene scene = loadScene(of.scene);
-  scene.camera = cameraOf(scene.camera, of.view);
+  scene.camera = turnedTo(scene.camera, of.view);
   ComparisonEvents events;
   events.progress = progress;
   const VtkMessages messages;

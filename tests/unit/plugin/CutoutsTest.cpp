@@ -102,7 +102,7 @@ double alphaAt(gnomon::CutoutMask mask, const glm::dvec2& coordinates)
   return sum;
 }
 
-vtkSmartPointer<vtkImageData> makeImage(const Pattern& pattern)
+vtkSmartPointer<vtkImageData> imageOf(const Pattern& pattern)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(
@@ -122,7 +122,7 @@ vtkSmartPointer<vtkImageData> makeImage(const Pattern& pattern)
 vtkSmartPointer<vtkTexture> makeTexture(const Pattern& pattern, const Sampling& sampling = {})
 {
   auto texture = vtkSmartPointer<vtkTexture>::New();
-  texture->SetInputData(makeImage(pattern));
+  texture->SetInputData(imageOf(pattern));
   texture->SetWrap(sampling.wrap);
   texture->SetInterpolate(sampling.interpolated);
   return texture;
@@ -336,18 +336,18 @@ TEST_P(Cutouts, changeWithTheirTexture)
   this->expectPattern(checker);
   EXPECT_TRUE(square->HasOpaqueGeometry());
   this->expectNoNotes();
-  const auto image = makeImage(checker);
+  const auto image = imageOf(checker);
   square->GetTexture()->SetInputData(image);
   this->expectPattern(checker, {}, "another image, the same holes");
   EXPECT_EQ(this->scene.report().mapBakes, 0);
   EXPECT_EQ(this->scene.report().bvhBuilds, 0);
-  image->DeepCopy(makeImage(letter));
+  image->DeepCopy(imageOf(letter));
   this->expectPattern(letter, {}, "other texels");
   EXPECT_EQ(this->scene.report().surfacesExtracted, 0);
   EXPECT_EQ(this->scene.report().bvhBuilds, 0);
-  image->DeepCopy(makeImage(whole));
+  image->DeepCopy(imageOf(whole));
   this->expectPattern(whole, {}, "no holes");
-  image->DeepCopy(makeImage(letter));
+  image->DeepCopy(imageOf(letter));
   this->expectPattern(letter, {}, "holes again");
   square->SetTexture(makeTexture(checker));
   this->expectPattern(checker, {}, "another texture");
@@ -400,7 +400,7 @@ TEST_P(Cutouts, ofATextureThatActorsShare)
   expectTwice();
   // The texels are stored once, and are freed with the texture.
   const std::size_t before = this->scene.report().bytesOccluders;
-  const auto large = makeImage(Pattern(512, std::string(512, '#')));
+  const auto large = imageOf(Pattern(512, std::string(512, '#')));
   large->SetScalarComponentFromDouble(0, 0, 0, 3, 0.0);
   texture->SetInputData(large);
   this->scene.render();
@@ -408,7 +408,7 @@ TEST_P(Cutouts, ofATextureThatActorsShare)
   const std::size_t texels = (hasMap ? 2 : 1) * 512 * 512;
   EXPECT_NEAR(
     static_cast<double>(this->scene.report().bytesOccluders - before), texels, 0.01 * texels);
-  texture->SetInputData(makeImage(letter));
+  texture->SetInputData(imageOf(letter));
   expectTwice();
   EXPECT_EQ(this->scene.report().bytesOccluders, before);
 }

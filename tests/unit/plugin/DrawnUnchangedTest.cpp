@@ -56,7 +56,7 @@ vtkSmartPointer<vtkActor> makeBall(int representation)
   return actor;
 }
 
-vtkSmartPointer<vtkImageData> makeImage()
+vtkSmartPointer<vtkImageData> makeSpeckledImage()
 {
   const auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(8, 8, 1);
@@ -142,14 +142,14 @@ const Thing things[] = {
     [](vtkRenderer*) -> vtkSmartPointer<vtkProp>
     {
       const auto actor = vtkSmartPointer<vtkImageActor>::New();
-      actor->SetInputData(makeImage());
+      actor->SetInputData(makeSpeckledImage());
       return actor;
     } },
   { "ImageSlice",
     [](vtkRenderer*) -> vtkSmartPointer<vtkProp>
     {
       vtkNew<vtkImageSliceMapper> mapper;
-      mapper->SetInputData(makeImage());
+      mapper->SetInputData(makeSpeckledImage());
       const auto slice = vtkSmartPointer<vtkImageSlice>::New();
       slice->SetMapper(mapper);
       slice->GetProperty()->SetInterpolationTypeToNearest();
@@ -159,7 +159,7 @@ const Thing things[] = {
     [](vtkRenderer*) -> vtkSmartPointer<vtkProp>
     {
       vtkNew<vtkTexture> texture;
-      texture->SetInputData(makeImage());
+      texture->SetInputData(makeSpeckledImage());
       const auto skybox = vtkSmartPointer<vtkSkybox>::New();
       skybox->SetTexture(texture);
       skybox->SetProjectionToSphere();

@@ -12,11 +12,11 @@ namespace gnomon::test
 namespace
 {
 
-using NamedSettings = std::vector<std::pair<std::string, std::string>>;
+using VariantSettings = std::vector<std::pair<std::string, std::string>>;
 
-NamedSettings settingsOf(const Variant& variant)
+VariantSettings settingsOf(const Variant& variant)
 {
-  NamedSettings settings;
+  VariantSettings settings;
   std::istringstream words(variant.text);
   std::string word;
   words >> word; // the technique
