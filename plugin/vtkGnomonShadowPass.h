@@ -76,8 +76,7 @@ public:
    * "auto" shows exact shadows in every picture at rest: `silhouette`, of area lights `penumbra`.
    * While the picture moves (see Interactive) it takes what MaximumError, MaximumSoftError and
    * TimeBudget allow: plain maps in place of rays for hard shadows, hard shadows or fewer samples
-   * of area lights.
-   * GetReport() says what it took, and why.
+   * of area lights. GetReport() says what it took, and why.
    */
   virtual void SetTechnique(const char* name);
   const char* GetTechnique() const;

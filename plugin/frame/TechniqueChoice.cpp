@@ -440,8 +440,8 @@ bool TechniqueChoice::probe(const CastingLight& casting, double limit, LightChoi
 }
 
 //------------------------------------------------------------------------------
-/// Choose hard shadows of an area light's centre, or its fewest samples, from the present step on,
-/// that keep the error.
+/// Choose the first step of an area light, from the present one on, that keeps the error: hard
+/// shadows of its centre, or its fewest samples.
 void TechniqueChoice::takeSamples(CastingLight& casting)
 {
   const double limit = this->frame_.wishes.maximumSoftError;
@@ -478,8 +478,8 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
 }
 
 //------------------------------------------------------------------------------
-/// Probe the visibility of another light than an area light until it is clear on which side of a
-/// limit its error is.
+/// Probe an area light's visibility, traced from another light, until it is clear on which side of
+/// a limit its error is.
 /// @return true if it is clear that it keeps the limit
 bool TechniqueChoice::keepsError(const ShadowLight& other, const ShadowLight& light, double limit)
 {
@@ -490,9 +490,9 @@ bool TechniqueChoice::keepsError(const ShadowLight& other, const ShadowLight& li
     this->looked_ = this->looked_ && looks == 0;
     this->look();
     found.add(this->probes_.errorsOf(other, light, this->occluders_, this->visibility_.tracer()));
-    this->frame_.report.probes += static_cast<std::int64_t>(Probes::count) / 4;
     isClear = found.mostRms() <= limit || found.leastRms() > limit;
   }
+  this->frame_.report.probes += static_cast<std::int64_t>(found.points);
   return found.mostRms() <= limit;
 }
 

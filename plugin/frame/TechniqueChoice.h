@@ -24,12 +24,12 @@ namespace gnomon
 /// lights and route. At rest they are exact. In motion they are as FrameWishes asks.
 ///
 /// In motion, area lights have hard shadows if the error allows it, else as few samples as it
-/// allows. Lights with hard shadows use
-/// maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h): rays
-/// are expected in as large a part of the picture as when its tiles were last counted. A map
-/// is compared with rays at some pixels (Probes.h) before it is shown, and again from time to time,
-/// over several frames. It grows until its error is kept, and shrinks between motions. If no map
-/// keeps it, all lights use rays, and maps are tried again after 30 frames at the earliest.
+/// allows. Lights with hard shadows use maps if all of them can, and if rays would take more than
+/// 1.3 times as long (CostModel.h): rays are expected in as large a part of the picture as when its
+/// tiles were last counted. A map is compared with rays at some pixels (Probes.h) before it is
+/// shown, and again from time to time, over several frames. It grows until its error is kept, and
+/// shrinks between motions. If no map keeps it, all lights use rays, and maps are tried again after
+/// 30 frames at the earliest.
 class TechniqueChoice
 {
 public:

@@ -207,31 +207,25 @@ void Probes::aimAtFacing()
 SquaredErrors Probes::errorsOf(const ShadowLight& other, const ShadowLight& light,
   const Occluders& occluders, EmbreeTracer& tracer)
 {
+  // So many rays to each point show the small error of few samples. The larger one of a hard shadow
+  // takes fewer, so that more points can be asked.
   const bool isHard = !other.area;
-  ShadowLight traced = light;
-  ReceiverPixels some;
-  if (isHard)
+  const std::size_t step = isHard ? 1 : 2;
+  ShadowLight truth = light;
+  truth.lightSamples = isHard ? std::min(light.lightSamples, 16) : light.lightSamples;
+  ReceiverPixels some = this->receivers_;
+  for (std::size_t i = 0; i < count; ++i)
   {
-    // The error of so many samples is small beside a hard shadow's.
-    traced.lightSamples = std::min(light.lightSamples, 16);
+    const bool isTaken = i % step == 0 && i / across % step == 0;
+    some.surface[i] = isTaken ? some.surface[i] : ReceiverPixels::notCovered;
   }
-  else
-  {
-    // Each point has all of the light's rays, so every fourth point is enough.
-    some = this->receivers_;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const bool isTaken = i % 2 == 0 && i / across % 2 == 0;
-      some.surface[i] = isTaken ? some.surface[i] : ReceiverPixels::notCovered;
-    }
-  }
-  const Receivers receivers(isHard ? this->receivers_ : some);
-  tracer.traceArea(traced, occluders, receivers, this->traced_, nullptr, &this->classes_);
+  const Receivers receivers(some);
+  tracer.traceArea(truth, occluders, receivers, this->traced_, nullptr, &this->classes_);
   isHard ? tracer.trace(other, occluders, receivers, this->asked_)
          : tracer.traceArea(other, occluders, receivers, this->asked_);
   SquaredErrors errors;
-  // The variance of independent samples, half of which are hidden; and the mean over a penumbra
-  // that darkens evenly, of which half is lit.
+  // The mean over a penumbra that darkens evenly, half of which is lit; or the variance of
+  // independent samples, half of which are hidden.
   errors.expected = isHard ? 1.0 / 12.0 : 0.25 / other.lightSamples;
   for (std::size_t i = 0; i < count; ++i)
   {

@@ -91,8 +91,9 @@ public:
   /// apart from all points found.
   void aimAtFacing();
 
-  /// Sum up the errors of an area light's visibility at every fourth point, if it is traced from
-  /// another light: with fewer samples, or with no area.
+  /// Sum up the errors of an area light's visibility if it is traced from another light.
+  /// @param other the light with fewer samples, compared at every fourth point, or the light without
+  /// its area, compared at all points by 16 samples
   SquaredErrors errorsOf(const ShadowLight& other, const ShadowLight& light,
     const Occluders& occluders, EmbreeTracer& tracer);
 

@@ -177,21 +177,30 @@ TEST_F(ProbesTest, aimedLooksFindMoreOfWhatFacesTheLight)
   EXPECT_EQ(sum(0).wrong, everywhere.wrong);
 }
 
-TEST_F(ProbesTest, fewerSamplesHaveALargerError)
+TEST_F(ProbesTest, fewerSamplesHaveALargerErrorAndNoAreaTheLargest)
 {
   ProbedScene scene(probedScenes()[0]);
-  ShadowLight light = pointLight({ -1.5, 0.7, 2.9 });
+  const ShadowLight centre = pointLight({ -1.5, 0.7, 2.9 });
+  ShadowLight light = centre;
   light.area = ballArea(0.5);
   light.lightSamples = 64;
   scene.look(this->probes_, 0);
-  const auto errorsOf = [&](int few)
+  const auto errorsOf = [&](const ShadowLight& other)
+  { return this->probes_.errorsOf(other, light, scene.occluders, scene.tracer); };
+  const auto errorsOfFew = [&](int few)
   {
     ShadowLight sparse = light;
     sparse.lightSamples = few;
-    return this->probes_.errorsOf(sparse, light, scene.occluders, scene.tracer);
+    return errorsOf(sparse);
   };
-  const SquaredErrors of4 = errorsOf(4);
-  const SquaredErrors of16 = errorsOf(16);
+  const SquaredErrors of4 = errorsOfFew(4);
+  const SquaredErrors of16 = errorsOfFew(16);
+  const SquaredErrors hard = errorsOf(centre);
+  EXPECT_GT(hard.leastRms(), of4.mostRms());
+  EXPECT_LT(hard.mostRms(), 0.5);
+  EXPECT_NEAR(static_cast<double>(hard.points), 4.0 * static_cast<double>(of4.points), 100.0);
+  light.lightSamples = 16;
+  EXPECT_EQ(errorsOf(centre).sum, hard.sum);
   EXPECT_GT(of16.leastRms(), 0.001);
   EXPECT_GT(of4.leastRms(), 1.5 * of16.mostRms());
   EXPECT_LT(of4.mostRms(), 0.2);
