@@ -92,8 +92,8 @@ public:
   void aimAtFacing();
 
   /// Sum up the errors of an area light's visibility if it is traced from another light.
-  /// @param other the light with fewer samples, compared at every fourth point, or the light without
-  /// its area, compared at all points by 16 samples
+  /// @param other the light with fewer samples, compared at every fourth point; or without its
+  /// area, compared at all points by 16 samples
   SquaredErrors errorsOf(const ShadowLight& other, const ShadowLight& light,
     const Occluders& occluders, EmbreeTracer& tracer);
 
