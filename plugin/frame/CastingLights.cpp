@@ -442,11 +442,8 @@ std::string CastingLights::takeOther(CastingLight& casting, ShadowLight other, F
   if (!casting.resting)
   {
     const bool isKept = casting.plain && &casting.plain->estimator() == estimator;
-    LightTechnique technique = isKept ? std::move(*casting.plain) : LightTechnique(*estimator);
-    if (isKept)
-    {
-      casting.plain.reset();
-    }
+    LightTechnique technique =
+      isKept ? *std::exchange(casting.plain, std::nullopt) : LightTechnique(*estimator);
     casting.resting.emplace(
       CastingLight::Resting{ std::move(casting.light), std::move(casting.own) });
     casting.own = std::move(technique);
