@@ -9,7 +9,7 @@ import statistics
 import sys
 
 DEAREST = 1.3
-SAMPLES = (4, 8, 16, 32, 64)
+SAMPLES = (4, 6, 8, 10, 12, 16, 24, 32, 64)
 
 PAGE = """# How well `auto` chooses
 
@@ -49,8 +49,8 @@ maps of several sizes (at most 2 GiB for all lights), `silhouette` or `raytraced
 SOFT = """### Soft shadows
 
 The error is the root mean square of the difference from rays to 1,024 points of the light;
-0.03 is allowed. Single techniques are `penumbra` or `raytraced` with 1, 4, 8, 16, 32 or 64
-samples, `pcss`, `montecarlo`, or `nsm` and `silhouette`, whose shadows are hard.
+0.03 is allowed. Single techniques are `penumbra` or `raytraced` with 1, 4, 6, 8, 10, 12,
+16, 32 or 64 samples, `pcss`, `montecarlo`, or `nsm` and `silhouette`, whose shadows are hard.
 
 """
 

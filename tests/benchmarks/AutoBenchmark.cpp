@@ -96,7 +96,7 @@ std::vector<VariantSpec> softSingles()
 {
   std::vector<VariantSpec> specs = { inlineMap("nsm", 1024), { "silhouette", 1024 },
     { "pcss", 1024 }, { "montecarlo", 1024 } };
-  for (const int samples : { 1, 4, 8, 16, 32, 64 })
+  for (const int samples : { 1, 4, 6, 8, 10, 12, 16, 32, 64 })
   {
     specs.push_back(ofSamples("penumbra", samples));
     specs.push_back(ofSamples("raytraced", samples));
