@@ -9,7 +9,7 @@ import statistics
 import sys
 
 DEAREST = 1.3
-SAMPLES = (4, 6, 8, 10, 12, 16, 24, 32, 64)
+SAMPLES = (4, 6, 8, 10, 12, 16, 32, 64)
 
 PAGE = """# How well `auto` chooses
 

@@ -35,7 +35,7 @@ constexpr int mostTexels = 4096;
 
 /// Samples of area lights in motion, tried in turn; then all that are asked for. Up to 16 a frame
 /// takes at most 1.25 times as long as with the number before (soft-window: 24 to 52 ms).
-constexpr std::array<int, 9> fewSamples = { 4, 6, 8, 10, 12, 16, 24, 32, 64 };
+constexpr std::array<int, 8> fewSamples = { 4, 6, 8, 10, 12, 16, 32, 64 };
 
 /// Return the samples of an area light at a step of its choice, from the second step on.
 int samplesOf(int step, int asked)
