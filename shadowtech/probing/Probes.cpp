@@ -27,18 +27,17 @@ double spread(std::size_t number, double step)
   return value - std::floor(value);
 }
 
-/// Return an end of Wilson's interval of a share with z = 2, where k of n were counted.
-/// @param side -1 for the lower one, 1 for the upper one
-double wilson(double k, double n, double side)
+/// Return an end of Wilson's interval of a share, where k of n were counted.
+/// @param z standard deviations; negative for the lower end
+double wilson(double k, double n, double z)
 {
-  constexpr double z2 = 4.0;
-  const double half = std::sqrt(z2 * (k * (1.0 - k / std::max(n, 1.0)) + 0.25 * z2));
-  return (k + 0.5 * z2 + side * half) / (n + z2);
+  const double half = z * std::sqrt(k * (1.0 - k / std::max(n, 1.0)) + 0.25 * z * z);
+  return (k + 0.5 * z * z + half) / (n + z * z);
 }
 
-double wilson(const WrongProbes& probes, double side)
+double wilson(const WrongProbes& probes, double z)
 {
-  return wilson(static_cast<double>(probes.wrong), static_cast<double>(probes.asked), side);
+  return wilson(static_cast<double>(probes.wrong), static_cast<double>(probes.asked), z);
 }
 
 } // namespace
@@ -46,13 +45,13 @@ double wilson(const WrongProbes& probes, double side)
 //------------------------------------------------------------------------------
 double WrongProbes::leastShare() const
 {
-  return wilson(*this, -1.0);
+  return wilson(*this, -2.0);
 }
 
 //------------------------------------------------------------------------------
 double WrongProbes::mostShare() const
 {
-  return wilson(*this, 1.0);
+  return wilson(*this, 2.0);
 }
 
 //------------------------------------------------------------------------------
@@ -65,12 +64,12 @@ void SquaredErrors::add(const SquaredErrors& others)
 }
 
 //------------------------------------------------------------------------------
-double SquaredErrors::rms(double side) const
+double SquaredErrors::rms(double z) const
 {
   const double size =
     this->sum > 0.0 ? std::max(this->sumOfSquares / this->sum, this->expected) : this->expected;
   return size > 0.0 && this->points > 0
-    ? std::sqrt(size * wilson(this->sum / size, static_cast<double>(this->points), side))
+    ? std::sqrt(size * wilson(this->sum / size, static_cast<double>(this->points), z))
     : 0.0;
 }
 

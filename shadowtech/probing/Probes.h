@@ -54,13 +54,13 @@ struct SquaredErrors
   ///@{
   /// Return a bound of the root mean square error of the population of which these are a sample:
   /// Wilson's, as if all squares but zeros were of one size, at least the expected one. Without
-  /// points both are 0.
-  double leastRms() const { return this->rms(-1.0); }
-  double mostRms() const { return this->rms(1.0); }
+  /// points both are 0. The upper one has z = 3, as each of many looks may pass it by chance.
+  double leastRms() const { return this->rms(-2.0); }
+  double mostRms() const { return this->rms(3.0); }
   ///@}
 
 private:
-  double rms(double side) const;
+  double rms(double z) const;
 };
 
 /// Compares a cheap visibility with traced visibility at some pixels, before the picture is drawn.

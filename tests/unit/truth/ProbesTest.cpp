@@ -226,7 +226,8 @@ TEST(WrongProbes, boundsAreWilsons)
   EXPECT_EQ(WrongProbes().leastShare(), 0.0);
 }
 
-// If all squares but zeros are of one size, their share has Wilson's bounds.
+// If all squares but zeros are of one size, their share has Wilson's bounds: the one that errs is
+// three standard deviations below the upper one, two above the lower one.
 TEST(SquaredErrors, boundsAreThoseOfTheShareThatErrs)
 {
   SquaredErrors errors;
@@ -235,14 +236,17 @@ TEST(SquaredErrors, boundsAreThoseOfTheShareThatErrs)
     const double square = i % 10 == 0 ? 0.25 : 0.0;
     errors.add({ 1, square, square * square });
   }
-  const WrongProbes wrong{ 900, 90 };
-  EXPECT_NEAR(errors.mostRms(), 0.5 * std::sqrt(wrong.mostShare()), 1e-9);
-  EXPECT_NEAR(errors.leastRms(), 0.5 * std::sqrt(wrong.leastShare()), 1e-9);
+  const auto shareOf = [](double rms) { return rms * rms / 0.25; };
+  const auto deviation = [](double share) { return std::sqrt(share * (1.0 - share) / 900.0); };
+  const double most = shareOf(errors.mostRms());
+  EXPECT_NEAR(most - 0.1, 3.0 * deviation(most), 1e-9);
+  const double least = shareOf(errors.leastRms());
+  EXPECT_NEAR(0.1 - least, 2.0 * deviation(least), 1e-9);
 
   // All may have missed the only ones that err.
   SquaredErrors none{ 900 };
   none.expected = 0.25;
-  EXPECT_NEAR(none.mostRms(), 0.5 * std::sqrt(WrongProbes{ 900, 0 }.mostShare()), 1e-9);
+  EXPECT_NEAR(shareOf(none.mostRms()), 9.0 / 909.0, 1e-9);
   EXPECT_EQ(none.leastRms(), 0.0);
   none.points = 0; // nothing faces the light
   EXPECT_EQ(none.mostRms(), 0.0);
