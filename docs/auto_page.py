@@ -9,7 +9,6 @@ import statistics
 import sys
 
 DEAREST = 1.3
-SAMPLES = (4, 6, 8, 10, 12, 16, 32, 64)
 
 PAGE = """# How well `auto` chooses
 
@@ -75,10 +74,19 @@ def with_maps(rows):
     return str(sum(row["technique"] == "nsm" for row in rows))
 
 
-def by_samples(rows):
-    """How many choices were hard shadows, and how many had so many samples."""
-    counts = collections.Counter(int(row["samples"]) for row in rows)
-    return ", ".join(str(counts[samples]) for samples in (1, *SAMPLES))
+def samples_of(row):
+    """The samples of a choice; 1 if its shadows are hard."""
+    return int(row["samples"])
+
+
+def by_samples(taken):
+    """Return a function: how many choices had each number of samples that was taken."""
+
+    def counts(rows):
+        found = collections.Counter(map(samples_of, rows))
+        return ", ".join(str(found[samples]) for samples in taken)
+
+    return counts
 
 
 def percent(error):
@@ -127,12 +135,13 @@ def places_table(path):
     with_areas = {row["scene"] for row in rows if row["technique"] == "penumbra"}
     soft = [row for row in rows if row["scene"] in with_areas]
     hard = [row for row in rows if row["scene"] not in with_areas]
-    samples = f"hard, with {', '.join(map(str, SAMPLES))} samples"
+    taken = sorted({1, *map(samples_of, soft)})
+    samples = f"hard, with {', '.join(map(str, taken[1:]))} samples"
     tables = [
         text + table(of, PLACES_HEAD.format(chosen=head), chosen, error)
         for text, of, head, chosen, error in (
             (HARD, hard, "with maps", with_maps, percent),
-            (SOFT, soft, samples, by_samples, "{:.3f}".format),
+            (SOFT, soft, samples, by_samples(taken), "{:.3f}".format),
         )
         if of
     ]

@@ -51,7 +51,7 @@ cat > docs/results/vtk_motion.md << PAGE
 
 Ten of [the programs](vtk_programs.md) by \`auto\`. At rest: whether each picture is that of
 \`raytraced\`, byte for byte. In motion: the camera turns around a resting light; a frame's median as
-a multiple of plain VTK's. The two last programs read \`dragon.ply\`, here of $triangles triangles.
+a multiple of plain VTK's. The last two programs read \`dragon.ply\`, here of $triangles triangles.
 \`docs/vtk_motion.sh\` measures this.
 
 | program | light | exact at rest | plain VTK | \`nsm\` | \`auto\` | what \`auto\` takes |

@@ -499,6 +499,13 @@ TEST_F(Auto, areaLightsTakeFewerSamplesWhileTheyMove)
   this->renderer->GetActiveCamera()->Azimuth(-1.0);
   EXPECT_TRUE(first == this->rest());
   EXPECT_EQ(this->report().lights[0].lightSamples, 64);
+
+  this->pass->SetSetting("light_samples", "1024");
+  this->pass->SetMaximumSoftError(0.0015);
+  this->rest();
+  this->move();
+  EXPECT_GT(this->report().lights[0].lightSamples, 64) << this->report().choice;
+  EXPECT_LT(this->report().lights[0].lightSamples, 1024);
 }
 
 //------------------------------------------------------------------------------
