@@ -3,6 +3,7 @@
 #include "lights/LightManager.h"
 #include "lights/LightSamples.h"
 #include "plugin/frame/Complaints.h"
+#include "plugin/frame/PictureTimer.h"
 #include "plugin/frame/PointLights.h"
 #include "plugin/frame/Progress.h"
 #include "plugin/scene/Hash.h"
@@ -28,6 +29,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+
+static_assert(vtkGnomonLightSamplingPass::PictureUnfinishedEvent == gnomon::pictureUnfinishedEvent);
 
 vtkStandardNewMacro(vtkGnomonLightSamplingPass);
 
@@ -83,6 +86,11 @@ void requireToBeInPlace(vtkRenderer* renderer)
 //------------------------------------------------------------------------------
 struct vtkGnomonLightSamplingPass::Internals
 {
+  explicit Internals(vtkGnomonLightSamplingPass* pass)
+    : pictureTimer(pass)
+  {
+  }
+
   vtkNew<vtkRenderStepsPass> steps; ///< where there is no delegate
   gnomon::PassContext context;      ///< which holds the following two's OpenGL objects
   std::unique_ptr<gnomon::PictureTarget> target = std::make_unique<gnomon::PictureTarget>();
@@ -94,11 +102,12 @@ struct vtkGnomonLightSamplingPass::Internals
   gnomon::ViewCount viewCount;
   double progress = 1.0; ///< of the last frame that was no selection's
   gnomon::Complaints complaints;
+  gnomon::PictureTimer pictureTimer;
 };
 
 //------------------------------------------------------------------------------
 vtkGnomonLightSamplingPass::vtkGnomonLightSamplingPass()
-  : Internal(new Internals)
+  : Internal(new Internals(this))
 {
 }
 
@@ -145,6 +154,7 @@ void vtkGnomonLightSamplingPass::Render(const vtkRenderState* s)
   const double progressBefore = internal.progress;
   internal.progress = this->DrawMeanOrAlone(s);
   gnomon::tellProgress(this, progressBefore, internal.progress);
+  internal.pictureTimer.drawn(renderer->GetRenderWindow(), { false, false, internal.progress });
 }
 
 //------------------------------------------------------------------------------

@@ -115,10 +115,19 @@ public:
    *
    * Events are those of vtkGnomonShadowPass: a frame that brings more ends with a
    * vtkCommand::ProgressEvent, whose call data is this number (a double), and the one that
-   * completes it, once, with a vtkCommand::EndEvent. Observers must not draw; an application draws
-   * the next frame when it is idle, while this is below 1.
+   * completes it, once, with a vtkCommand::EndEvent. Observers must not draw. A timer of the
+   * window's interactor draws the next frames; without one, an application draws them when it is
+   * idle, while this is below 1 (PictureUnfinishedEvent).
    */
   double GetProgress() const;
+
+  /**
+   * That of vtkGnomonShadowPass.
+   */
+  enum
+  {
+    PictureUnfinishedEvent = 1731
+  };
 
   void ReleaseGraphicsResources(vtkWindow* window) override;
 

@@ -3,7 +3,7 @@
 #include "lights/SettingsTable.h"
 #include "plugin/frame/Complaints.h"
 #include "plugin/frame/FrameWishes.h"
-#include "plugin/frame/Motion.h"
+#include "plugin/frame/PictureTimer.h"
 #include "plugin/frame/Progress.h"
 #include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/frame/RenderManager.h"
@@ -43,6 +43,8 @@
 #include <optional>
 #include <string>
 #include <utility>
+
+static_assert(vtkGnomonShadowPass::PictureUnfinishedEvent == gnomon::pictureUnfinishedEvent);
 
 vtkStandardNewMacro(vtkGnomonShadowPass);
 
@@ -94,6 +96,11 @@ void nameInKeys(const vtkRenderState* s, vtkObjectBase* pass)
 //------------------------------------------------------------------------------
 struct vtkGnomonShadowPass::Internals
 {
+  explicit Internals(vtkGnomonShadowPass* pass)
+    : pictureTimer(pass)
+  {
+  }
+
   /// A renderer's frames: each renderer has values of its own.
   struct RendererFrames
   {
@@ -114,7 +121,7 @@ struct vtkGnomonShadowPass::Internals
   gnomon::Complaints complaints;
 
   std::optional<gnomon::CostFactors> factors; ///< none: the default ones
-  gnomon::RestingFrame restingFrame;          ///< that follows those that move
+  gnomon::PictureTimer pictureTimer;
 
   std::unique_ptr<gnomon::Ranks> ranks; ///< of the last controller with several processes, or null
 
@@ -245,7 +252,7 @@ double leastProgress(const gnomon::FrameReport& report)
 
 //------------------------------------------------------------------------------
 vtkGnomonShadowPass::vtkGnomonShadowPass()
-  : Internal(new Internals)
+  : Internal(new Internals(this))
 {
   if (const char* const path = std::getenv("GNOMON_FACTORS"))
   {
@@ -275,12 +282,22 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->RenderPlain(s, "a selection is drawn"); // and what refines goes on after it
     return;
   }
+  const gnomon::ShownPicture picture = this->RenderPicture(s);
+  this->Internal->pictureTimer.drawn(renderer->GetRenderWindow(),
+    this->Interactive == INTERACTIVE_AUTO ? picture : gnomon::ShownPicture{});
+}
+
+//------------------------------------------------------------------------------
+gnomon::ShownPicture vtkGnomonShadowPass::RenderPicture(const vtkRenderState* s)
+{
+  vtkRenderer* renderer = s->GetRenderer();
+  gnomon::ShownPicture picture;
   const double progressBefore = this->Internal->progress;
   this->Internal->progress = 1.0;
   if (this->ObeyUseShadows && !renderer->GetUseShadows())
   {
     this->RenderPlain(s, "the renderer's UseShadows is off");
-    return;
+    return picture;
   }
   std::string whyNot = this->Internal->context.enter(this, renderer, { 3, 2 });
   gnomon::Ranks* ranks = nullptr;
@@ -297,12 +314,10 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   if (!whyNot.empty())
   {
     this->RenderPlain(s, ranks ? "a process cannot draw shadows" : "OpenGL 3.2 is not available");
-    return;
+    return picture;
   }
 
   gnomon::RenderManager& manager = this->Internal->managerOf(renderer);
-  vtkRenderWindow* const window = renderer->GetRenderWindow();
-  const bool moves = this->Moves(window);
   bool marked = false;
   bool drawn = false;
   bool failed = false;
@@ -313,9 +328,6 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   try
   {
     gnomon::FrameWishes wishes = this->Wishes();
-    wishes.moves = moves;
-    wishes.mayRefine =
-      this->Interactive == INTERACTIVE_AUTO && this->Internal->restingFrame.mayRefine(window);
     if (ranks)
     {
       threads.emplace(tbb::global_control::max_allowed_parallelism, ranks->threads());
@@ -337,7 +349,8 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       this->TellWhatIsLeftOut(renderer);
 
       // choice
-      manager.chooseTechniques();
+      picture.moves = this->Moves(s);
+      picture.isApproximate = manager.chooseTechniques(picture.moves, this->MayRefine(s));
 
       // From here on, mappers call the hook.
       const vtkRenderPass* delegate = this->FindDelegate(s);
@@ -373,12 +386,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Frame, "");
     this->Internal->shadowed = true;
     this->Internal->progress = leastProgress(manager.report());
-    if (goesOn)
-    {
-      const bool mayFollow =
-        this->Interactive == INTERACTIVE_AUTO && !manager.report().choice.empty();
-      this->Internal->restingFrame.drawn(window, moves && mayFollow, this->Internal->progress);
-    }
+    picture.progress = this->Internal->progress;
   }
   catch (const gnomon::FrameMustBeDrawnAgain&)
   {
@@ -403,11 +411,11 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   }
   if (again)
   {
-    this->Render(s);
-    return;
+    return this->RenderPicture(s);
   }
   if (failed)
   {
+    picture = {};
     this->TellPlain("an error was met");
     this->Internal->plainReport.outOfTextureMemory = outOfTextureMemory;
     if (!drawn)
@@ -423,6 +431,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   {
     this->CompareSurfaces(s, failed);
   }
+  return picture;
 }
 
 //------------------------------------------------------------------------------
@@ -587,7 +596,7 @@ void vtkGnomonShadowPass::BeginView(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-/// What the pass is set to, but for what the window says.
+/// What the pass is set to.
 gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
 {
   gnomon::FrameWishes wishes;
@@ -605,10 +614,19 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
 }
 
 //------------------------------------------------------------------------------
-bool vtkGnomonShadowPass::Moves(vtkRenderWindow* window)
+bool vtkGnomonShadowPass::Moves(const vtkRenderState* s)
 {
-  return this->Interactive == INTERACTIVE_AUTO ? gnomon::isDragged(window)
-                                               : this->Interactive == INTERACTIVE_ON;
+  return this->Interactive == INTERACTIVE_AUTO
+    ? gnomon::PictureTimer::asksForSpeed(s->GetRenderer()->GetRenderWindow()) &&
+      this->Internal->pictureTimer.moves(this->Internal->manager().changes(s))
+    : this->Interactive == INTERACTIVE_ON;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonShadowPass::MayRefine(const vtkRenderState* s)
+{
+  return this->Interactive == INTERACTIVE_AUTO &&
+    this->Internal->pictureTimer.mayRefine(s->GetRenderer()->GetRenderWindow());
 }
 
 //------------------------------------------------------------------------------

@@ -50,6 +50,7 @@ VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {
+struct ShownPicture;
 struct FrameReport;
 struct FrameWishes;
 struct VisibilityImages;
@@ -163,10 +164,10 @@ public:
   ///@}
 
   /**
-   * Whether a frame is one of a picture that moves. AUTO: while a window with an interactor is
-   * asked for a higher update rate than the interactor's StillUpdateRate (and 0.01), as interactor
-   * styles do while their user drags. Pictures without an interactor are at rest: off-screen ones,
-   * movies, image tests.
+   * Whether a frame is one of a picture that moves. AUTO: a window with an interactor asks for a
+   * higher update rate than the interactor's StillUpdateRate (and 0.01), as interactor styles have
+   * it do while their user drags, and camera, lights or props changed less than half a second ago.
+   * Pictures without an interactor are at rest: off-screen ones, movies, image tests.
    */
   enum InteractiveType
   {
@@ -177,14 +178,26 @@ public:
 
   ///@{
   /**
-   * For lights whose technique is "auto". Where no picture at rest follows a moving one within half
-   * a second, the interactor's timer draws one. On screen, that picture shows some of the samples
-   * of area lights at first, and the timer draws more until all are shown (GetProgress()). Default
-   * INTERACTIVE_AUTO.
+   * For AUTO, a timer of the interactor draws what is left of a picture that the last frame left
+   * unfinished: the picture at rest half a second after the last change of one that moves (lights
+   * whose technique is "auto"), and more of lights' samples (GetProgress()) at once. On screen, the
+   * first picture at rest may show some of the samples of area lights. No timer runs while the user
+   * holds a button or an interactor style acts. OFF and ON: no timer. Default INTERACTIVE_AUTO.
    */
   vtkSetClampMacro(Interactive, int, INTERACTIVE_AUTO, INTERACTIVE_ON);
   vtkGetMacro(Interactive, int);
   ///@}
+
+  /**
+   * Event of a frame that is not finished where no timer can finish it: the interactor's Render()
+   * does not draw (Qt Quick), frames are drawn in another thread than the pass was made in, or there
+   * is no interactor. The call data points to an int: the milliseconds after which the program is
+   * to draw. Observers must not draw. See docs/guide/qt.md.
+   */
+  enum
+  {
+    PictureUnfinishedEvent = 1731 // from vtkCommand::UserEvent on
+  };
 
   ///@{
   /**
@@ -334,14 +347,15 @@ public:
 
   /**
    * How much of what lights' techniques are to show the last frame showed, in [0, 1]: below 1 where
-   * they take several frames (the setting `progressive` of `sampled`), and further frames of the
-   * same scene bring more. It is the least of all lights'. Selections (vtkHardwareSelector) leave
+   * they take several frames (the settings `progressive` of `sampled` and `moving_samples`), and
+   * further frames of the same scene bring more. It is the least of all lights'. Selections (vtkHardwareSelector) leave
    * it as it is. Windows that show several views by one pass (stereo, tiles, several renderers) get
    * all in every frame.
    *
    * A frame that brings more ends with a vtkCommand::ProgressEvent, whose call data is this number
    * (a double), and the one that completes it, once, with a vtkCommand::EndEvent. Observers must
-   * not draw; an application draws the next frame when it is idle, while this is below 1.
+   * not draw. Without an interactor (see SetInteractive), an application draws the next frame when
+   * it is idle, while this is below 1.
    */
   double GetProgress() const;
 
@@ -400,7 +414,9 @@ protected:
 private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
   void SetNumber(const char* name, double value, double most, double& number);
-  bool Moves(vtkRenderWindow* window);
+  gnomon::ShownPicture RenderPicture(const vtkRenderState* s);
+  bool Moves(const vtkRenderState* s);
+  bool MayRefine(const vtkRenderState* s);
   gnomon::FrameWishes Wishes() const;
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);

@@ -23,6 +23,8 @@ struct Frame
   FrameWishes wishes;
   Ranks* ranks = nullptr; ///< the processes that draw the picture; null: this one alone
   FrameReport report;
+  bool moves = false;     ///< true if it is one of a moving picture
+  bool mayRefine = false; ///< true if more frames at rest follow an unfinished one
   CastingLights lights;
   glm::ivec2 size{ 0 }; ///< of the picture, in pixels
   CameraView camera;    ///< that draws it

@@ -28,8 +28,6 @@ struct FrameWishes
   bool smoothTerminators = true; ///< true if receivers may lie on the surface that normals imply
   ///@{
   /// For lights that leave their technique to the pass.
-  bool moves = false;                 ///< true if the picture moves; at rest they are exact
-  bool mayRefine = false;             ///< true if more frames at rest follow an incomplete one
   double maximumError = 0.005;        ///< share of wrong pixels of hard shadows in moving frames
   double maximumSoftError = 0.03;     ///< root mean square error of soft shadows
   double timeBudget = 0.0;            ///< milliseconds for a moving frame; 0: none

@@ -34,6 +34,29 @@ void hashPoint(std::size_t& seed, const glm::dvec3& point)
   }
 }
 
+/// Add to a hash where a light is, and what its rays depend on beside its settings.
+void hashLight(std::size_t& seed, const ShadowLight& light)
+{
+  hashCombine(seed, static_cast<int>(light.kind));
+  hashCombine(seed, light.sceneIndex);
+  hashPoint(seed, light.positionWorld);
+  hashPoint(seed, light.directionWorld);
+  hashCombine(seed, light.coneAngleDegrees);
+  if (light.box)
+  {
+    hashPoint(seed, { light.box->width, light.box->height, light.box->depth });
+    hashPoint(seed, light.box->upWorld);
+  }
+  if (light.area)
+  {
+    hashCombine(seed, static_cast<int>(light.area->shape));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      hashPoint(seed, light.area->worldFromUnit[axis]);
+    }
+  }
+}
+
 /// Return a number that differs where lights differ in what decides their rays.
 std::uint64_t hashOf(const CastingLights& lights)
 {
@@ -41,24 +64,7 @@ std::uint64_t hashOf(const CastingLights& lights)
   for (const CastingLight& casting : lights)
   {
     const ShadowLight& light = casting.light;
-    hashCombine(seed, static_cast<int>(light.kind));
-    hashCombine(seed, light.sceneIndex);
-    hashPoint(seed, light.positionWorld);
-    hashPoint(seed, light.directionWorld);
-    hashCombine(seed, light.coneAngleDegrees);
-    if (light.box)
-    {
-      hashPoint(seed, { light.box->width, light.box->height, light.box->depth });
-      hashPoint(seed, light.box->upWorld);
-    }
-    if (light.area)
-    {
-      hashCombine(seed, static_cast<int>(light.area->shape));
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        hashPoint(seed, light.area->worldFromUnit[axis]);
-      }
-    }
+    hashLight(seed, light);
     for (const std::string& value : valuesOf(casting.own.info(), SettingsOf::Estimator, light))
     {
       hashCombine(seed, value);
@@ -82,6 +88,8 @@ void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
   this->frame_.report.numbersChecked = std::exchange(this->checkedBefore_, 0);
   this->frame_.wishes = wishes;
   this->frame_.ranks = ranks;
+  this->frame_.moves = false;
+  this->frame_.mayRefine = false;
   this->frame_.wishes.isShared = ranks != nullptr;
   this->frame_.wishes.smoothTerminators = wishes.smoothTerminators && !ranks;
   if (!wishes.keepVisibility)
@@ -173,12 +181,30 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::chooseTechniques()
+bool RenderManager::changes(const vtkRenderState* s)
+{
+  std::size_t shown = this->frame_.lights.size();
+  for (const CastingLight& casting : this->frame_.lights)
+  {
+    hashLight(shown, casting.light);
+  }
+  hashView(shown, this->frame_.camera, this->frame_.size);
+  hashCombine(shown, hashOfShownProps(s));
+  const Occluders& occluders = this->collector_.occluders();
+  hashCombine(shown, occluders.topologyVersion);
+  hashCombine(shown, occluders.positionsVersion);
+  return std::exchange(this->frame_.view->shown, shown) != shown;
+}
+
+//------------------------------------------------------------------------------
+bool RenderManager::chooseTechniques(bool moves, bool mayRefine)
 {
   if (this->frame_.ranks)
   {
-    return; // all lights have rays
+    return false; // all lights have rays
   }
+  this->frame_.moves = moves;
+  this->frame_.mayRefine = mayRefine;
   this->choice_.choose(
     [this](CastingLight& casting)
     {
@@ -186,6 +212,9 @@ void RenderManager::chooseTechniques()
         casting.light, this->mapStage(casting), reportOf(this->frame_.report, casting.light));
     });
   this->frame_.endStage("choice");
+  return moves &&
+    std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
+      [](const CastingLight& casting) { return casting.asked; });
 }
 
 //------------------------------------------------------------------------------
@@ -513,7 +542,7 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
 /// stand still while an optional map is baked.
 MapStage RenderManager::mapStage(const CastingLight& casting)
 {
-  const bool bakesOptional = !(casting.asked && this->frame_.wishes.moves);
+  const bool bakesOptional = !(casting.asked && this->frame_.moves);
   return { this->frame_.camera, this->collector_.occluders(), this->buffers_,
     this->programs_.library, this->frame_.view->receivers.target,
     this->frame_.space.centredFromView, this->frame_.view->receivers.number, bakesOptional,
@@ -635,7 +664,7 @@ void RenderManager::endFrame()
     report.bytesImages = this->views_.bytesOfImages() + this->visibility_.bytesOfRays();
   }
   report.bytesImages += this->choice_.bytes();
-  if (this->frame_.wishes.moves && this->frame_.wishes.timeBudget > 0.0)
+  if (this->frame_.moves && this->frame_.wishes.timeBudget > 0.0)
   {
     glFinish(); // so that the frame's time is known
   }

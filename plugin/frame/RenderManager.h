@@ -63,9 +63,16 @@ public:
   /// camera is in it.
   void collectOccluders(const vtkRenderState* s);
 
+  /// Notes lights, camera and props.
+  /// @return true if they differ from what this noted last for the same view
+  bool changes(const vtkRenderState* s);
+
   /// Chooses for lights that leave their technique to the pass; maps that it takes are baked.
+  /// @param moves true if the frame is one of a moving picture
+  /// @param mayRefine true if more frames at rest follow an unfinished one
+  /// @return true if a picture at rest may differ from this choice's
   /// @throws std::runtime_error as bakeMaps() and computeVisibility()
-  void chooseTechniques();
+  bool chooseTechniques(bool moves, bool mayRefine);
 
   /// Chooses how visibility reaches the picture, and states it in the report.
   /// @param drawnPlainly true if no render pass of the user's draws the props

@@ -114,7 +114,7 @@ void TechniqueChoice::choose(const std::function<void(CastingLight&)>& bake)
   }
   const FrameCounters counters = this->takeChanges(hard);
   std::string& choice = this->frame_.report.choice;
-  if (!this->frame_.wishes.moves)
+  if (!this->frame_.moves)
   {
     for (CastingLight* const casting : soft)
     {
@@ -506,7 +506,7 @@ bool TechniqueChoice::keepsError(const ShadowLight& other, const ShadowLight& li
 void TechniqueChoice::refine(CastingLight& casting)
 {
   const int samples = this->lights_[casting.light.sceneIndex].samples;
-  casting.firstSamples = this->frame_.wishes.mayRefine ? samples : 0;
+  casting.firstSamples = this->frame_.mayRefine ? samples : 0;
 }
 
 //------------------------------------------------------------------------------

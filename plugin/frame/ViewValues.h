@@ -77,6 +77,7 @@ struct VisibilityValue
 /// One view's values, cached from frame to frame.
 struct ViewValues
 {
+  std::size_t shown = 0; ///< hash of lights, camera and props, as RenderManager::changes() noted it
   ReceiversValue receivers;
   TechniquesOfLights techniques; ///< of lights whose maps are fitted to this view's camera
   VisibilityLayers layers;

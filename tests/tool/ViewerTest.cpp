@@ -205,6 +205,18 @@ TEST_F(ViewerTest, SwitchesTechniqueTruthAndErrorInPlace)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(ViewerTest, TheHandleComesBackWithItsBall)
+{
+  this->view("bunny", { "nsm" });
+  const Picture back = this->press("dd");
+  const Picture again = this->viewer->view().still();
+  for (std::size_t i = firstBelow(back); i < back.pixelCount(); ++i)
+  {
+    ASSERT_TRUE(std::equal(&back.rgb[3 * i], &back.rgb[3 * i] + 3, &again.rgb[3 * i])) << i;
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(ViewerTest, SavesWhatTheHeadlessProgramDrawsByteForByte)
 {
   this->view("bunny", { "pssm", "silhouette", "auto" });

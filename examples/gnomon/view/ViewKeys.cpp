@@ -97,8 +97,11 @@ std::vector<ViewKey> makeKeys()
   { return [show](const ViewState& state) { return onOff(state.show == show); }; };
   const auto surfaces = [](const char* name)
   { return [name](ViewState& state, const Scene&, const ViewChoices&) { state.surfaces = name; }; };
-  const auto saysSurfaces = [](const char* name)
-  { return [name](const ViewState& state) { return onOff(state.surfaces == name); }; };
+  const auto saysWireframe = [](bool wireframe)
+  {
+    return [wireframe](const ViewState& state)
+    { return onOff((state.surfaces == "wireframe") == wireframe); };
+  };
   return {
     { '[', "[", "the technique before", false, takeTechnique(-1), nullptr },
     { ']', "]", "the next technique", false, takeTechnique(1),
@@ -143,8 +146,8 @@ std::vector<ViewKey> makeKeys()
     ofVtk('r', "all of the scene"),
     ofVtk('f', "fly to the point under the cursor"),
     ofVtk('p', "outline the prop under the cursor"),
-    { 'w', "w", "wireframe", true, surfaces("wireframe"), saysSurfaces("wireframe") },
-    { 's', "s", "surfaces", true, surfaces("surface"), saysSurfaces("surface") },
+    { 'w', "w", "wireframe", true, surfaces("wireframe"), saysWireframe(true) },
+    { 's', "s", "surfaces", true, surfaces("surface"), saysWireframe(false) },
     { '3', "3", "stereo", true, nullptr, says(&ViewState::stereo) },
     ofVtk('j', "joystick: the camera moves on"),
     ofVtk('t', "trackball: the camera follows the mouse"),

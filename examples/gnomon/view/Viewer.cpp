@@ -50,7 +50,7 @@ void Viewer::open()
 {
   this->window_->Render();
   this->interactor_->Initialize();
-  this->widget_->SetEnabled(this->view_.selectedLight() && this->view_.state().handle);
+  this->enableHandle();
 }
 
 //------------------------------------------------------------------------------
@@ -71,7 +71,14 @@ void Viewer::change(const std::function<void(ViewState&)>& change)
   ViewState state = this->view_.state();
   change(state);
   this->view_.apply(state);
+  this->enableHandle(); // before the frame: the widget adds and removes the ball
   this->window_->Render();
+}
+
+//------------------------------------------------------------------------------
+void Viewer::enableHandle()
+{
+  this->widget_->SetEnabled(this->view_.selectedLight() && this->view_.state().handle);
 }
 
 //------------------------------------------------------------------------------
@@ -96,7 +103,6 @@ void Viewer::onChar()
     return;
   }
   this->change([&](ViewState& state) { key->change(state, this->view_.scene(), this->choices_); });
-  this->widget_->SetEnabled(this->view_.selectedLight() && this->view_.state().handle);
 }
 
 //------------------------------------------------------------------------------

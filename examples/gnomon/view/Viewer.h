@@ -39,6 +39,7 @@ public:
 
 private:
   void change(const std::function<void(ViewState&)>& change);
+  void enableHandle();
   void onChar();
   void onMove();
   bool onWheelForward(vtkObject*, unsigned long, void*);

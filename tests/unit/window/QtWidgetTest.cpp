@@ -7,6 +7,8 @@
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRendererCollection.h>
 
@@ -85,7 +87,7 @@ TEST(QtWidget, showsTheSameBytesAsTheWindowWithoutADisplay)
   widget.show();
   processEvents();
   const auto shadowed = readPicture(widget);
-  const auto* pass = vtkGnomonShadowPass::SafeDownCast(renderer->GetPass());
+  auto* pass = vtkGnomonShadowPass::SafeDownCast(renderer->GetPass());
   EXPECT_EQ(pass->GetReport().route, "deferred") << pass->GetReport().routeReason;
   EXPECT_EQ(shadowed.size(), expected.size());
   EXPECT_TRUE(shadowed == expected);
@@ -97,6 +99,33 @@ TEST(QtWidget, showsTheSameBytesAsTheWindowWithoutADisplay)
   widget.resize(width, height);
   processEvents();
   EXPECT_TRUE(readPicture(widget) == expected);
+
+  // A timer draws what is left. While the window draws only in its owner's paint function, as Qt
+  // Quick's does, an event asks for it.
+  pass->SetSetting("technique", "penumbra");
+  pass->SetSetting("light_radius", "0.2");
+  pass->SetSetting("moving_samples", "4");
+  window->Render();
+  EXPECT_LT(pass->GetProgress(), 1.0);
+  processEvents();
+  EXPECT_EQ(pass->GetProgress(), 1.0);
+  int asked = 0;
+  vtkNew<vtkCallbackCommand> ask;
+  ask->SetClientData(&asked);
+  ask->SetCallback(
+    [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
+  pass->AddObserver(vtkGnomonShadowPass::PictureUnfinishedEvent, ask);
+  for (int frame = 1; frame <= 2; ++frame)
+  {
+    renderer->GetActiveCamera()->Azimuth(1.0);
+    window->Render();
+    EXPECT_LT(pass->GetProgress(), 1.0);
+    window->SetReadyForRendering(false);
+    processEvents();
+    window->SetReadyForRendering(true);
+    EXPECT_EQ(asked, frame);
+  }
+
   renderer->SetPass(nullptr);
   window->Render();
   processEvents();
