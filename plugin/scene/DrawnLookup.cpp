@@ -3,6 +3,7 @@
 #include "plugin/scene/DrawnProps.h"
 #include "plugin/scene/Hash.h"
 #include "plugin/scene/MapperInternals.h"
+#include "plugin/scene/MapperKind.h"
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Occluders.h"
@@ -34,7 +35,8 @@ bool isBefore(const DrawnLookup::HeldSurface& a, const DrawnLookup::HeldSurface&
   return identityOf(a) < identityOf(b);
 }
 
-bool drawnAsSurface(vtkProp* prop, SurfaceCells cells)
+/// True if a mapper draws these cells of a prop as a surface.
+bool drawsSurface(vtkAbstractMapper* mapper, vtkProp* prop, SurfaceCells cells)
 {
   auto* actor = vtkActor::SafeDownCast(prop);
   if (!actor)
@@ -44,7 +46,7 @@ bool drawnAsSurface(vtkProp* prop, SurfaceCells cells)
   vtkProperty* property = actor->GetProperty();
   return cells == SurfaceCells::PointSpheres ? property->GetRenderPointsAsSpheres()
     : cells == SurfaceCells::LineTubes       ? property->GetRenderLinesAsTubes()
-                                             : property->GetRepresentation() == VTK_SURFACE;
+                                       : drawnAsSurface(property, vtkMapper::SafeDownCast(mapper));
 }
 
 } // namespace
@@ -53,7 +55,7 @@ bool drawnAsSurface(vtkProp* prop, SurfaceCells cells)
 int cornersOfPrimitives(vtkAbstractMapper* mapper, vtkProp* prop)
 {
   const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
-  if (!cells || !drawnAsSurface(prop, *cells))
+  if (!cells || !drawsSurface(mapper, prop, *cells))
   {
     return 0;
   }
@@ -186,7 +188,7 @@ HookedSurface DrawnLookup::find(
   vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders)
 {
   const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
-  if (!cells || !drawnAsSurface(prop, *cells))
+  if (!cells || !drawsSurface(mapper, prop, *cells))
   {
     return {};
   }

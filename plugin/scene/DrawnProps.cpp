@@ -290,10 +290,11 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     return;
   }
   const bool lit = showsLight(actor->GetProperty());
-  const bool asPoints = actor->GetProperty()->GetRepresentation() == VTK_POINTS;
+  const bool asSurface = drawnAsSurface(actor->GetProperty(), actor->GetMapper());
+  const bool asPoints = !asSurface && actor->GetProperty()->GetRepresentation() == VTK_POINTS;
   const bool pointsAreSpheres = actor->GetProperty()->GetRenderPointsAsSpheres();
   const bool sizedInPixels = pointsAreSpheres || drawsTubes(actor->GetProperty());
-  if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE && !(asPoints && pointsAreSpheres))
+  if (!asSurface && !(asPoints && pointsAreSpheres))
   {
     if (lit)
     {

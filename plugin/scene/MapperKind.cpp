@@ -11,6 +11,7 @@
 #include "vtkPlaneCollection.h"
 #include "vtkPointGaussianMapper.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -44,6 +45,17 @@ MapperKind kindOf(vtkMapper* mapper)
     : mapper->IsA("vtkGlyph3DMapper")        ? MapperKind::Glyphs
     : mapper->IsA("vtkOpenGLMoleculeMapper") ? MapperKind::Molecule
                                              : MapperKind::Other;
+}
+
+//------------------------------------------------------------------------------
+bool drawnAsSurface(vtkProperty* property, vtkMapper* mapper)
+{
+  if (property->GetRepresentation() == VTK_SURFACE)
+  {
+    return true;
+  }
+  const MapperKind kind = kindOf(mapper);
+  return kind == MapperKind::Solids || kind == MapperKind::Molecule || kind == MapperKind::Splats;
 }
 
 //------------------------------------------------------------------------------

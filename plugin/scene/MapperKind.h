@@ -9,6 +9,7 @@
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractMapper;
 class vtkMapper;
+class vtkProperty;
 VTK_ABI_NAMESPACE_END
 
 namespace gnomon
@@ -31,6 +32,10 @@ enum class MapperKind
 
 /// Return a mapper's kind. Called once per prop: VTK's casts compare with all base classes.
 MapperKind kindOf(vtkMapper* mapper);
+
+/// True if a mapper draws surfaces for a property. Solids, molecules and splats look alike as a
+/// surface, as a wireframe and as points; other mappers go by the representation.
+bool drawnAsSurface(vtkProperty* property, vtkMapper* mapper);
 
 /// Run the pipeline before a mapper, as when it draws.
 void runInput(vtkMapper* mapper, MapperKind kind);

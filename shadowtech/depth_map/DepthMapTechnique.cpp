@@ -13,7 +13,6 @@
 #include "shadowtech/depth_map/DepthBounds.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace gnomon
 {
@@ -41,10 +40,7 @@ bool polygonOffsetServes(const LightView& view, const MapReach& reach)
 
 std::string define(const char* name, double value)
 {
-  std::ostringstream text;
-  text.precision(9);
-  text << std::showpoint << name << " " << value;
-  return text.str();
+  return std::string(name) + " " + glslNumber(value);
 }
 
 /// Return the defines of the fragment shader for a layer whose depth the shader writes.

@@ -1047,6 +1047,55 @@ TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
 }
 
 //------------------------------------------------------------------------------
+/// VTK draws solids and splats alike in all representations.
+TEST_F(SolidsTest, castAlikeInAllRepresentations)
+{
+  PointsScene scene;
+  vtkNew<vtkOpenGLSphereMapper> spheres;
+  spheres->SetInputData(scene.data);
+  spheres->SetRadius(0.5);
+  vtkNew<vtkOpenGLStickMapper> sticks;
+  sticks->SetInputData(scene.data);
+  vtkFloatArray* const along = addArray(scene.data, "along", 3);
+  vtkFloatArray* const size = addArray(scene.data, "size", 3);
+  for (vtkIdType i = 0; i < scene.data->GetNumberOfPoints(); ++i)
+  {
+    along->InsertTuple3(i, 0.3, 0.2, 1.0);
+    size->InsertTuple3(i, 1.0, 0.3, 0.0);
+  }
+  sticks->SetOrientationArray("along");
+  sticks->SetScaleArray("size");
+  scene.showSplats(scene.data);
+  scene.splats->SetScaleArray(nullptr);
+  vtkNew<vtkUnsignedCharArray> white; // without colours VTK's sticks crash
+  white->SetNumberOfComponents(3);
+  white->SetNumberOfTuples(scene.data->GetNumberOfPoints());
+  white->Fill(255.0);
+  scene.data->GetPointData()->SetScalars(white);
+  const std::vector<vtkMapper*> mappers = { scene.splats, spheres, sticks };
+  for (vtkMapper* const mapper : mappers)
+  {
+    scene.actor->SetMapper(mapper);
+    vtkProperty* const property = scene.actor->GetProperty();
+    for (const bool asSpheres : { false, true })
+    {
+      property->SetRenderPointsAsSpheres(asSpheres);
+      property->SetRepresentationToSurface();
+      const VisibilityImages asSurface = drawKept(scene);
+      EXPECT_GT(differenceOnFloor(asSurface, asSurface).dark, 500u) << mapper->GetClassName();
+      for (const int representation : { VTK_WIREFRAME, VTK_POINTS })
+      {
+        property->SetRepresentation(representation);
+        const VisibilityImages drawn = drawKept(scene);
+        EXPECT_EQ(differenceOnFloor(asSurface, drawn).different, 0u)
+          << mapper->GetClassName() << " " << representation << " " << asSpheres;
+        EXPECT_THAT(scene.report().notes, testing::IsEmpty());
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(SolidsTest, splatsWithoutDiscsAreListed)
 {
   PointsScene scene;
