@@ -115,6 +115,21 @@ std::string moveToSolid(const std::string& fragmentShader, const std::string& un
   return moves;
 }
 
+/// Return the expression of the normal of the curve that corner normals imply; the triangle's where
+/// a shader interpolates none. VTK's own normal may have bumps of a texture or of drawn edges.
+/// @param declarations gets the function that it calls
+std::string curveNormal(const std::string& fragmentShader, std::string& declarations)
+{
+  if (fragmentShader.find("in vec3 normalVCVSOutput;") == std::string::npos)
+  {
+    return "gnomonTranslucent == 1 ? normalVCVSOutput : gnomonNormal";
+  }
+  // VTK's main hides this input by a variable of the same name.
+  declarations += "vec3 gnomonInterpolatedNormal()\n{\n"
+                  "  return (gl_FrontFacing ? 1.0 : -1.0) * normalize(normalVCVSOutput);\n}\n";
+  return "gnomonInterpolatedNormal()";
+}
+
 /// Mark the end of a user's whole fragment shader, which lacks VTK's marks. Its main becomes a
 /// function, so that it may return early.
 void markEndOfMain(std::string& fragmentShader)
@@ -228,8 +243,8 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     // Maps hold no translucent surface, unless it was asked to cast. So it hides no light from
     // itself, and faces the light where VTK's own normal does.
     multiplications += "  vec3 gnomonPosition = " + position +
-      ";\n  gnomonNormal = gnomonTranslucent == 1 ? normalVCVSOutput : gnomonNormal;\n"
-      "  curvedView = vec4(normalVCVSOutput, gnomonFacetHeight);\n";
+      ";\n  gnomonNormal = gnomonTranslucent == 1 ? gnomonCurve : gnomonNormal;\n"
+      "  curvedView = vec4(gnomonCurve, gnomonFacetHeight);\n";
   }
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
@@ -339,7 +354,12 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
   {
     declarations = this->declarations_;
     uniformFlow = this->uniformFlow_;
-    begin = moveToSolid(fragmentShader, uniformFlow) + this->multiplications_;
+    begin = moveToSolid(fragmentShader, uniformFlow);
+    if (this->multiplications_.find("gnomonCurve") != std::string::npos)
+    {
+      begin += "  vec3 gnomonCurve = " + curveNormal(fragmentShader, declarations) + ";\n";
+    }
+    begin += this->multiplications_;
   }
   if (this->variant_.route != Route::Inline && drawsReceivers)
   {
