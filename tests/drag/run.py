@@ -1,0 +1,317 @@
+"""Drag the mouse over windows with shadows.
+
+    run.py [--all] [--only TEXT] [--jobs N] KIND COMMAND...
+
+COMMAND starts drag.cxx, drag.py or, for the kind `viewer`, `gnomon`. Each case runs it on an X
+server of its own and sends it events by xdotool. A case fails if the program crashes, hangs or
+prints an error, if anything moves otherwise than in plain VTK, or if the picture at rest differs
+from a new one. --all crosses all styles with all shadows. --only chooses cases whose names contain
+TEXT.
+"""
+
+import argparse
+import contextlib
+import json
+import os
+import select
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from typing import NamedTuple
+
+SHADOWS = {
+    "auto": [],  # under a light without size
+    "area": ["light_radius=0.2"],
+    "silhouette": ["technique=silhouette"],
+    "moving_samples": ["technique=penumbra", "light_radius=0.2", "moving_samples=4"],
+    "progressive": ["technique=sampled", "light_radius=0.2", "progressive=4"],
+}
+# Styles with modes, and the keys that lead there.
+MODES = {"Switch": ["", "t", "a", "ta"], "RubberBandPick": ["", "r"]}
+# Where plain VTK 9.1 itself fails.
+FAULTS = {
+    ("keys", "JoystickActor"): "crash: with key m, OnTimer destroys its timer",
+    ("keys", "JoystickCamera"): "the same",
+    ("keys", "RubberBandPick"): "key r in a drag: the style keeps the focus",
+}
+MOST_USED = ["TrackballCamera", "TrackballActor"]
+
+BUTTONS = {1: "left", 2: "middle", 3: "right"}
+CONE = (80, 60)  # pixels
+AXES = (24, 96)
+MOVES = [(5, 2), (10, 6), (14, 11), (10, 15), (4, 12), (7, 5)]  # pixels from where a drag starts
+REST = 3.0  # seconds from the release to the finished picture, at most
+HANG = 10.0  # seconds
+
+
+class Fault(Exception):
+    """What a program did wrong."""
+
+
+class Session(contextlib.ExitStack):
+    """A program on an X server of its own."""
+
+    def __init__(self, command):
+        super().__init__()
+        read, write = os.pipe()
+        self.start(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "160x120x24", "-noreset",
+             "-ardelay", "200", "-arinterval", "200"],  # milliseconds until keys repeat
+            pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            display = ":" + pipe.readline().strip()
+        self.environment = dict(os.environ, DISPLAY=display, LP_NUM_THREADS="1")
+        self.errors = self.enter_context(tempfile.TemporaryFile("w+"))
+        self.program = self.start(
+            command, env=self.environment, stdout=subprocess.PIPE, stderr=self.errors, text=True)
+
+    def start(self, command, **arguments):
+        process = self.enter_context(subprocess.Popen(command, **arguments))
+        self.callback(process.kill)
+        return process
+
+    def send(self, *events):
+        """Send X events. The program may not have handled them yet."""
+        subprocess.run(
+            ["xdotool", *map(str, events)], env=self.environment, check=True, timeout=HANG,
+            stdout=subprocess.DEVNULL)
+
+    def ask(self, *events, key="F12"):
+        """Send X events; return what the program says once it has handled them."""
+        self.send(*events, "key", "--delay", 0, key)
+        return self.read()
+
+    def read(self):
+        if not select.select([self.program.stdout], [], [], HANG)[0]:
+            raise Fault(f"hangs for {HANG} s: {self.error_text()}")
+        line = self.program.stdout.readline()
+        if not line:
+            self.end()
+            raise Fault("ends by itself")
+        return json.loads(line)
+
+    def error_text(self):
+        self.errors.seek(0)
+        return self.errors.read().strip()[-1000:]
+
+    def end(self, expected=""):
+        """Wait for the program's end. Only this text may stand among its errors."""
+        try:
+            status = self.program.wait(timeout=HANG)
+        except subprocess.TimeoutExpired:
+            raise Fault(f"does not end within {HANG} s") from None
+        text = self.error_text()
+        if status or (text and not (expected and expected in text)):
+            raise Fault(f"ends with status {status}: {text}")
+
+
+class Track:
+    """Where everything is after each step, beside where plain VTK has it."""
+
+    def __init__(self, session, plain):
+        self.session = session
+        self.plain = plain  # None while plain VTK itself runs
+        self.places = []
+        self.moves = []  # by hold: true if something moves on
+        self.differences = []  # by rest: pixels
+        self.is_exact = True  # false once the run depends on times
+
+    def ask(self, what, *events, key="F12"):
+        try:
+            return self.session.ask(*events, key=key)
+        except Fault as fault:
+            raise Fault(f"{what}: {fault}") from None
+
+    def step(self, what, *events):
+        """Send X events, and compare where they lead."""
+        places = self.ask(what, *events)
+        del places["frames"]
+        if self.plain and self.is_exact and not any(self.plain.moves):
+            for name, expected in self.plain.places[len(self.places)].items():
+                if places[name] != expected:
+                    raise Fault(f"{what}: {name} {places[name]}, plain VTK's {expected}")
+        self.places.append(places)
+        return places
+
+    def hold(self, what, seconds, *events):
+        """Send X events and wait. Something moves on if and only if it does so in plain VTK."""
+        # With each key VTK forgets its last motion, which a creeping camera repeats: send none.
+        self.session.send(*events)
+        time.sleep(seconds if self.plain else 0.2)
+        held = self.step(what)
+        time.sleep(0.2)
+        moves = self.step(what) != held
+        if self.plain and self.is_exact and moves != self.plain.moves[len(self.moves)]:
+            raise Fault(f"{what}: {'moves on' if moves else 'stops'}, unlike in plain VTK")
+        self.moves.append(moves)
+
+    def rest(self, what):
+        """Wait until no further frame follows, and compare the picture with a new one."""
+        first = last = self.ask(what)
+        start = quiet = time.monotonic()
+        while self.plain and time.monotonic() < min(start + REST, quiet + 0.8):
+            time.sleep(0.1)
+            state = self.ask(what)
+            if state != last:
+                last, quiet = state, time.monotonic()
+        if dict(last, frames=0) != dict(first, frames=0):
+            raise Fault(f"{what}: moves after the release")
+        different = self.ask(what, key="F11")["different"]
+        # Plain VTK leaves some rubber bands in the picture.
+        if self.plain and different and not self.plain.differences[len(self.differences)]:
+            raise Fault(f"{what}: {different} pixels differ from those of a new picture")
+        self.differences.append(different)
+
+
+def to(start, move=(0, 0)):
+    return "mousemove", start[0] + move[0], start[1] + move[1]
+
+
+def drag(track, start):
+    """Each button: a slow drag that is held still, and 19 quick ones."""
+    for button, name in BUTTONS.items():
+        track.step(f"{name} button", *to(start), "key", "F10")
+        track.step(f"{name} button pressed", "mousedown", button)
+        for move in MOVES[:-1]:
+            track.step(f"{name} button moved", *to(start, move))
+        track.hold(f"{name} button held", 2, *to(start, MOVES[-1]))
+        track.step(f"{name} button released", "mouseup", button)
+        track.rest(f"{name} button released")
+        track.step(f"{name} button", *to(start))
+        for number in range(2, 21):
+            what = f"{name} button, drag {number}"
+            track.step(what, "mousedown", button, *to(start, MOVES[1]))
+            track.step(what, *to(start))
+            track.step(what, "mouseup", button)
+        track.rest(f"{name} button, drag 20")
+
+
+def press(track, start):
+    """VTK's keys before drags and in them: pressed, then held until they repeat."""
+    for is_held in False, True:
+        track.is_exact &= not is_held  # keys repeat as time allows
+        for key in "mrfm":
+            events = ["keydown", key, "sleep", 0.7, "keyup", key] if is_held else ["key", key]
+            what = f"key {key} {'held' if is_held else 'pressed'}"
+            track.step(f"{what} before a drag", *to(start), *events)
+            track.step(f"{what}, drag", "mousedown", 1, *to(start, MOVES[0]))
+            track.step(f"{what} in a drag", *events)
+            track.hold(f"{what} in a drag, mouse held", 1, *to(start, MOVES[1]))
+            track.step(f"{what} in a drag, released", "mouseup", 1)
+            track.rest(what)
+
+
+class Mode(NamedTuple):
+    """A style in a window of drag.cxx or drag.py."""
+
+    style: str
+    keys: str
+    words: tuple  # of the program's command line
+
+    def __str__(self):
+        return " ".join(["+".join(filter(None, [self.style, self.keys])), *self.words])
+
+    def run(self, command, script, words, plain=None):
+        """Run a script of events; `plain` is the future Track of plain VTK."""
+        start = AXES if "marker" in self.words else CONE
+        expected = plain.result() if plain else None
+        with Session([*command, self.style, *self.words, *words]) as session:
+            session.read()
+            track = Track(session, expected)
+            track.is_exact = "timer" not in self.words  # styles repeat motions with each timer
+            track.step("start", *to(start))
+            for key in self.keys:
+                track.step(f"key {key}", "key", key)
+            script(track, start)
+            session.send("key", "q")
+            session.end()
+            return track
+
+    def run_plain(self, command, script):
+        try:
+            return self.run(command, script, ["plain"])
+        except Fault as fault:
+            raise Fault(f"plain VTK: {fault}") from None
+
+
+def view(command, key):
+    """Drag in the viewer, press one of its keys, and drag again."""
+    with tempfile.TemporaryDirectory() as folder:
+        options = ["--size", "160x120", "-o", f"{folder}/saved"]
+        with Session([*command, "view", "soft-stack", *options]) as viewer:
+            viewer.send("search", "--sync", "--onlyvisible", "--name", ".")
+            for keys in ["type", "--", key], ["key", "q"]:
+                viewer.send(*to(CONE), "sleep", 0.5, "mousedown", 1)
+                for move in MOVES:
+                    viewer.send(*to(CONE, move), "sleep", 0.05)
+                viewer.send("sleep", 1.2, "mouseup", 1, "sleep", 0.7, *keys)
+            viewer.end(expected="as a wireframe" if key == "w" else "")
+
+
+def output_of(*command):
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def viewer_keys(command):
+    """Names of the keys that the viewer documents, and what they type."""
+    for line in output_of(*command, "view", "--keys").splitlines():
+        if "`" in line:
+            name = line.split("`")[1]
+            yield name, " " if name == "space" else name
+
+
+def choose(kind, command, is_all):
+    """Modes of styles, each with one kind of shadows; not is_all: most of the styles with few."""
+    words = (kind,) if kind in ("timer", "marker") else ()
+    few = ["area"] if kind == "keys" else ["auto", "area"]
+    for style in output_of(*command).split():
+        if (kind, style) not in FAULTS and (is_all or not words or style in MOST_USED):
+            for keys in MODES.get(style, [""]):
+                for shadows in SHADOWS if is_all or style == MOST_USED[0] else few:
+                    yield Mode(style, keys, words), shadows
+
+
+def attempt(name, function, *arguments):
+    """Call a function and print how it went."""
+    start = time.monotonic()
+    says = "right"
+    try:
+        function(*arguments)
+    except Fault as fault:
+        says = f"WRONG: {fault}"
+    print(f"{name} ({time.monotonic() - start:.0f} s): {says}", flush=True)
+    return says == "right"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--only", default="")
+    parser.add_argument("--jobs", type=int, default=16)
+    parser.add_argument("kind", choices=["styles", "keys", "timer", "marker", "viewer"])
+    parser.add_argument("command", nargs=argparse.REMAINDER)
+    arguments = parser.parse_args()
+    kind, command = arguments.kind, arguments.command
+    start = time.monotonic()
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        if kind == "viewer":
+            cases = [(name, view, command, key) for name, key in viewer_keys(command)]
+        else:
+            script = press if kind == "keys" else drag
+            chosen = [case for case in choose(kind, command, arguments.all)
+                      if arguments.only in "{} {}".format(*case)]
+            plain = {mode: pool.submit(mode.run_plain, command, script)
+                     for mode in dict.fromkeys(mode for mode, _ in chosen)}
+            cases = [(f"{mode} {shadows}", mode.run, command, script, SHADOWS[shadows], plain[mode])
+                     for mode, shadows in chosen]
+        results = [pool.submit(attempt, *case) for case in cases]
+        right = [result.result() for result in results].count(True)
+    print(f"{right} of {len(results)} right in {time.monotonic() - start:.0f} s")
+    sys.exit(right < len(results))
+
+
+if __name__ == "__main__":
+    main()
