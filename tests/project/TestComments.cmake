@@ -10,7 +10,7 @@ set(folders lights examples shadowtech plugin
   plugin/frame plugin/paraview
   tests/benchmarks tests/check tests/fuzz tests/hard tests/main tests/unit/data tests/unit/lights
   tests/unit/occluders tests/unit/plugin tests/unit/ranks tests/unit/truth tests/unit/window
-  tests/paraview tests/tool tests/vtk_programs)
+  tests/clients tests/paraview tests/tool tests/vtk_programs)
 set(endings h cpp cxx glsl py sh)
 
 string(JOIN "|" phrase ${banned_phrases})
