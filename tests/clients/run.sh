@@ -1,0 +1,84 @@
+#!/bin/bash
+# Drags the mouse in programs of other toolkits that use Gnomon: Qt's widgets, Qt Quick, PyQt and
+# wxPython of Debian 12.
+#
+#   tests/clients/run.sh [PREFIX]
+#
+# PREFIX is where Gnomon is installed; without it, the script builds and installs Gnomon. Builds and
+# logs stay in the temporary folder (TMPDIR).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source cmake/debian.sh
+source tests/debian/chroot.sh # logged, find_mirror
+
+release=bookworm
+folder=${TMPDIR:-/tmp}/gnomon-clients
+build=$folder/build
+prefix=${1:-$folder/prefix}
+mkdir -p "$folder/run" "$folder/screen"
+chmod 700 "$folder/run" # Qt asks for that
+
+build_gnomon_prefix()
+{
+  cmake --preset release -DGNOMON_BUILD_TESTS=OFF &&
+    cmake --build --preset release &&
+    cmake --install build/release --prefix "$prefix"
+}
+
+# Debian's VTK lacks the library for Qt Quick. Debian's source package of VTK has it.
+get_qt_quick()
+{
+  local apt=$folder/apt
+  local options=(-o "Dir::Etc::SourceList=$apt/sources.list" -o "Dir::Etc::SourceParts=$apt/none"
+    -o "Dir::State::Lists=$apt/lists")
+  mkdir -p "$apt/lists/partial" "$apt/none" "$folder/qt_quick"
+  echo "deb-src $(find_mirror) $release main" > "$apt/sources.list"
+  apt-get "${options[@]}" update &&
+    (cd "$apt" && apt-get "${options[@]}" source --download-only vtk9) &&
+    tar --extract --file "$apt"/vtk9_*.orig.tar.xz --directory "$folder/qt_quick" \
+      --strip-components 3 --wildcards '*/GUISupport/QtQuick/QQuickVTK*'
+}
+
+build_clients()
+{
+  cmake -S tests/clients -B "$build" -G Ninja -D CMAKE_BUILD_TYPE=Release \
+    -D CMAKE_PREFIX_PATH="$prefix" -D QT_QUICK_SOURCES="$folder/qt_quick" &&
+    cmake --build "$build"
+}
+
+table=()
+failures=0
+
+# client NAME [--unfinished WORD]... COMMAND...: checks a client on a display of its own (drag.py).
+client()
+{
+  local name=$1 log=$folder/$1.log result=passed
+  shift
+  echo "$SECONDS s: $name"
+  xvfb-run -a -s "-screen 0 640x480x24 -nocursor -noreset -fbdir $folder/screen" \
+    env PYTHONPATH="$prefix/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 \
+    XDG_RUNTIME_DIR="$folder/run" QT_QPA_PLATFORM=xcb GDK_BACKEND=x11 NO_AT_BRIDGE=1 \
+    timeout 600 /usr/bin/python3 tests/clients/drag.py --screen "$folder/screen/Xvfb_screen0" "$@" \
+    2>&1 | tee "$log" || result=FAILED
+  [ "$result" = passed ] || failures=$((failures + 1))
+  table+=("$(printf '%-20s %6d  %s' "$name" "$(grep -c -E '^(ok  |FAIL)' "$log")" "$result")")
+}
+
+echo "$SECONDS s: installing packages"
+install_packages libvtk9-qt-dev python3-pyqt5 python3-wxgtk4.0 qtdeclarative5-dev xdotool
+echo "$SECONDS s: building"
+[ $# -gt 0 ] || logged gnomon build_gnomon_prefix
+[ -e "$folder/qt_quick/QQuickVTKRenderItem.h" ] || logged qt_quick get_qt_quick
+logged clients build_clients
+
+# A client is a program here (drag.py says what it takes and prints), and a line below.
+client qt_widget --unfinished reparent --unfinished delete "$build/qt_widget"
+client qt_quick_basic env QSG_RENDER_LOOP=basic "$build/qt_quick"
+client qt_quick_threaded env QSG_RENDER_LOOP=threaded "$build/qt_quick"
+client pyqt_widget /usr/bin/python3 tests/clients/pyqt_widget.py
+client wx_widget /usr/bin/python3 tests/clients/wx_widget.py
+
+printf '%-20s %6s  %s\n' client checks result
+printf '%s\n' "${table[@]}"
+echo "$SECONDS s: $failures clients failed"
+[ "$failures" = 0 ]
