@@ -189,10 +189,10 @@ public:
   ///@}
 
   /**
-   * Event of a frame that is not finished where no timer can finish it: the interactor's Render()
-   * does not draw (Qt Quick), frames are drawn in another thread than the pass was made in, or there
-   * is no interactor. The call data points to an int: the milliseconds after which the program is
-   * to draw. Observers must not draw. See docs/guide/qt.md.
+   * Event of an unfinished frame that no timer can finish: the interactor's Render() does not draw
+   * (Qt Quick), the pass was made in another thread, or there is no interactor. The call data points
+   * to an int: the milliseconds after which the program is to draw. Observers must not draw. See
+   * docs/guide/qt.md.
    */
   enum
   {
@@ -348,9 +348,9 @@ public:
   /**
    * How much of what lights' techniques are to show the last frame showed, in [0, 1]: below 1 where
    * they take several frames (the settings `progressive` of `sampled` and `moving_samples`), and
-   * further frames of the same scene bring more. It is the least of all lights'. Selections (vtkHardwareSelector) leave
-   * it as it is. Windows that show several views by one pass (stereo, tiles, several renderers) get
-   * all in every frame.
+   * further frames of the same scene bring more. It is the least of all lights'. Selections
+   * (vtkHardwareSelector) leave it as it is. Windows that show several views by one pass (stereo,
+   * tiles, several renderers) get all in every frame.
    *
    * A frame that brings more ends with a vtkCommand::ProgressEvent, whose call data is this number
    * (a double), and the one that completes it, once, with a vtkCommand::EndEvent. Observers must

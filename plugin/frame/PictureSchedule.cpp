@@ -74,8 +74,8 @@ TimerOrder PictureSchedule::timerEvent(bool acts, double now)
 }
 
 //------------------------------------------------------------------------------
-/// Order a timer if a picture is due and none waits. Interactors may lose a timer: those of wxPython
-/// and PyQt name the last one that anybody started, whichever fires.
+/// Order a timer if a picture is due and none waits. Interactors may lose a timer: those of wx and
+/// PyQt name the last one that the process started, whichever fires.
 TimerOrder PictureSchedule::order(bool acts, double now)
 {
   constexpr double lostAfter = 1000.0;

@@ -33,7 +33,7 @@ constexpr unsigned long pictureUnfinishedEvent = 1000 + 731; // vtkCommand::User
 /// - Qt, Win32 and Cocoa remove a one-shot after its event, and allow anything in it.
 /// - vtkGenericRenderWindowInteractor names the timer that was started last in the process,
 ///   whichever fires. Its clients: wx fires after 10 ms, whatever the duration, and cannot destroy
-///   timers. PyQt has one timer, and fires a one-shot until somebody destroys it.
+///   timers. PyQt has one timer, and fires a one-shot until it is destroyed.
 ///
 /// So no timer is destroyed in its first event, any TimerEvent may draw, and a style that acts does
 /// not see the events of this timer.

@@ -110,9 +110,9 @@ class Client:
 
     def move(self, x, y):
         """Move the mouse, and wait until that is drawn. Return the camera."""
-        before = self.frames[-1][1]
         xdotool("mousemove", x, y)
-        self.wait_for(lambda: self.frames[-1][1] != before, 5)
+        if not self.wait_for(lambda: self.frames[-1][1] == x, 20):
+            raise Failed("the client draws no frame for a move of the mouse")
         self.settle()
         return self.camera
 
@@ -142,7 +142,9 @@ def drag(client):
 
     Returns the camera after each step, and the number of frames while held.
     """
-    xdotool("mousemove", 150, 120, "mousedown", 1)
+    xdotool("mousemove", 150, 120)
+    client.settle()
+    xdotool("mousedown", 1)
     client.settle()
     cameras = [client.move(150 + 6 * step, 120 + 3 * step) for step in range(1, 7)]
     before = len(client.frames)
@@ -183,6 +185,7 @@ class Checks:
             client.settle()
             yield client
         finally:
+            xdotool("mouseup", 1)
             client.process.kill()
             client.process.wait()
             while not self.screen.is_empty():
@@ -206,10 +209,10 @@ class Checks:
             client.wait(0.5)
             frames, timers = len(client.frames) - frames, client.timers - timers
             end = client.end()
-        moved = sum(a != b for a, b in zip(cameras, plain_cameras))
+        moved = [i for i, (a, b) in enumerate(zip(cameras, plain_cameras)) if a != b]
         self.check(
             f"{name}: the camera is plain VTK's",
-            moved and f"not at {moved} of {len(cameras)} steps",
+            moved and f"not at {moved} of the steps 0 to {len(cameras) - 1}",
         )
         self.check(
             f"{name}: a held drag draws as many frames as plain VTK's",

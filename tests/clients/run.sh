@@ -5,7 +5,8 @@
 #   tests/clients/run.sh [PREFIX]
 #
 # PREFIX is where Gnomon is installed; without it, the script builds and installs Gnomon. Builds and
-# logs stay in the temporary folder (TMPDIR).
+# logs stay in the temporary folder (TMPDIR). A picture must be finished three seconds after a drag,
+# so the machine must have nothing else to do.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source cmake/debian.sh
@@ -15,7 +16,7 @@ release=bookworm
 folder=${TMPDIR:-/tmp}/gnomon-clients
 build=$folder/build
 prefix=${1:-$folder/prefix}
-mkdir -p "$folder/run" "$folder/screen"
+mkdir -p "$folder/run"
 chmod 700 "$folder/run" # Qt asks for that
 
 build_gnomon_prefix()
@@ -52,13 +53,14 @@ failures=0
 # client NAME [--unfinished WORD]... COMMAND...: checks a client on a display of its own (drag.py).
 client()
 {
-  local name=$1 log=$folder/$1.log result=passed
+  local name=$1 log=$folder/$1.log screen=$folder/screen/$1 result=passed
   shift
+  mkdir -p "$screen"
   echo "$SECONDS s: $name"
-  xvfb-run -a -s "-screen 0 640x480x24 -nocursor -noreset -fbdir $folder/screen" \
+  xvfb-run -a -s "-screen 0 640x480x24 -nocursor -noreset -fbdir $screen" \
     env PYTHONPATH="$prefix/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 \
     XDG_RUNTIME_DIR="$folder/run" QT_QPA_PLATFORM=xcb GDK_BACKEND=x11 NO_AT_BRIDGE=1 \
-    timeout 600 /usr/bin/python3 tests/clients/drag.py --screen "$folder/screen/Xvfb_screen0" "$@" \
+    timeout 600 /usr/bin/python3 tests/clients/drag.py --screen "$screen/Xvfb_screen0" "$@" \
     2>&1 | tee "$log" || result=FAILED
   [ "$result" = passed ] || failures=$((failures + 1))
   table+=("$(printf '%-20s %6d  %s' "$name" "$(grep -c -E '^(ok  |FAIL)' "$log")" "$result")")

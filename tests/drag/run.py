@@ -43,7 +43,7 @@ CONE = (80, 60)  # pixels
 AXES = (24, 96)
 MOVES = [(5, 2), (10, 6), (14, 11), (10, 15), (4, 12), (7, 5)]  # pixels from where a drag starts
 REST = 3.0  # seconds from the release to the finished picture, at most
-HANG = 10.0  # seconds
+HANG = 30.0  # seconds, on a busy machine
 
 
 class Fault(Exception):
