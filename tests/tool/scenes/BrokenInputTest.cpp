@@ -1,70 +1,25 @@
 // Runs the program itself on broken inputs: each must end with exit code 2 and one line that names
 // the file or option, and none may crash.
 
-#include "../TestFiles.h"
+#include "../RunProgram.h"
 #include "SampleFiles.h"
 
 #include <gtest/gtest.h>
 
-#include <fcntl.h>
-#include <spawn.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <functional>
-
-extern char** environ;
+#include <set>
 
 namespace gnomon::tool
 {
 namespace
 {
-
-struct Outcome
-{
-  bool exited = false; ///< false: a signal ended it
-  int code = 0;        ///< exit code, or the signal
-  std::string errors;  ///< what it wrote to stderr
-  std::string output;  ///< and to stdout
-};
-
-/// Runs the program with these arguments in that folder.
-Outcome run(const TestFolder& folder, const std::vector<std::string>& arguments)
-{
-  std::vector<std::string> words = { GNOMON_PROGRAM };
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words)
-  {
-    argv.push_back(word.data());
-  }
-  argv.push_back(nullptr);
-
-  const std::string errors = folder / "stderr.txt";
-  const std::string output = folder / "stdout.txt";
-  constexpr int anew = O_WRONLY | O_CREAT | O_TRUNC;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), anew, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), anew, 0600);
-  pid_t process = 0;
-  const int failure =
-    posix_spawn(&process, GNOMON_PROGRAM, &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0)
-  {
-    throw std::runtime_error("the program cannot be started");
-  }
-  int status = 0;
-  waitpid(process, &status, 0);
-  return { WIFEXITED(status), WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status),
-    readBytes(errors), readBytes(output) };
-}
 
 /// What a good run of `gnomon render` says of itself. It writes out.png and stats.json.
 nlohmann::json statsOf(const TestFolder& folder, std::vector<std::string> arguments)
@@ -527,6 +482,99 @@ TEST(Program, FailsWithCodeOneWhenTheDiskIsFull)
   EXPECT_TRUE(outcome.exited);
   EXPECT_EQ(outcome.code, 1) << outcome.errors;
   EXPECT_NE(outcome.errors.find("stats.json"), std::string::npos) << outcome.errors;
+}
+
+//------------------------------------------------------------------------------
+/// The program's files may have a limited size, which is what a full disk does to them.
+TEST(Program, LeavesNoPartOfAFileOnAFullDisk)
+{
+  const std::vector<std::string> render = { "render", "cube", "--size", "64x48" };
+  struct Case
+  {
+    std::string file; ///< that becomes too large
+    std::vector<std::string> options;
+  };
+  const std::vector<Case> cases = {
+    { "a.png", { "-o", "a.png" } },
+    { "a.exr", { "-o", "a.exr" } },
+    { "v.exr", { "-o", "null.png", "--visibility", "v.exr" } },
+    { "s.json", { "-o", "null.png", "--stats", "s.json" } },
+    { "c.png", { "-o", "null.png", "--technique", "silhouette", "--classes", "c.png" } },
+    { "cube-0.vtp", { "scenes", "--export", "cube", "." } },
+  };
+  signal(SIGXFSZ, SIG_IGN);
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  for (const Case& full : cases)
+  {
+    for (const bool isThere : { false, true })
+    {
+      SCOPED_TRACE(full.file + (isThere ? " exists" : ""));
+      TestFolder folder;
+      std::vector<std::string> arguments = full.options;
+      if (arguments[0] != "scenes")
+      {
+        arguments.insert(arguments.begin(), render.begin(), render.end());
+        (void)!symlink("/dev/null", (folder / "null.png").c_str());
+      }
+      if (isThere)
+      {
+        writeBytes(folder / full.file, "older");
+      }
+      const rlimit small{ 200, before.rlim_max };
+      setrlimit(RLIMIT_FSIZE, &small);
+      const Outcome outcome = run(folder, arguments);
+      setrlimit(RLIMIT_FSIZE, &before);
+      EXPECT_TRUE(outcome.exited);
+      EXPECT_EQ(outcome.code, 1) << outcome.errors;
+      EXPECT_NE(outcome.errors.find(full.file), std::string::npos) << outcome.errors;
+      std::set<std::string> names;
+      for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      {
+        names.insert(entry.path().filename().string());
+      }
+      for (const char* other : { "stdout.txt", "stderr.txt", "null.png" })
+      {
+        names.erase(other);
+      }
+      EXPECT_EQ(names, isThere ? std::set{ full.file } : std::set<std::string>{});
+      EXPECT_EQ(readBytes(folder / full.file), isThere ? "older" : "");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, ReplacesFilesThroughLinksAndKeepsTheirPermissions)
+{
+  TestFolder folder;
+  writeBytes(folder / "file.png", "older");
+  chmod((folder / "file.png").c_str(), 0640);
+  (void)!symlink("file.png", (folder / "link.png").c_str());
+  EXPECT_EQ(run(folder, { "render", "cube", "--size", "8x8", "-o", "link.png" }).code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.png"));
+  EXPECT_EQ(readBytes(folder / "file.png").compare(1, 3, "PNG"), 0);
+  struct stat state;
+  ASSERT_EQ(stat((folder / "file.png").c_str(), &state), 0);
+  EXPECT_EQ(state.st_mode & 0777, 0640u);
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, FailsWithCodeOneWhenItsOutputCannotBeWritten)
+{
+  TestFolder folder;
+  ASSERT_EQ(run(folder, { "render", "cube", "--size", "8x8", "-o", "a.png" }).code, 0);
+  const std::vector<std::vector<std::string>> commands = { { "techniques" }, { "scenes" },
+    { "scenes", "--hard" }, { "scenes", "--export", "cube", "." }, { "settings" },
+    { "settings", "--markdown" }, { "settings", "--class" }, { "view", "--keys" },
+    { "diff", "a.png", "a.png" }, { "--help" }, { "--version" }, { "render", "--help" } };
+  for (const std::vector<std::string>& arguments : commands)
+  {
+    const Outcome outcome = run(folder, arguments, "/dev/full");
+    EXPECT_TRUE(outcome.exited);
+    EXPECT_EQ(outcome.code, 1) << arguments[0];
+    EXPECT_NE(outcome.errors.find("gnomon: error: standard output: "), std::string::npos)
+      << arguments[0] << ": " << outcome.errors;
+  }
 }
 
 //------------------------------------------------------------------------------
