@@ -18,8 +18,8 @@ struct GltfView
   std::size_t neighbourBytes = 0;    ///< size of the files that hold its buffers and images
 };
 
-/// Read lights and camera of a .glb or .gltf file. VTK 9.1 imports both, too, but puts spot lights a
-/// unit away from their nodes.
+/// Read lights and camera of a .glb or .gltf file. VTK 9.1 imports both, too, but puts spot lights
+/// a unit away from their nodes.
 /// @throws BadInput
 GltfView readGltfView(const std::string& path);
 

@@ -118,8 +118,8 @@ std::string garbage(std::size_t bytes)
   return text;
 }
 
-/// sampleVtp() with compressed points. The header holds the number of blocks, the size of a block, of
-/// the last one, and of each compressed one.
+/// sampleVtp() with compressed points. The header holds the number of blocks, the size of a block,
+/// of the last one, and of each compressed one.
 std::string compressedVtp(const std::string& compressor, const std::vector<std::uint32_t>& header)
 {
   const std::string words(
