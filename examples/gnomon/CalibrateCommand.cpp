@@ -241,7 +241,7 @@ void calibrate(const CalibrateOptions& options)
     progress.print(text, std::cout);
     return;
   }
-  writeText(options.output, text);
+  writeWholeFile(options.output, text);
 }
 
 } // namespace

@@ -5,8 +5,10 @@
 namespace gnomon::tool
 {
 
+inline constexpr int badInputCode = 2;
+
 /// Invalid input by the user. The message names the file, the place in it, the value found and the
-/// value expected. The program ends with exit code 2.
+/// value expected. The program ends with badInputCode.
 class BadInput : public std::runtime_error
 {
 public:

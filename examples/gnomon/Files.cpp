@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <system_error>
 
 namespace gnomon::tool
@@ -91,7 +92,11 @@ void requireWritableFile(
   {
     handle = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
   }
-  if (handle < 0)
+  // An existing file is replaced by one beside it.
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  if (handle < 0 ||
+    (!created && std::filesystem::is_regular_file(path) &&
+      ::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0))
   {
     throw BadInput(option + ": " + path + ": cannot be written: " + std::strerror(errno));
   }
@@ -103,15 +108,54 @@ void requireWritableFile(
 }
 
 //------------------------------------------------------------------------------
-void writeText(const std::string& path, const std::string& text)
+void writeWholeFile(const std::string& path, const std::string& bytes)
 {
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file)
+  namespace fs = std::filesystem;
+  const auto fail = [&path](int reason)
+  { throw Failure(path + ": writing failed: " + std::strerror(reason)); };
+
+  std::error_code ignored;
+  const fs::file_status old = fs::status(path, ignored);
+  const bool isDevice = fs::exists(old) && !fs::is_regular_file(old); // or a pipe
+  // Renaming onto a link would replace the link.
+  const fs::path target = fs::is_regular_file(old) ? fs::canonical(path, ignored) : fs::path(path);
+  fs::path part = target;
+  if (!isDevice)
   {
-    throw Failure(path + ": writing failed: " + std::strerror(errno));
+    part.replace_filename(".gnomon-" + std::to_string(std::random_device()()));
+  }
+  const int flags = isDevice ? 0 : O_CREAT | O_EXCL;
+  const int handle = ::open(part.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  if (handle < 0)
+  {
+    fail(errno);
+  }
+  if (fs::is_regular_file(old))
+  {
+    fs::permissions(part, old.permissions(), ignored);
+  }
+  int reason = 0;
+  for (std::size_t written = 0; written < bytes.size() && reason == 0;)
+  {
+    const ssize_t count = ::write(handle, bytes.data() + written, bytes.size() - written);
+    written += count > 0 ? static_cast<std::size_t>(count) : 0;
+    reason = count < 0 && errno != EINTR ? errno : 0;
+  }
+  if (::close(handle) != 0 && reason == 0)
+  {
+    reason = errno;
+  }
+  if (!isDevice && reason == 0 && ::rename(part.c_str(), target.c_str()) != 0)
+  {
+    reason = errno;
+  }
+  if (reason != 0)
+  {
+    if (!isDevice)
+    {
+      ::unlink(part.c_str());
+    }
+    fail(reason);
   }
 }
 

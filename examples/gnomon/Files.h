@@ -23,9 +23,10 @@ std::string readWholeFile(const std::string& path, std::size_t largestBytes);
 void requireWritableFile(
   const std::string& path, const std::string& option, const std::vector<std::string>& extensions);
 
-/// Write a file, replacing an existing one.
+/// Write a file beside its path and rename it: on a full disk, no file is left and an existing one
+/// stays unchanged. Devices and pipes are written directly.
 /// @throws Failure
-void writeText(const std::string& path, const std::string& text);
+void writeWholeFile(const std::string& path, const std::string& bytes);
 
 /// Return a path's extension with its dot, in lower case.
 std::string lowerExtension(const std::string& path);

@@ -15,11 +15,11 @@ struct GltfView
   std::vector<SceneLight> lights;
   std::optional<SceneCamera> camera; ///< the first camera of the default scene
   std::vector<std::string> notes;    ///< see Scene::notes
+  std::size_t neighbourBytes = 0;    ///< size of the files that hold its buffers and images
 };
 
-/// Read lights and camera of a .glb or .gltf file, and check all parts that vtkGLTFImporter trusts:
-/// every index, every range of bytes, and images. VTK 9.1 imports both, too, but puts spot lights a
-/// unit away from their nodes.
+/// Read lights and camera of a .glb or .gltf file. VTK 9.1 imports both, too, but puts spot lights
+/// a unit away from their nodes.
 /// @throws BadInput
 GltfView readGltfView(const std::string& path);
 

@@ -8,6 +8,7 @@
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
 
@@ -17,12 +18,10 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <stdexcept>
 
 namespace gnomon::tool
@@ -105,7 +104,8 @@ Picture readPng(const std::string& path)
   return picture;
 }
 
-/// Write planes of floats as 32-bit channels, with row 0 on top as in memory.
+/// Write planes of floats as 32-bit channels, with row 0 on top as in memory. OpenEXR writes into
+/// memory, because its files are closed without a check for a full disk.
 void writeExr(const std::string& path, int width, int height, Imf::Header& header,
   const std::map<std::string, const std::vector<float>*>& planes)
 {
@@ -123,9 +123,10 @@ void writeExr(const std::string& path, int width, int height, Imf::Header& heade
     frame.insert(name,
       Imf::Slice(Imf::FLOAT, base, sizeof(float), sizeof(float) * static_cast<std::size_t>(width)));
   }
+  Imf::StdOSStream bytes;
   try
   {
-    Imf::OutputFile file(path.c_str(), header);
+    Imf::OutputFile file(bytes, header);
     file.setFrameBuffer(frame);
     file.writePixels(height);
   }
@@ -133,6 +134,7 @@ void writeExr(const std::string& path, int width, int height, Imf::Header& heade
   {
     throw Failure(path + ": writing failed: " + error.what());
   }
+  writeWholeFile(path, bytes.str());
 }
 
 } // namespace
@@ -200,14 +202,7 @@ void writePicture(const Picture& picture, const std::string& path)
   if (lowerExtension(path) == ".png")
   {
     const std::vector<unsigned char> bytes = encodePng(picture);
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(
-      reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file)
-    {
-      throw Failure(path + ": writing failed: " + std::strerror(errno));
-    }
+    writeWholeFile(path, std::string(bytes.begin(), bytes.end()));
   }
   else
   {

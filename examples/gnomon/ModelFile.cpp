@@ -4,11 +4,11 @@
 #include "Files.h"
 #include "GltfFile.h"
 #include "JsonValue.h"
-#include "ModelChecks.h"
 #include "MtlFile.h"
+#include "ReadGuarded.h"
 #include "SceneFraming.h"
+#include "Text.h"
 #include "Vec3.h"
-#include "VtkMessages.h"
 
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 
@@ -34,8 +34,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
-#include <new>
+#include <fstream>
 
 namespace gnomon::tool
 {
@@ -46,6 +47,14 @@ namespace
 std::string nameOf(const std::string& path)
 {
   return std::filesystem::path(path).stem().string();
+}
+
+void addNotes(const std::vector<std::string>& warnings, const std::string& path, Model& model)
+{
+  for (const std::string& warning : warnings)
+  {
+    model.notes.push_back(path + ": " + warning);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -218,16 +227,34 @@ void addSurface(vtkPolyData* surface, const std::string& path, Model& model)
 
 void readPly(const std::string& path, Model& model)
 {
-  checkPlyFile(path);
   vtkNew<vtkPLYReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
   addSurface(reader->GetOutput(), path, model);
 }
 
+/// Refuse binary .stl files whose size is not what their header says, as vtkSTLReader reads what is
+/// there. It checks text itself.
+void requireWholeStl(const std::string& path)
+{
+  const std::string bytes = readWholeFile(path, largestModelBytes);
+  constexpr std::size_t countBegin = 80;
+  constexpr std::size_t triangleBegin = 84;
+  constexpr std::size_t triangleBytes = 50;
+  std::uint32_t triangles = 0;
+  bytes.copy(
+    reinterpret_cast<char*>(&triangles), sizeof(triangles), std::min(countBegin, bytes.size()));
+  const std::size_t whole = triangleBegin + triangleBytes * triangles;
+  if (bytes.size() != whole && bytes.find("facet") == std::string::npos)
+  {
+    throw BadInput("found " + std::to_string(bytes.size()) + " bytes, expected " +
+      std::to_string(whole) + " or text; the file is truncated or damaged");
+  }
+}
+
 void readStl(const std::string& path, Model& model)
 {
-  checkStlFile(path);
+  requireWholeStl(path);
   vtkNew<vtkSTLReader> reader;
   reader->SetFileName(path.c_str());
   // vtkMergePoints sorts vertices into a grid over their bounds, which must be finite.
@@ -240,7 +267,6 @@ void readStl(const std::string& path, Model& model)
 
 void readVtp(const std::string& path, Model& model)
 {
-  checkVtpFile(path);
   vtkNew<vtkXMLPolyDataReader> reader;
   if (!reader->CanReadFile(path.c_str()))
   {
@@ -314,9 +340,29 @@ std::map<std::string, Material> readLibraries(
   return materials;
 }
 
+/// Refuse vertices that vtkOBJReader would read as zeros.
+void requireObjVertices(const std::string& path)
+{
+  std::ifstream file(path);
+  std::string text;
+  for (int number = 1; std::getline(file, text); ++number)
+  {
+    const std::vector<std::string> words = splitWords(text);
+    for (std::size_t i = 1; i <= 3 && !words.empty() && words[0] == "v"; ++i)
+    {
+      const std::optional<float> value = parseWord<float>(words, i);
+      if (!value || !std::isfinite(*value))
+      {
+        throw BadInput("line " + std::to_string(number) + ": found " + quotedWord(words, i) +
+          ", expected v and three finite numbers");
+      }
+    }
+  }
+}
+
 void readObj(const std::string& path, Model& model)
 {
-  checkObjFile(path);
+  requireObjVertices(path);
   vtkNew<vtkOBJReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
@@ -330,6 +376,7 @@ void readObj(const std::string& path, Model& model)
     return;
   }
 
+  checkCells(whole->GetPolys(), whole->GetNumberOfPoints());
   std::map<std::string, Material> materials =
     readLibraries(whole->GetFieldData()->GetAbstractArray("MaterialLibraries"), path, model.notes);
   for (int id = 0; id < static_cast<int>(names->GetNumberOfValues()); ++id)
@@ -386,7 +433,6 @@ void importActors(vtkImporter* importer, const std::string& path, Model& model)
 /// Read a .3ds file without its lights and cameras.
 void read3ds(const std::string& path, Model& model)
 {
-  check3dsFile(path);
   vtkNew<vtk3DSImporter> importer;
   importer->SetFileName(path.c_str());
   importActors(importer, path, model);
@@ -413,9 +459,14 @@ void flipTextureCoordinates(vtkPolyData* surface)
 void readGltf(const std::string& path, Model& model)
 {
   const GltfView view = readGltfView(path);
-  vtkNew<vtkGLTFImporter> importer;
-  importer->SetFileName(path.c_str());
-  importActors(importer, path, model);
+  const auto readActors = [&]
+  {
+    vtkNew<vtkGLTFImporter> importer;
+    importer->SetFileName(path.c_str());
+    importActors(importer, path, model);
+  };
+  addNotes(
+    readGuarded(path, requireReadableFile(path) + view.neighbourBytes, readActors), path, model);
   for (SceneModel& surface : model.surfaces)
   {
     flipTextureCoordinates(surface.surface);
@@ -472,13 +523,6 @@ const FileType* findFileType(const std::string& path)
   return place == std::end(fileTypes) ? nullptr : place;
 }
 
-/// Throw an error whose text begins with the file's name, once.
-[[noreturn]] void refuseFile(const std::string& path, const std::string& message)
-{
-  const bool named = message.compare(0, path.size(), path) == 0;
-  throw BadInput(named ? message : path + ": " + message);
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -487,35 +531,15 @@ Model readModelFile(const std::string& path)
   const FileType* type = findFileType(path);
   if (!type)
   {
-    refuseFile(path,
-      "the file type is \"" + lowerExtension(path) + "\", expected one of: " + modelFileTypes());
+    throw BadInput(path + ": the file type is \"" + lowerExtension(path) +
+      "\", expected one of: " + modelFileTypes());
   }
-  requireReadableFile(path);
   Model model;
-  VtkMessages messages;
-  try
-  {
-    type->read(path, model);
-  }
-  catch (const std::bad_alloc&)
-  {
-    refuseFile(path, "the file announces more data than there is memory for");
-  }
-  catch (const std::exception& error)
-  {
-    refuseFile(path, error.what());
-  }
-  if (!messages.errors().empty())
-  {
-    refuseFile(path, messages.errors().front());
-  }
-  for (const std::string& warning : messages.warnings())
-  {
-    model.notes.push_back(path + ": " + warning);
-  }
+  addNotes(
+    readGuarded(path, requireReadableFile(path), [&] { type->read(path, model); }), path, model);
   if (model.surfaces.empty())
   {
-    refuseFile(path, "found no triangles, expected a surface");
+    throw BadInput(path + ": found no triangles, expected a surface");
   }
   return model;
 }

@@ -2,7 +2,7 @@
 
 #include "Errors.h"
 #include "Files.h"
-#include "ModelChecks.h"
+#include "ModelFile.h"
 #include "SceneFraming.h"
 #include "Text.h"
 #include "TextureFile.h"
@@ -15,93 +15,75 @@ namespace gnomon::tool
 namespace
 {
 
-/// A statement of the file.
-struct Statement
+using Words = std::vector<std::string>; ///< of a line
+
+/// Return the number at this index, in [0, high].
+double numberAt(const Words& words, std::size_t index, double high)
 {
-  std::string place; ///< "FILE: line 3: ", for errors
-  std::vector<std::string> words;
-
-  /// Return the number at this index of the words, in [low, high].
-  double number(std::size_t word, double low, double high) const
+  const std::optional<double> value = parseWord<double>(words, index);
+  if (!value || !(*value >= 0.0 && *value <= high))
   {
-    const std::optional<double> value = parseWord<double>(this->words, word);
-    if (!value || !(*value >= low && *value <= high))
-    {
-      throw BadInput(this->place + "found " + quotedWord(this->words, word) + ", expected " +
-        this->words[0] + " and a number from " + std::to_string(static_cast<int>(low)) + " to " +
-        std::to_string(static_cast<int>(high)));
-    }
-    return *value;
+    throw BadInput("found " + quotedWord(words, index) + ", expected " + words[0] +
+      " and a number from 0 to " + std::to_string(static_cast<int>(high)));
   }
+  return *value;
+}
 
-  /// Return red, green and blue. A single number applies to all three.
-  Vec3 color() const
-  {
-    const double red = this->number(1, 0.0, 1.0);
-    return this->words.size() == 2
-      ? Vec3{ { red, red, red } }
-      : Vec3{ { red, this->number(2, 0.0, 1.0), this->number(3, 0.0, 1.0) } };
-  }
-
-  /// Return a map's file name, which follows the options and may contain spaces.
-  std::string fileName() const
-  {
-    std::string name;
-    for (std::size_t i = 1; i < this->words.size(); ++i)
-    {
-      const std::string& word = this->words[i];
-      const bool option =
-        word[0] == '-' || parseNumber<double>(word) || word == "on" || word == "off";
-      if (!name.empty() || !option)
-      {
-        name += (name.empty() ? "" : " ") + word;
-      }
-    }
-    if (name.empty())
-    {
-      throw BadInput(this->place + "expected " + this->words[0] + " and a file's name");
-    }
-    return name;
-  }
-};
-
-void apply(const Statement& statement, const std::filesystem::path& folder, Material& material)
+/// Return red, green and blue. A single number applies to all three.
+Vec3 colorOf(const Words& words)
 {
-  const std::string& keyword = statement.words[0];
+  const bool isGrey = words.size() == 2;
+  return { { numberAt(words, 1, 1.0), numberAt(words, isGrey ? 1 : 2, 1.0),
+    numberAt(words, isGrey ? 1 : 3, 1.0) } };
+}
+
+/// Return a map's file name, which follows the options and may contain spaces.
+std::string fileNameOf(const Words& words)
+{
+  std::string name;
+  for (std::size_t i = 1; i < words.size(); ++i)
+  {
+    const std::string& word = words[i];
+    const bool option =
+      word[0] == '-' || parseNumber<double>(word) || word == "on" || word == "off";
+    if (!name.empty() || !option)
+    {
+      name += (name.empty() ? "" : " ") + word;
+    }
+  }
+  return name;
+}
+
+void apply(const Words& words, const std::filesystem::path& folder, Material& material)
+{
+  const std::string& keyword = words[0];
   if (keyword == "Kd")
   {
-    const Vec3 color = statement.color();
+    const Vec3 color = colorOf(words);
     material.property->SetDiffuseColor(color[0], color[1], color[2]);
     material.property->SetAmbientColor(color[0], color[1], color[2]);
   }
   else if (keyword == "Ks")
   {
-    const Vec3 color = statement.color();
+    const Vec3 color = colorOf(words);
     material.property->SetSpecularColor(color[0], color[1], color[2]);
     material.property->SetSpecular(1.0);
   }
   else if (keyword == "Ns")
   {
-    material.property->SetSpecularPower(statement.number(1, 0.0, 10000.0));
+    material.property->SetSpecularPower(numberAt(words, 1, 10000.0));
   }
   else if (keyword == "d")
   {
-    material.property->SetOpacity(statement.number(1, 0.0, 1.0));
+    material.property->SetOpacity(numberAt(words, 1, 1.0));
   }
   else if (keyword == "Tr")
   {
-    material.property->SetOpacity(1.0 - statement.number(1, 0.0, 1.0));
+    material.property->SetOpacity(1.0 - numberAt(words, 1, 1.0));
   }
   else if (keyword == "map_Kd")
   {
-    try
-    {
-      material.texture = readTexture((folder / statement.fileName()).string());
-    }
-    catch (const BadInput& error)
-    {
-      throw BadInput(statement.place + error.what());
-    }
+    material.texture = readTexture((folder / fileNameOf(words)).string());
     material.texture->InterpolateOn();
   }
 }
@@ -117,16 +99,22 @@ std::map<std::string, Material> readMaterials(const std::string& path)
   Material* current = nullptr;
   for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    const Statement statement{ path + ": line " + std::to_string(i + 1) + ": ",
-      splitWords(lines[i]) };
-    if (statement.words.size() >= 2 && statement.words[0] == "newmtl")
+    const Words words = splitWords(lines[i]);
+    if (words.size() >= 2 && words[0] == "newmtl")
     {
-      current = &materials[statement.words[1]];
+      current = &materials[words[1]];
       current->property = defaultProperty();
     }
-    else if (current && !statement.words.empty())
+    else if (current && !words.empty())
     {
-      apply(statement, folder, *current);
+      try
+      {
+        apply(words, folder, *current);
+      }
+      catch (const BadInput& error)
+      {
+        throw BadInput(path + ": line " + std::to_string(i + 1) + ": " + error.what());
+      }
     }
   }
   return materials;

@@ -3,20 +3,47 @@
 #include <cmath>
 #include <utility>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace gnomon::tool
 {
 
 //------------------------------------------------------------------------------
+Progress::ErrorBuffer::ErrorBuffer()
+  : descriptor_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1))
+{
+}
+
+//------------------------------------------------------------------------------
+Progress::ErrorBuffer::~ErrorBuffer()
+{
+  close(this->descriptor_);
+}
+
+//------------------------------------------------------------------------------
+/// Write a letter, unbuffered: lines are short and rare.
+int Progress::ErrorBuffer::overflow(int letter)
+{
+  const char byte = traits_type::to_char_type(letter);
+  return write(this->descriptor_, &byte, 1) == 1 ? letter : traits_type::eof();
+}
+
+//------------------------------------------------------------------------------
 Progress::Progress(std::string step)
-  : Progress(std::move(step), std::cerr, isatty(STDERR_FILENO) != 0, silence)
+  : Progress(std::move(step), nullptr, isatty(STDERR_FILENO) != 0, silence)
 {
 }
 
 //------------------------------------------------------------------------------
 Progress::Progress(std::string step, std::ostream& stream, bool isTerminal, Duration silence)
-  : stream_(stream)
+  : Progress(std::move(step), stream.rdbuf(), isTerminal, silence)
+{
+}
+
+//------------------------------------------------------------------------------
+Progress::Progress(std::string step, std::streambuf* buffer, bool isTerminal, Duration silence)
+  : stream_(buffer ? buffer : &this->standardError_)
   , isTerminal_(isTerminal)
   , silence_(silence)
   , step_(std::move(step))

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
+#include <streambuf>
 #include <string>
 #include <thread>
 
@@ -36,10 +37,26 @@ public:
   void print(const std::string& line, std::ostream& stream = std::cerr);
 
 private:
+  /// Writes to a copy of standard error, as readGuarded() catches what its descriptor gets.
+  class ErrorBuffer : public std::streambuf
+  {
+  public:
+    ErrorBuffer();
+    ~ErrorBuffer() override;
+
+  private:
+    int overflow(int letter) override;
+
+    const int descriptor_;
+  };
+
+  /// @param buffer of the stream; null for standard error
+  Progress(std::string step, std::streambuf* buffer, bool isTerminal, Duration silence);
   void show();
   void erase();
 
-  std::ostream& stream_;
+  ErrorBuffer standardError_;
+  std::ostream stream_;
   const bool isTerminal_;
   const Duration silence_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

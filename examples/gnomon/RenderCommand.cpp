@@ -31,7 +31,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -258,15 +257,9 @@ private:
 
 void writeStats(const PictureReport& report, const std::string& path)
 {
-  std::ofstream file(path);
   auto json = nlohmann::ordered_json::parse(textOf(report.sum()));
   json["frames"] = report.frames();
-  file << json.dump(2) << "\n";
-  file.close();
-  if (!file)
-  {
-    throw Failure(path + ": cannot be written");
-  }
+  writeWholeFile(path, json.dump(2) + "\n");
 }
 
 /// Return the pixel classes of the first light whose technique has them.

@@ -69,9 +69,9 @@ void writeReport(const ComparisonResults& results, const std::string& folder)
     chart = frontChart(summarise(rowsOf(of, results)), results.soft, Motion::Camera);
     writePicture(chart, (base / "chart.png").string());
   }
-  writeText((base / "results.csv").string(), toCsv(results));
-  writeText((base / "results.json").string(), toJson(results));
-  writeText((base / "report.html").string(), toHtml(results, chart));
+  writeWholeFile((base / "results.csv").string(), toCsv(results));
+  writeWholeFile((base / "results.json").string(), toJson(results));
+  writeWholeFile((base / "report.html").string(), toHtml(results, chart));
 }
 
 } // namespace gnomon::tool

@@ -10,10 +10,10 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <filesystem>
-#include <fstream>
 #include <variant>
 
 namespace gnomon::tool
@@ -101,24 +101,21 @@ Json toJson(const SceneModel& model, const std::string& file, const std::string&
 void writeImage(vtkImageData* image, const std::string& path)
 {
   vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(path.c_str());
+  writer->WriteToMemoryOn();
   writer->SetInputData(image);
   writer->Write();
-  if (writer->GetErrorCode() != 0)
-  {
-    throw Failure(path + ": cannot be written");
-  }
+  vtkUnsignedCharArray* const bytes = writer->GetResult();
+  writeWholeFile(
+    path, std::string(bytes->GetPointer(0), bytes->GetPointer(bytes->GetNumberOfValues())));
 }
 
 void writeSurface(vtkPolyData* surface, const std::string& path)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetFileName(path.c_str());
+  writer->WriteToOutputStringOn();
   writer->SetInputData(surface);
-  if (!writer->Write())
-  {
-    throw Failure(path + ": cannot be written");
-  }
+  writer->Write();
+  writeWholeFile(path, writer->GetOutputString());
 }
 
 } // namespace
@@ -168,13 +165,7 @@ std::string exportScene(const Scene& scene, const std::string& folder)
   }
   json["background"] = scene.background;
 
-  std::ofstream file(path);
-  file << json.dump(2) << "\n";
-  file.close();
-  if (!file)
-  {
-    throw Failure(path + ": cannot be written");
-  }
+  writeWholeFile(path, json.dump(2) + "\n");
   return path;
 }
 

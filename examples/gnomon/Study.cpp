@@ -85,7 +85,7 @@ void writeCase(const fs::path& folder, const std::vector<StudyRow>& rows, const 
       writePicture(row.worst, (folder / worstFile(row)).string());
     }
   }
-  writeText((folder / rowsFile).string(), json.dump(2) + "\n");
+  writeWholeFile((folder / rowsFile).string(), json.dump(2) + "\n");
 }
 
 /// Return the rows of a finished case with the same settings; none if its settings differ.

@@ -107,8 +107,8 @@ void study(StudyOptions options)
   progress.begin("writing the page");
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->Initialize();
-  writeText(options.folder + "/study.csv", toCsv(rows));
-  writeText(options.folder + "/study.html", studyPage(rows, machineLine(window)));
+  writeWholeFile(options.folder + "/study.csv", toCsv(rows));
+  writeWholeFile(options.folder + "/study.html", studyPage(rows, machineLine(window)));
   progress.print("Study: " + options.folder + "/study.html", std::cout);
 }
 

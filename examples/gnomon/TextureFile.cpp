@@ -2,8 +2,7 @@
 
 #include "Errors.h"
 #include "Files.h"
-#include "ImageCheck.h"
-#include "ModelChecks.h"
+#include "ReadGuarded.h"
 
 #include <vtkImageData.h>
 #include <vtkJPEGReader.h>
@@ -15,22 +14,22 @@ namespace gnomon::tool
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> readImage(const std::string& path)
 {
-  const std::string bytes = readWholeFile(path, largestModelBytes);
-  if (!isWholeImage(bytes))
-  {
-    throw BadInput(path + ": not a PNG or JPEG image, or a damaged one");
-  }
   vtkSmartPointer<vtkImageReader2> reader;
-  if (imageType(bytes) == "image/png")
-  {
-    reader = vtkSmartPointer<vtkPNGReader>::New();
-  }
-  else
-  {
-    reader = vtkSmartPointer<vtkJPEGReader>::New();
-  }
-  reader->SetFileName(path.c_str());
-  reader->Update();
+  readGuarded(path, requireReadableFile(path),
+    [&]
+    {
+      reader = vtkSmartPointer<vtkPNGReader>::New();
+      if (!reader->CanReadFile(path.c_str()))
+      {
+        reader = vtkSmartPointer<vtkJPEGReader>::New();
+      }
+      if (!reader->CanReadFile(path.c_str()))
+      {
+        throw BadInput("not a PNG or JPEG image");
+      }
+      reader->SetFileName(path.c_str());
+      reader->Update();
+    });
   return reader->GetOutput();
 }
 

@@ -11,7 +11,6 @@ namespace
 {
 
 constexpr int failed = 1;
-constexpr int badInput = 2;
 
 int report(const char* what, int exitCode)
 {
@@ -19,9 +18,8 @@ int report(const char* what, int exitCode)
   return exitCode;
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+/// Run the command of the command line. Return the exit code.
+int run(int argc, char** argv)
 {
   CLI::App app{ "Shadows for VTK scenes, from fast to exact", "gnomon" };
   app.require_subcommand(0, 1);
@@ -49,14 +47,24 @@ int main(int argc, char** argv)
   catch (const CLI::ParseError& error)
   {
     const bool wasAsked = error.get_exit_code() == 0; // the user asked for help or the version
-    return wasAsked ? app.exit(error) : report(error.what(), badInput);
+    return wasAsked ? app.exit(error) : report(error.what(), gnomon::tool::badInputCode);
   }
   catch (const gnomon::tool::BadInput& error)
   {
-    return report(error.what(), badInput);
+    return report(error.what(), gnomon::tool::badInputCode);
   }
   catch (const std::exception& error)
   {
     return report(error.what(), failed);
   }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  const int code = run(argc, argv);
+  return code == 0 && !std::cout.flush()
+    ? report("standard output: writing failed, the device may be full", failed)
+    : code;
 }

@@ -246,7 +246,7 @@ void writeGrowth(const Growth& growth, const std::string& folder)
   {
     writePicture(sideBySide(panels), folder + "/growth.png");
   }
-  writeText(folder + "/growth.md", toPage(growth));
+  writeWholeFile(folder + "/growth.md", toPage(growth));
 }
 
 } // namespace gnomon::tool

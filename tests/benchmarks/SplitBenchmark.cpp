@@ -408,7 +408,7 @@ int run(int argc, char** argv)
   }
   if (!options.markdown.empty())
   {
-    tool::writeText(options.markdown, pageOf(results, tool::commandOf(argc, argv)));
+    tool::writeWholeFile(options.markdown, pageOf(results, tool::commandOf(argc, argv)));
   }
   const std::string fault = faultOf(sumOf(results));
   if (!fault.empty())

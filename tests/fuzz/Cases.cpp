@@ -11,7 +11,8 @@ const std::vector<CaseKind>& caseKinds()
   static const std::vector<CaseKind> kinds = {
     { "scenes", "scenes, lights, cameras and settings, against rays and VTK alone", runScene },
     { "sequences", "changes of scenes, against a fresh pass in a fresh window", runSequence },
-    { "files", "broken scene files and models, which are read or refused", runFile }
+    { "files", "broken scene files, models and images, which `gnomon render` draws or refuses",
+      runFile }
   };
   return kinds;
 }

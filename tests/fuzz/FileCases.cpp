@@ -1,12 +1,19 @@
 #include "Cases.h"
-#include "FrameCheck.h"
+#include "RunProgram.h"
 #include "SampleFiles.h"
-#include "TestFiles.h"
 
 #include "Errors.h"
-#include "FrameVariant.h"
+#include "ImageFile.h"
 #include "Scene.h"
 
+#include <vtkImageData.h>
+#include <vtkJPEGWriter.h>
+#include <vtkNew.h>
+#include <vtkSphereSource.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <iostream>
 #include <map>
 
 namespace gnomon::fuzz
@@ -14,28 +21,78 @@ namespace gnomon::fuzz
 namespace
 {
 
+/// Return a .vtp file, with its arrays compressed and after the XML.
+/// @param setCompressor chooses the compressor
+std::string compressedVtp(void (vtkXMLPolyDataWriter::*setCompressor)())
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputConnection(sphere->GetOutputPort());
+  (writer->*setCompressor)();
+  writer->EncodeAppendedDataOff();
+  writer->WriteToOutputStringOn();
+  writer->Write();
+  return writer->GetOutputString();
+}
+
+std::string sampleJpeg()
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(24, 16, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* const values = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (int i = 0; i < 24 * 16 * 3; ++i)
+  {
+    values[i] = static_cast<unsigned char>(i * i);
+  }
+  vtkNew<vtkJPEGWriter> writer;
+  writer->SetInputData(image);
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* const bytes = writer->GetResult();
+  return { bytes->GetPointer(0), bytes->GetPointer(bytes->GetNumberOfValues()) };
+}
+
+/// Return a .glb file with a JPEG image.
+std::string glbWithJpeg()
+{
+  nlohmann::json document = tool::sampleGltf();
+  const auto begin = document["bufferViews"][3]["byteOffset"].get<std::size_t>();
+  const std::string image = sampleJpeg();
+  document["bufferViews"][3]["byteLength"] = image.size();
+  document["buffers"][0]["byteLength"] = begin + image.size();
+  document["images"][0]["mimeType"] = "image/jpeg";
+  return tool::makeGlb(document, tool::sampleGltfBuffer().substr(0, begin) + image);
+}
+
 /// Return valid files by name, one of every type that the program reads.
 std::map<std::string, std::string> goodFiles()
 {
   std::map<std::string, std::string> files = tool::sampleModels();
   files["scene.json"] = tool::sampleScene().dump(1);
   files["texture.png"] = tool::samplePng();
+  files["texture.jpg"] = sampleJpeg();
+  files["jpeg.glb"] = glbWithJpeg();
+  files["zlib.vtp"] = compressedVtp(&vtkXMLPolyDataWriter::SetCompressorTypeToZLib);
+  files["lz4.vtp"] = compressedVtp(&vtkXMLPolyDataWriter::SetCompressorTypeToLZ4);
+  files["lzma.vtp"] = compressedVtp(&vtkXMLPolyDataWriter::SetCompressorTypeToLZMA);
+  files["raw.vtp"] = compressedVtp(&vtkXMLPolyDataWriter::SetCompressorTypeToNone);
   files["paint.mtl"] = "newmtl red\nKd 0.8 0.1 0.2\nKs 0.5 0.5 0.5\nNs 20\nd 0.5\n"
-                       "newmtl picture\nKd 1 1 1\nmap_Kd texture.png\n";
+                       "newmtl picture\nKd 1 1 1\nmap_Kd texture.jpg\n";
   files["painted.obj"] = "mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\n"
                          "vt 0 1\nvn 0 0 1\nusemtl red\nf 1/1/1 2/2/1 3/3/1\nusemtl picture\n"
-                         "f 1/1 4/2 3/3\n";
+                         "f 1/1/1 4/2/1 3/3/1\n";
   files["lights.json"] = nlohmann::json::parse(R"({
     "camera": {"position": [3, 4, 5], "target": [0, 0, 0], "parallel_scale": 2},
     "models": [{"file": "painted.obj", "texture": "texture.png"}, {"file": "ascii.ply"}],
     "lights": [{"type": "area", "shape": "disk", "position": [1, 5, 1], "target": [0, 0, 0],
                 "radius": 0.5, "texture": "texture.png", "up": [1, 0, 0]},
                {"type": "area", "shape": "rectangle", "position": [1, 5, 1], "target": [0, 0, 0],
-                "width": 1, "height": 2, "up": [0, 0, 1], "light_samples": 4},
-               {"type": "directional", "direction": [0, -1, 0], "light_radius": 0.5,
+                "width": 1, "height": 2, "up": [0, 0, 1]},
+               {"type": "directional", "direction": [0, -1, 0], "bias_constant": 0.5,
                 "box": {"position": [0, 3, 0], "up": [1, 0, 0], "width": 2, "height": 2,
                         "depth": 5}},
-               {"type": "point", "position": [0, 3, 0], "technique": "pcf", "kernel": "box"}],
+               {"type": "point", "position": [0, 3, 0], "map_size": 64}],
     "ground": true, "ambient": 0.2})")
                            .dump(1);
   return files;
@@ -150,7 +207,7 @@ std::string broken(const std::string& name, std::string bytes, Random& random)
 /// Return the file to open so that the given file is read.
 std::string entryOf(const std::string& name, Random& random)
 {
-  if (name == "paint.mtl")
+  if (name == "paint.mtl" || name == "texture.jpg")
   {
     return "painted.obj";
   }
@@ -158,17 +215,30 @@ std::string entryOf(const std::string& name, Random& random)
   return isOfScene && (name == "texture.png" || chance(random, 0.5)) ? "lights.json" : name;
 }
 
-/// @throws Find if it cannot be drawn
-void draw(const tool::Scene& scene)
+/// Read a scene in a process of its own, as the program does, but without its start.
+tool::Outcome readAlone(const tool::TestFolder& folder, const std::string& entry)
 {
-  const tool::VtkMessages messages;
-  tool::VariantSpec spec;
-  spec.technique = "nsm";
-  spec.mapSizeTexels = 32;
-  tool::FrameVariant variant(spec, scene, 24, 16);
-  variant.pass()->KeepVisibilityOn();
-  variant.drawFrame(tool::Motion::Static, 0);
-  checkFrame(variant.pass(), messages);
+  const std::string errors = folder / "stderr.txt";
+  const pid_t process = ::fork();
+  if (process == 0)
+  {
+    ::dup2(::open(errors.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+    int code = 0;
+    try
+    {
+      tool::loadScene(folder / entry);
+    }
+    catch (const tool::BadInput& error)
+    {
+      std::cerr << "gnomon: error: " << error.what() << "\n";
+      code = tool::badInputCode;
+    }
+    ::_exit(code);
+  }
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  return { WIFEXITED(status), WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status),
+    tool::readBytes(errors), "" };
 }
 
 } // namespace
@@ -177,7 +247,7 @@ void draw(const tool::Scene& scene)
 void runFile(Random random, std::string& description)
 {
   const tool::TestFolder folder;
-  const std::map<std::string, std::string> files = goodFiles();
+  static const std::map<std::string, std::string> files = goodFiles();
   const auto& [name, good] = *std::next(files.begin(), random() % files.size());
   const std::string bytes = broken(name, good, random);
   for (const auto& [fileName, ofFile] : files)
@@ -186,21 +256,36 @@ void runFile(Random random, std::string& description)
   }
   const std::string entry = entryOf(name, random);
   description = entry + " is read, with this " + name + ":\n" + bytes;
-  tool::Scene scene;
-  try
+
+  tool::Outcome outcome = readAlone(folder, entry);
+  const bool isDrawn = outcome.exited && outcome.code == 0 && chance(random, 0.1);
+  if (isDrawn)
   {
-    scene = tool::loadScene(folder / entry);
+    outcome = tool::run(folder,
+      { "render", entry, "-o", "out.png", "--size", "24x16", "--technique", "nsm", "--map-size",
+        "32" });
   }
-  catch (const tool::BadInput& error)
+  const std::string said = (outcome.exited ? "exit code " : "signal ") +
+    std::to_string(outcome.code) + ": " + outcome.errors;
+  const bool isRead = outcome.exited && outcome.code == 0;
+  const bool isRefused = outcome.exited && outcome.code == tool::badInputCode && bytes != good;
+  // Settings that contradict each other are found while rendering.
+  const bool isNamed =
+    outcome.errors.find("gnomon: error: rendering: light ") != std::string::npos ||
+    (outcome.errors.find("gnomon: error: ") != std::string::npos &&
+      outcome.errors.find(name) != std::string::npos);
+  if (!isRead && !(isRefused && isNamed))
   {
-    const std::string text = error.what();
-    if (bytes == good || text.find(name) == std::string::npos)
-    {
-      throw Find("the error is for a good file, or does not name it: " + text);
-    }
-    return;
+    throw Find(said);
   }
-  draw(scene);
+  if (isDrawn && isRead)
+  {
+    tool::readPicture(folder / "out.png");
+  }
+  else if (std::filesystem::exists(folder / "out.png"))
+  {
+    throw Find("a picture is left by " + said);
+  }
 }
 
 } // namespace gnomon::fuzz

@@ -183,7 +183,7 @@ unsigned run(const CaseKind& kind, const Run& run)
     if (!run.folder.empty())
     {
       std::filesystem::create_directories(run.folder);
-      tool::writeText(run.folder + "/" + kind.name + "-" + std::to_string(place.seed) + "-" +
+      tool::writeWholeFile(run.folder + "/" + kind.name + "-" + std::to_string(place.seed) + "-" +
           std::to_string(place.index) + ".txt",
         name + "\n" + wrong);
     }

@@ -223,9 +223,9 @@ void writePage(const std::string& folder, const std::vector<Cell>& cells, const 
   {
     csv += csvLine(cell);
   }
-  tool::writeText(folder + "/hard_cases.csv", csv);
-  tool::writeText(folder + "/hard_cases.svg", svgOf(cells));
-  tool::writeText(folder + "/hard_cases.md", pageOf(cells, known));
+  tool::writeWholeFile(folder + "/hard_cases.csv", csv);
+  tool::writeWholeFile(folder + "/hard_cases.svg", svgOf(cells));
+  tool::writeWholeFile(folder + "/hard_cases.md", pageOf(cells, known));
 }
 
 } // namespace gnomon::hard

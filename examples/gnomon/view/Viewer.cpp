@@ -170,7 +170,7 @@ std::string Viewer::save()
   const std::string text = textOf(this->view_.state());
   this->view_.apply(parseState(text, path + ".json", this->view_.scene()));
   writePicture(this->view_.still(), path + ".png");
-  writeText(path + ".json", text);
+  writeWholeFile(path + ".json", text);
   this->window_->Render();
   return path;
 }

@@ -1,70 +1,26 @@
 // Runs the program itself on broken inputs: each must end with exit code 2 and one line that names
 // the file or option, and none may crash.
 
-#include "../TestFiles.h"
+#include "../RunProgram.h"
 #include "SampleFiles.h"
 
 #include <gtest/gtest.h>
 
-#include <fcntl.h>
-#include <spawn.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <functional>
-
-extern char** environ;
+#include <set>
 
 namespace gnomon::tool
 {
 namespace
 {
-
-struct Outcome
-{
-  bool exited = false; ///< false: a signal ended it
-  int code = 0;        ///< exit code, or the signal
-  std::string errors;  ///< what it wrote to stderr
-  std::string output;  ///< and to stdout
-};
-
-/// Runs the program with these arguments in that folder.
-Outcome run(const TestFolder& folder, const std::vector<std::string>& arguments)
-{
-  std::vector<std::string> words = { GNOMON_PROGRAM };
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words)
-  {
-    argv.push_back(word.data());
-  }
-  argv.push_back(nullptr);
-
-  const std::string errors = folder / "stderr.txt";
-  const std::string output = folder / "stdout.txt";
-  constexpr int anew = O_WRONLY | O_CREAT | O_TRUNC;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), anew, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), anew, 0600);
-  pid_t process = 0;
-  const int failure =
-    posix_spawn(&process, GNOMON_PROGRAM, &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0)
-  {
-    throw std::runtime_error("the program cannot be started");
-  }
-  int status = 0;
-  waitpid(process, &status, 0);
-  return { WIFEXITED(status), WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status),
-    readBytes(errors), readBytes(output) };
-}
 
 /// What a good run of `gnomon render` says of itself. It writes out.png and stats.json.
 nlohmann::json statsOf(const TestFolder& folder, std::vector<std::string> arguments)
@@ -118,13 +74,13 @@ BrokenInput sceneWith(const std::string& name, const std::string& path, const st
 }
 
 /// A good glTF document with another value at that JSON pointer.
-BrokenInput gltfWith(const std::string& name, const std::string& path, const std::string& pointer,
-  const nlohmann::json& value)
+BrokenInput gltfWith(const std::string& name, const std::string& pointer,
+  const nlohmann::json& value, const std::string& names = "m.gltf")
 {
   nlohmann::json document = sampleGltfWithBuffer();
   document[nlohmann::json::json_pointer(pointer)] = value;
   BrokenInput input = file(name, "m.gltf", document.dump());
-  input.names = path;
+  input.names = names;
   return input;
 }
 
@@ -162,6 +118,21 @@ std::string garbage(std::size_t bytes)
   return text;
 }
 
+/// sampleVtp() with compressed points. The header holds the number of blocks, the size of a block,
+/// of the last one, and of each compressed one.
+std::string compressedVtp(const std::string& compressor, const std::vector<std::uint32_t>& header)
+{
+  const std::string words(
+    reinterpret_cast<const char*>(header.data()), header.size() * sizeof(header[0]));
+  const std::string format = "NumberOfComponents=\"3\" format=\"";
+  std::string text = replaced(
+    sampleVtp(), "byte_order", "compressor=\"vtk" + compressor + "DataCompressor\" byte_order");
+  text = replaced(text, format + "ascii\">", format + "binary\">");
+  const std::size_t begin = text.find('>', text.find(format)) + 1;
+  return text.replace(
+    begin, text.find('<', begin) - begin, base64(words) + base64(std::string(64, '\0')));
+}
+
 /// A binary STL file whose vertices are all not a number.
 std::string allNanStl()
 {
@@ -193,6 +164,32 @@ std::vector<BrokenInput> brokenInputs()
     inputs.push_back(file("garbage_" + test, name, garbage(3000)));
   }
 
+  // The headers of compressed arrays.
+  constexpr std::uint32_t most = 0xffffffff;
+  const std::vector<std::uint32_t> headers[] = { { 0, 60, 60 }, { 1, 0, 60, 64 }, { 1, 60, 0, 64 },
+    { 1, 60, most, 64 }, { most, 60, 60, 64 }, { 1, 60, 60, most } };
+  for (const std::string compressor : { "ZLib", "LZ4", "LZMA" })
+  {
+    for (std::size_t i = 0; i < std::size(headers); ++i)
+    {
+      inputs.push_back(file("vtp_" + compressor + "_header_" + std::to_string(i), "m.vtp",
+        compressedVtp(compressor, headers[i])));
+    }
+  }
+
+  // VTK's reader of JPEG images in memory crashes on this one.
+  BrokenInput jpeg = file("obj_damaged_jpeg", "m.obj",
+    "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
+  jpeg.names = "damaged.jpg";
+  jpeg.prepare = [writeModel = jpeg.prepare](const TestFolder& folder)
+  {
+    writeModel(folder);
+    writeBytes(folder / "m.mtl", "newmtl m\nmap_Kd damaged.jpg\n");
+    std::filesystem::copy_file(
+      GNOMON_SOURCE_DIR "/tests/tool/scenes/damaged.jpg", folder / "damaged.jpg");
+  };
+  inputs.push_back(jpeg);
+
   const std::vector<BrokenInput> others = {
     // Models
     file("obj_nan", "m.obj", replaced(sampleObj(), "v 0 2 0", "v 0 nan 0")),
@@ -205,7 +202,6 @@ std::vector<BrokenInput> brokenInputs()
     file("obj_missing_texture_index", "m.obj", replaced(sampleObj(), "f 1 2 3", "f 1/9 2/9 3/9")),
     file("obj_two_corners", "m.obj", replaced(sampleObj(), "f 1 2 3", "f 1 2")),
     file("obj_without_faces", "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
-    file("obj_long_material_name", "m.obj", "usemtl " + std::string(500, 'x') + "\n" + sampleObj()),
     file("ply_no_end_of_header", "m.ply", replaced(sampleAsciiPly(), "end_header\n", "")),
     file("ply_huge_count", "m.ply", replaced(sampleAsciiPly(), "vertex 5", "vertex 2000000000")),
     file("ply_negative_count", "m.ply", replaced(sampleAsciiPly(), "vertex 5", "vertex -5")),
@@ -235,33 +231,27 @@ std::vector<BrokenInput> brokenInputs()
     file("glb_damaged_image", "m.glb",
       makeGlb(sampleGltf(), withBytes(sampleGltfBuffer(), sampleGltfBuffer().size() - 30, "XXXX"))),
     file("gltf_syntax", "m.gltf", "{\"asset\": "),
-    gltfWith("gltf_version", "asset.version", "/asset/version", "1.0"),
-    gltfWith("gltf_required_extension", "extensionsRequired[0]", "/extensionsRequired",
-      { "KHR_draco_mesh_compression" }),
-    gltfWith("gltf_scene", "scene", "/scene", 7),
-    gltfWith("gltf_no_scenes", "scenes", "/scenes", nlohmann::json::array()),
-    gltfWith("gltf_node_cycle", "nodes[3].children[0]", "/nodes/3/children", { 3 }),
-    gltfWith("gltf_node", "scenes[0].nodes[0]", "/scenes/0/nodes/0", -1),
-    gltfWith("gltf_mesh", "nodes[0].mesh", "/nodes/0/mesh", 4),
-    gltfWith("gltf_accessor", "meshes[0].primitives[0].attributes.POSITION",
-      "/meshes/0/primitives/0/attributes/POSITION", 99),
-    gltfWith("gltf_accessor_count", "accessors[0]", "/accessors/0/count", 2000000000),
-    gltfWith("gltf_accessor_bounds", "accessors[0].max", "/accessors/0/max", { 1, 2 }),
-    gltfWith("gltf_accessor_bound", "accessors[0].min[1]", "/accessors/0/min/1", nullptr),
-    gltfWith("gltf_indices", "accessors[1]", "/accessors/1/count", 19),
+    gltfWith("gltf_version", "/asset/version", "1.0"),
+    gltfWith("gltf_required_extension", "/extensionsRequired", { "KHR_draco_mesh_compression" },
+      "extensionsRequired[0]"),
+    gltfWith("gltf_scene", "/scene", 7, "scene"),
+    gltfWith("gltf_no_scenes", "/scenes", nlohmann::json::array(), "scenes"),
+    gltfWith("gltf_node_cycle", "/nodes/3/children", { 3 }, "nodes[3].children[0]"),
+    gltfWith("gltf_node", "/scenes/0/nodes/0", -1, "scenes[0].nodes[0]"),
+    gltfWith("gltf_mesh", "/nodes/0/mesh", 4),
+    gltfWith("gltf_accessor", "/meshes/0/primitives/0/attributes/POSITION", 99),
+    gltfWith("gltf_accessor_count", "/accessors/0/count", 2000000000),
+    gltfWith("gltf_accessor_bounds", "/accessors/0/max", { 1, 2 }),
+    gltfWith("gltf_accessor_bound", "/accessors/0/min/1", nullptr),
+    gltfWith("gltf_index_value", "/bufferViews/1/byteOffset", 61),
+    gltfWith("gltf_missing_buffer", "/buffers/0/uri", "gone.bin", "gone.bin"),
+    gltfWith("gltf_image", "/images/0/bufferView", 0),
+    gltfWith("gltf_texture", "/textures/0/source", 3),
+    gltfWith("gltf_light", "/nodes/2/extensions/KHR_lights_punctual/light", 5,
+      "nodes[2].extensions.KHR_lights_punctual.light"),
     gltfWith(
-      "gltf_index_value", "meshes[0].primitives[0].indices", "/bufferViews/1/byteOffset", 61),
-    gltfWith("gltf_buffer_view", "bufferViews[0]", "/bufferViews/0/byteLength", 100000),
-    gltfWith("gltf_buffer", "buffers[0]", "/buffers/0/byteLength", 100000),
-    gltfWith("gltf_missing_buffer", "buffers[0].uri", "/buffers/0/uri", "gone.bin"),
-    gltfWith("gltf_image", "images[0]", "/images/0/bufferView", 0),
-    gltfWith("gltf_texture", "textures[0].source", "/textures/0/source", 3),
-    gltfWith("gltf_material", "primitives[0].material", "/meshes/0/primitives/0/material", 3),
-    gltfWith("gltf_light", "nodes[2].extensions.KHR_lights_punctual.light",
-      "/nodes/2/extensions/KHR_lights_punctual/light", 5),
-    gltfWith(
-      "gltf_light_type", "lights[0].type", "/extensions/KHR_lights_punctual/lights/0/type", "tube"),
-    gltfWith("gltf_singular_camera", "cameras[0]", "/nodes/1/scale", { 0, 0, 0 }),
+      "gltf_light_type", "/extensions/KHR_lights_punctual/lights/0/type", "tube", "lights[0].type"),
+    gltfWith("gltf_singular_camera", "/nodes/1/scale", { 0, 0, 0 }, "cameras[0]"),
 
     // Scene files
     scene("scene_syntax", "line 1", "{,}"),
@@ -527,6 +517,119 @@ TEST(Program, FailsWithCodeOneWhenTheDiskIsFull)
   EXPECT_TRUE(outcome.exited);
   EXPECT_EQ(outcome.code, 1) << outcome.errors;
   EXPECT_NE(outcome.errors.find("stats.json"), std::string::npos) << outcome.errors;
+}
+
+//------------------------------------------------------------------------------
+/// The program's files may have a limited size, which is what a full disk does to them.
+TEST(Program, LeavesNoPartOfAFileOnAFullDisk)
+{
+  const std::vector<std::string> render = { "render", "cube", "--size", "64x48" };
+  struct Case
+  {
+    std::string file; ///< that becomes too large
+    std::vector<std::string> options;
+  };
+  const std::vector<Case> cases = {
+    { "a.png", { "-o", "a.png" } },
+    { "a.exr", { "-o", "a.exr" } },
+    { "v.exr", { "-o", "null.png", "--visibility", "v.exr" } },
+    { "s.json", { "-o", "null.png", "--stats", "s.json" } },
+    { "c.png", { "-o", "null.png", "--technique", "silhouette", "--classes", "c.png" } },
+    { "cube-0.vtp", { "scenes", "--export", "cube", "." } },
+  };
+  signal(SIGXFSZ, SIG_IGN);
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  for (const Case& full : cases)
+  {
+    for (const bool isThere : { false, true })
+    {
+      SCOPED_TRACE(full.file + (isThere ? " exists" : ""));
+      TestFolder folder;
+      std::vector<std::string> arguments = full.options;
+      if (arguments[0] != "scenes")
+      {
+        arguments.insert(arguments.begin(), render.begin(), render.end());
+        (void)!symlink("/dev/null", (folder / "null.png").c_str());
+      }
+      if (isThere)
+      {
+        writeBytes(folder / full.file, "older");
+      }
+      const rlimit small{ 200, before.rlim_max };
+      setrlimit(RLIMIT_FSIZE, &small);
+      const Outcome outcome = run(folder, arguments);
+      setrlimit(RLIMIT_FSIZE, &before);
+      EXPECT_TRUE(outcome.exited);
+      EXPECT_EQ(outcome.code, 1) << outcome.errors;
+      EXPECT_NE(outcome.errors.find(full.file), std::string::npos) << outcome.errors;
+      std::set<std::string> names;
+      for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      {
+        names.insert(entry.path().filename().string());
+      }
+      for (const char* other : { "stdout.txt", "stderr.txt", "null.png" })
+      {
+        names.erase(other);
+      }
+      EXPECT_EQ(names, isThere ? std::set{ full.file } : std::set<std::string>{});
+      EXPECT_EQ(readBytes(folder / full.file), isThere ? "older" : "");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, ReplacesFilesThroughLinksAndKeepsTheirPermissions)
+{
+  TestFolder folder;
+  writeBytes(folder / "file.png", "older");
+  chmod((folder / "file.png").c_str(), 0640);
+  (void)!symlink("file.png", (folder / "link.png").c_str());
+  EXPECT_EQ(run(folder, { "render", "cube", "--size", "8x8", "-o", "link.png" }).code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.png"));
+  EXPECT_EQ(readBytes(folder / "file.png").compare(1, 3, "PNG"), 0);
+  struct stat state;
+  ASSERT_EQ(stat((folder / "file.png").c_str(), &state), 0);
+  EXPECT_EQ(state.st_mode & 0777, 0640u);
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, FailsWithCodeOneWhenItsOutputCannotBeWritten)
+{
+  TestFolder folder;
+  ASSERT_EQ(run(folder, { "render", "cube", "--size", "8x8", "-o", "a.png" }).code, 0);
+  const std::vector<std::vector<std::string>> commands = { { "techniques" }, { "scenes" },
+    { "scenes", "--hard" }, { "scenes", "--export", "cube", "." }, { "settings" },
+    { "settings", "--markdown" }, { "settings", "--class" }, { "view", "--keys" },
+    { "diff", "a.png", "a.png" }, { "--help" }, { "--version" }, { "render", "--help" } };
+  for (const std::vector<std::string>& arguments : commands)
+  {
+    const Outcome outcome = run(folder, arguments, "/dev/full");
+    EXPECT_TRUE(outcome.exited);
+    EXPECT_EQ(outcome.code, 1) << arguments[0];
+    EXPECT_NE(outcome.errors.find("gnomon: error: standard output: "), std::string::npos)
+      << arguments[0] << ": " << outcome.errors;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, RefusesTruncatedModels)
+{
+  TestFolder folder;
+  for (const auto& [name, bytes] : sampleModels())
+  {
+    for (const double share : { 0.1, 0.3, 0.7, 0.9, 0.98 })
+    {
+      SCOPED_TRACE(name + " " + std::to_string(share));
+      writeBytes(folder / name,
+        bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
+      const Outcome outcome = run(folder, { "render", name, "-o", "out.png", "--size", "8x8" });
+      EXPECT_TRUE(outcome.exited);
+      // A shorter .obj file may be a whole one with fewer faces.
+      EXPECT_TRUE(outcome.code == 2 || (outcome.code == 0 && name == "model.obj"))
+        << outcome.code << outcome.errors;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

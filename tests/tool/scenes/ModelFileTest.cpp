@@ -275,27 +275,5 @@ TEST(ModelFile, PointLightsOfGltfGiveWhatArrivesInTheMiddle)
   EXPECT_EQ(lamp.color, (Vec3{ { 1, 0.5, 0.25 } }));
 }
 
-//------------------------------------------------------------------------------
-// Every prefix of every model is refused or read, but never crashes, and some must be refused.
-TEST(ModelFile, TruncatedFilesAreRefused)
-{
-  TestFolder folder;
-  for (const auto& [name, bytes] : sampleModels())
-  {
-    SCOPED_TRACE(name);
-    for (int part = 0; part < 20; ++part)
-    {
-      const std::string start = bytes.substr(0, bytes.size() * static_cast<std::size_t>(part) / 20);
-      const std::string message =
-        messageOf<BadInput>([&] { readBytes(folder, "cut_" + name, start); });
-      // A shorter .obj file may be a whole one with fewer faces.
-      if (name != "model.obj")
-      {
-        EXPECT_NE(message.find("cut_" + name), std::string::npos) << part << ": " << message;
-      }
-    }
-  }
-}
-
 } // namespace
 } // namespace gnomon::tool

@@ -38,25 +38,6 @@ std::string plyHeader(const std::string& format)
     "element face 6\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
-std::string base64(const std::string& bytes)
-{
-  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3)
-  {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k)
-    {
-      text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
-    }
-  }
-  return text;
-}
-
 std::string pngChunk(const std::string& type, const std::string& content)
 {
   const std::string checked = type + content;
@@ -211,6 +192,26 @@ std::string sample3ds()
   const std::string mesh = chunk3ds(0x4100, chunk3ds(0x4110, points) + chunk3ds(0x4120, faces));
   const std::string object = chunk3ds(0x4000, std::string("pyramid") + '\0' + mesh);
   return chunk3ds(0x4D4D, chunk3ds(0x3D3D, object));
+}
+
+//------------------------------------------------------------------------------
+std::string base64(const std::string& bytes)
+{
+  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3)
+  {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
+    }
+  }
+  return text;
 }
 
 //------------------------------------------------------------------------------

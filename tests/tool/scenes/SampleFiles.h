@@ -28,6 +28,8 @@ nlohmann::json sampleGltf();
 nlohmann::json sampleGltfWithBuffer();
 std::string makeGlb(const nlohmann::json& document, const std::string& buffer);
 
+std::string base64(const std::string& bytes);
+
 /// A picture of 8 x 8 pixels.
 std::string samplePng();
 
