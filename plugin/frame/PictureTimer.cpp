@@ -5,7 +5,7 @@
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkInteractorStyle.h>
-#include <vtkInteractorStyleSwitch.h>
+#include <vtkInteractorStyleSwitch.h> // inline and virtual functions alone: not linked
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSmartPointer.h>
 
