@@ -6,9 +6,9 @@
 // STYLE is a name in the table below; without one, the program prints the names. `plain` leaves the
 // pass out, `timer` renders every 50 ms, `marker` adds draggable axes. Each SETTING is a light's.
 //
-// The key F12 prints the camera, the cone's matrix and the number of frames so far. The key F11
-// prints how many pixels of the shown picture differ from those of a new pass. The key F10 puts
-// everything back. X keeps the order of events: all that was sent before a key is done before it.
+// The keys F11 and F12 print the camera, the cone's matrix and the number of frames so far. F10
+// prints how many pixels of the shown picture differ from those of a new pass. F9 puts everything
+// back. X keeps the order of events: all that was sent before a key is done before it.
 
 #include <vtkGnomonShadowPass.h>
 
@@ -48,6 +48,7 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -98,15 +99,50 @@ vtkSmartPointer<Call> observe(
   return command;
 }
 
-vtkSmartPointer<vtkActor> add(vtkRenderer* renderer, vtkPolyDataAlgorithm* source)
+/// A cone over a plane, under one light.
+struct Scene
 {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(source->GetOutputPort());
-  const auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  renderer->AddActor(actor);
-  return actor;
-}
+  vtkNew<vtkRenderer> renderer;
+  vtkSmartPointer<vtkActor> cone;
+
+  Scene()
+  {
+    vtkNew<vtkPlaneSource> plane;
+    plane->SetOrigin(-1, -1, -0.6);
+    plane->SetPoint1(1, -1, -0.6);
+    plane->SetPoint2(-1, 1, -0.6);
+    this->add(plane)->PickableOff();
+    this->cone = this->add(vtkNew<vtkConeSource>());
+    vtkNew<vtkLight> light;
+    light->SetPosition(1, -1, 2);
+    light->SetPositional(true);
+    this->renderer->AddLight(light);
+    this->putBack();
+  }
+
+  vtkSmartPointer<vtkActor> add(vtkPolyDataAlgorithm* source)
+  {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(source->GetOutputPort());
+    const auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    this->renderer->AddActor(actor);
+    return actor;
+  }
+
+  /// Undo what styles do to the cone and the camera.
+  void putBack()
+  {
+    this->cone->SetPosition(0, 0, 0);
+    this->cone->SetOrientation(0, 0, 0);
+    this->cone->SetScale(1, 1, 1);
+    vtkCamera* const camera = this->renderer->GetActiveCamera();
+    camera->SetPosition(0, -3, 2);
+    camera->SetFocalPoint(0, 0, 0);
+    camera->SetViewUp(0, 0, 1);
+    this->renderer->ResetCamera();
+  }
+};
 
 vtkSmartPointer<vtkGnomonShadowPass> makeShadows(const std::vector<std::string>& settings)
 {
@@ -129,6 +165,28 @@ std::vector<unsigned char> shownPicture(vtkRenderWindow* window)
   return { pixels->Begin(), pixels->End() };
 }
 
+/// Count the pixels of the shown picture that differ from those of a pass without history.
+int countDifferences(vtkRenderer* renderer, vtkGnomonShadowPass* fresh)
+{
+  vtkRenderWindow* const window = renderer->GetRenderWindow();
+  const std::vector<unsigned char> shown = shownPicture(window);
+  const vtkSmartPointer<vtkRenderPass> shadows = renderer->GetPass();
+  fresh->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_OFF);
+  renderer->SetPass(shadows ? fresh : nullptr);
+  do
+  {
+    window->Render();
+  } while (fresh->GetProgress() < 1.0);
+  renderer->SetPass(shadows);
+  const std::vector<unsigned char> expected = shownPicture(window);
+  int different = 0;
+  for (std::size_t i = 0; i < shown.size(); i += 3)
+  {
+    different += std::equal(&shown[i], &shown[i] + 3, &expected[i]) ? 0 : 1;
+  }
+  return different;
+}
+
 void print(const char* name, const double* numbers, int count)
 {
   std::printf("\"%s\": [", name);
@@ -143,20 +201,6 @@ void print(const char* name, const double* numbers, int count)
 
 int main(int argc, char* argv[])
 {
-  std::vector<std::string> settings(argv + std::min(argc, 2), argv + argc);
-  const auto take = [&](const char* word)
-  {
-    const auto found = std::find(settings.begin(), settings.end(), word);
-    const bool isThere = found != settings.end();
-    if (isThere)
-    {
-      settings.erase(found);
-    }
-    return isThere;
-  };
-  const bool isPlain = take("plain");
-  const bool hasTimer = take("timer");
-  const bool hasMarker = take("marker");
   if (argc == 1)
   {
     for (const auto& [name, style] : styles)
@@ -165,43 +209,40 @@ int main(int argc, char* argv[])
     }
     return 0;
   }
+  std::vector<std::string> settings;
+  std::set<std::string> words;
+  for (int i = 2; i < argc; ++i)
+  {
+    const std::string word = argv[i];
+    if (word.find('=') == std::string::npos)
+    {
+      words.insert(word);
+    }
+    else
+    {
+      settings.push_back(word);
+    }
+  }
 
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-1, -1, -0.6);
-  plane->SetPoint1(1, -1, -0.6);
-  plane->SetPoint2(-1, 1, -0.6);
-  add(renderer, plane)->PickableOff();
-  vtkNew<vtkConeSource> cone;
-  vtkSmartPointer<vtkActor> actor = add(renderer, cone);
-  vtkNew<vtkLight> light;
-  light->SetPosition(1, -1, 2);
-  light->SetPositional(true);
-  renderer->AddLight(light);
-  vtkCamera* const camera = renderer->GetActiveCamera();
-  camera->SetPosition(0, -3, 2);
-  camera->SetViewUp(0, 0, 1);
-  renderer->ResetCamera();
-  vtkNew<vtkCamera> firstCamera;
-  firstCamera->DeepCopy(camera);
-
+  Scene scene;
+  if (words.count("plain") == 0)
+  {
+    scene.renderer->SetPass(makeShadows(settings));
+  }
   vtkNew<vtkRenderWindow> window;
   window->SetSize(160, 120);
   window->SetMultiSamples(0);
-  window->AddRenderer(renderer);
+  window->AddRenderer(scene.renderer);
   vtkNew<vtkRenderWindowInteractor> interactor;
   interactor->SetRenderWindow(window);
   interactor->SetInteractorStyle(styles.at(argv[1])());
+  interactor->SetNumberOfFlyFrames(3);
   interactor->Initialize();
-  if (!isPlain)
-  {
-    renderer->SetPass(makeShadows(settings));
-  }
 
   vtkNew<vtkOrientationMarkerWidget> marker;
-  vtkNew<vtkAxesActor> axes;
-  if (hasMarker)
+  if (words.count("marker") != 0)
   {
+    vtkNew<vtkAxesActor> axes;
     axes->AxisLabelsOff();
     marker->SetOrientationMarker(axes);
     marker->SetInteractor(interactor);
@@ -209,71 +250,57 @@ int main(int argc, char* argv[])
     marker->EnabledOn();
     marker->InteractiveOn();
   }
+  if (words.count("timer") != 0)
+  {
+    observe(interactor, vtkCommand::TimerEvent, [&] { interactor->Render(); });
+    interactor->CreateRepeatingTimer(50); // milliseconds
+  }
 
   int frames = 0;
   observe(window, vtkCommand::EndEvent, [&] { ++frames; });
   const auto printState = [&]
   {
-    std::printf("{");
+    vtkCamera* const camera = scene.renderer->GetActiveCamera();
+    std::printf("{\"key\": \"%s\", ", interactor->GetKeySym());
     print("position", camera->GetPosition(), 3);
     print("focal point", camera->GetFocalPoint(), 3);
     print("view up", camera->GetViewUp(), 3);
-    print("cone", actor->GetMatrix()->GetData(), 16);
+    print("cone", scene.cone->GetMatrix()->GetData(), 16);
     print("axes", marker->GetViewport(), 4);
     std::printf("\"frames\": %d}\n", frames);
     std::fflush(stdout);
   };
-  const auto compare = [&]
-  {
-    const std::vector<unsigned char> shown = shownPicture(window);
-    const vtkSmartPointer<vtkRenderPass> pass = renderer->GetPass();
-    const vtkSmartPointer<vtkGnomonShadowPass> fresh = makeShadows(settings);
-    fresh->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_OFF);
-    renderer->SetPass(isPlain ? nullptr : fresh.GetPointer());
-    do
-    {
-      window->Render();
-    } while (fresh->GetProgress() < 1.0);
-    const std::vector<unsigned char> expected = shownPicture(window);
-    renderer->SetPass(pass);
-    int different = 0;
-    for (std::size_t i = 0; i < shown.size(); i += 3)
-    {
-      different += std::equal(&shown[i], &shown[i] + 3, &expected[i]) ? 0 : 1;
-    }
-    std::printf("{\"different\": %d}\n", different);
-    std::fflush(stdout);
-  };
-  const auto reset = [&]
-  {
-    camera->DeepCopy(firstCamera);
-    actor->SetPosition(0, 0, 0);
-    actor->SetOrientation(0, 0, 0);
-    actor->SetScale(1, 1, 1);
-    interactor->Render();
-  };
-  const auto onKey = [&](const char* key, const std::function<void()>& call)
+  const auto onKey = [&](const char* name, const std::function<void()>& call)
   {
     return observe(interactor, vtkCommand::KeyReleaseEvent,
-      [&interactor, key, call]
+      [&interactor, name, call]
       {
-        if (std::string(key) == interactor->GetKeySym())
+        if (std::string(name) == interactor->GetKeySym())
         {
           call();
         }
       });
   };
   // While a style has the focus, events reach passive observers only. They must not render.
+  onKey("F11", printState)->PassiveObserverOn();
   onKey("F12", printState)->PassiveObserverOn();
-  onKey("F11", compare);
-  onKey("F10", reset);
-  if (hasTimer)
-  {
-    observe(interactor, vtkCommand::TimerEvent, [&] { interactor->Render(); });
-    interactor->CreateRepeatingTimer(50); // milliseconds
-  }
+  onKey("F10",
+    [&]
+    {
+      const int different = countDifferences(scene.renderer, makeShadows(settings));
+      std::printf("{\"key\": \"F10\", \"different\": %d}\n", different);
+      std::fflush(stdout);
+    });
+  onKey("F9",
+    [&]
+    {
+      scene.putBack();
+      interactor->Render();
+    });
+
   window->Render();
-  printState();
+  std::puts("{}"); // ready
+  std::fflush(stdout);
   interactor->Start();
   return 0;
 }

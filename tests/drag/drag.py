@@ -1,4 +1,4 @@
-"""The window of drag.cxx in Python, with three of its styles.
+"""The window of drag.cxx in Python.
 
     drag.py [STYLE [plain] [SETTING=VALUE ...]]
 """
@@ -13,13 +13,16 @@ from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkFiltersSources import vtkConeSource, vtkPlaneSource
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
-    vtkCamera,
     vtkLight,
     vtkPolyDataMapper,
     vtkRenderer,
     vtkRenderWindow,
     vtkRenderWindowInteractor,
 )
+
+# Not Switch, which has its styles' keys seen by them alone.
+STYLES = """DrawPolygon Flight Image JoystickActor JoystickCamera MultiTouchCamera RubberBand2D
+RubberBand3D RubberBandPick RubberBandZoom Terrain TrackballActor TrackballCamera Unicam"""
 
 
 def add(renderer, source):
@@ -52,11 +55,17 @@ def main(style_name, *words):
     light.SetPositional(True)
     renderer.AddLight(light)
     camera = renderer.GetActiveCamera()
-    camera.SetPosition(0, -3, 2)
-    camera.SetViewUp(0, 0, 1)
-    renderer.ResetCamera()
-    first_camera = vtkCamera()
-    first_camera.DeepCopy(camera)
+
+    def put_back():
+        cone.SetPosition(0, 0, 0)
+        cone.SetOrientation(0, 0, 0)
+        cone.SetScale(1, 1, 1)
+        camera.SetPosition(0, -3, 2)
+        camera.SetFocalPoint(0, 0, 0)
+        camera.SetViewUp(0, 0, 1)
+        renderer.ResetCamera()
+
+    put_back()
     if "plain" not in words:
         gnomon.add_shadows(renderer, **settings)
 
@@ -66,6 +75,7 @@ def main(style_name, *words):
     window.AddRenderer(renderer)
     interactor = vtkRenderWindowInteractor()
     interactor.SetRenderWindow(window)
+    interactor.SetNumberOfFlyFrames(3)
     style = getattr(vtkInteractionStyle, f"vtkInteractorStyle{style_name}")()
     interactor.SetInteractorStyle(style)
     frames = 0
@@ -100,25 +110,19 @@ def main(style_name, *words):
         renderer.SetPass(shadows)
         return {"different": sum(shown[i : i + 3] != new[i : i + 3] for i in range(0, len(new), 3))}
 
-    def reset():
-        camera.DeepCopy(first_camera)
-        cone.SetPosition(0, 0, 0)
-        cone.SetOrientation(0, 0, 0)
-        cone.SetScale(1, 1, 1)
-        interactor.Render()
-
     def on_key(*_):
         key = interactor.GetKeySym()
-        if key in ("F11", "F12"):
-            print(json.dumps(compare() if key == "F11" else state()), flush=True)
-        elif key == "F10":
-            reset()
+        if key in ("F10", "F11", "F12"):
+            print(json.dumps(dict(compare() if key == "F10" else state(), key=key)), flush=True)
+        elif key == "F9":
+            put_back()
+            interactor.Render()
 
     window.AddObserver("EndEvent", on_end)
     style.AddObserver("KeyReleaseEvent", on_key)  # also while the style has the focus
     interactor.Initialize()
     window.Render()
-    print(json.dumps(state()), flush=True)
+    print("{}", flush=True)  # ready
     interactor.Start()
 
 
@@ -126,4 +130,4 @@ if __name__ == "__main__":
     if len(sys.argv) > 1:
         main(*sys.argv[1:])
     else:
-        print("JoystickCamera\nTrackballActor\nTrackballCamera")
+        print(STYLES)
