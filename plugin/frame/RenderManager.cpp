@@ -244,6 +244,10 @@ std::string RenderManager::whyNotDeferred(const vtkRenderState* s, bool drawnPla
   {
     return "a render pass draws the props in its own way";
   }
+  if (!this->collector_.seenThrough().empty())
+  {
+    return "a prop that is forced to be opaque is seen through";
+  }
   if (anyPropHasOwnShaders(s))
   {
     return "a prop may have shaders of its own, which need not light twice";
@@ -329,7 +333,9 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
     namesTriangles = this->namesTriangles();
   }
   this->programs_.shaders.configure(
-    { this->frame_.route, this->readsPoints(), samples > 1, namesTriangles }, shaded);
+    { this->frame_.route, this->readsPoints(), samples > 1, namesTriangles,
+      !this->collector_.seenThrough().empty() },
+    shaded);
   return (this->frame_.wishes.route != RouteWish::Inline || screenTechnique.empty()) &&
     (this->frame_.wishes.route != RouteWish::Deferred || needs.whyNotDeferred.empty());
 }
@@ -708,6 +714,9 @@ void RenderManager::setShaderParameters(
       numbers.add(program, primitives, drawn.index);
     }
   }
+  const std::vector<const vtkProp*>& seenThrough = this->collector_.seenThrough();
+  drawn.translucent |= this->frame_.route == Route::Image && // its layers hold what is behind
+    std::find(seenThrough.begin(), seenThrough.end(), prop) != seenThrough.end();
   drawn.receives = drawn.receives && (!drawn.translucent || this->shadesTranslucent_);
   this->programs_.shaders.setParameters(program, drawn);
 }

@@ -267,7 +267,8 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     (variant.route == Route::Deferred && darkenings != this->darkenings_) ||
     variant.route != this->variant_.route ||
     variant.receiverPoints != this->variant_.receiverPoints ||
-    variant.namesTriangles != this->variant_.namesTriangles)
+    variant.namesTriangles != this->variant_.namesTriangles ||
+    variant.anySeenThrough != this->variant_.anySeenThrough)
   {
     this->declarations_ = declarations;
     this->samplers_ = samplersOf(declarations);
@@ -379,7 +380,11 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
     {
       if (!receives)
       {
-        declarations = "uniform int gnomonStage;\n";
+        declarations = "uniform int gnomonStage;\nuniform int gnomonTranslucent;\n";
+      }
+      if (this->variant_.anySeenThrough)
+      {
+        end = "    if (gnomonTranslucent == 1) discard; // it hides no receiver\n" + end;
       }
       // VTK lights in both stages: a user's code may continue with the colour, and VTK's discard
       // cuts holes of textures by its alpha. The receivers stage draws no colour.

@@ -3,7 +3,7 @@
 // hook_receiver.glsl follows, and on the image route hook_image.glsl.
 
 uniform int gnomonReceives;    // 0: this prop shows no shadows
-uniform int gnomonTranslucent; // 1: drawn in the translucent pass, and in no layer
+uniform int gnomonTranslucent; // 1: in no layer: translucent, or (image route) seen through
 uniform float gnomonFacetHeight; // most height of curved surfaces above the prop's facets
 
 // Return the geometric normal of the triangle under this fragment, on the side that the camera

@@ -289,6 +289,13 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   {
     return;
   }
+  const ActorDrawing drawing =
+    actorDrawing(actor, matrix ? matrix : actor->GetMatrix(), this->renderer_);
+  const bool seenThrough = isSeenThrough(actor);
+  if (seenThrough)
+  {
+    this->drawn_.seenThrough.push_back(drawing.actor);
+  }
   const bool lit = showsLight(actor->GetProperty());
   const bool asSurface = drawnAsSurface(actor->GetProperty(), actor->GetMapper());
   const bool asPoints = !asSurface && actor->GetProperty()->GetRepresentation() == VTK_POINTS;
@@ -302,8 +309,6 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     }
     return;
   }
-  const ActorDrawing drawing =
-    actorDrawing(actor, matrix ? matrix : actor->GetMatrix(), this->renderer_);
   if (!drawing.actor)
   {
     this->skip(actor, "draws through an actor of its own");
@@ -386,25 +391,22 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   // A plain prop is either opaque or translucent, and VTK takes equally long to answer either.
   const bool eitherOr = isPlain && kind == MapperKind::PlainPolyData;
   const bool translucent = eitherOr ? !opaque : actor->HasTranslucentPolygonalGeometry() != 0;
+  if (prop.receives && (translucent || seenThrough))
+  {
+    this->drawn_.translucentReceivers.push_back(prop.actor);
+  }
   if (opaque)
   {
     add(false);
-    if (eitherOr && !prop.isMoved && !sizedInPixels && viewProp == actor &&
+    if (eitherOr && !seenThrough && !prop.isMoved && !sizedInPixels && viewProp == actor &&
       this->drawn_.props.size() > before)
     {
       this->memory_.plainProps.remember(actor);
     }
   }
-  if (translucent)
+  if (translucent && askedToCast(viewProp))
   {
-    if (prop.receives)
-    {
-      this->drawn_.translucentReceivers.push_back(prop.actor);
-    }
-    if (askedToCast(viewProp))
-    {
-      add(true);
-    }
+    add(true);
   }
   if (prop.casts && this->drawn_.props.size() > before)
   {

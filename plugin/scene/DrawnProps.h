@@ -86,8 +86,10 @@ struct DrawnProps
   /// data and vtkGlyph3DMapper have any number, each polydata once. vtkMoleculeMapper has atoms and
   /// bonds.
   std::vector<DrawnBlock> blocks;
-  /// Actors whose translucent surfaces receive, as VTK hands them to a render pass.
+  /// Actors whose translucent surfaces, or those that are seen through, receive, as VTK hands them
+  /// to a render pass.
   std::vector<const vtkProp*> translucentReceivers;
+  std::vector<const vtkProp*> seenThrough; ///< those that are (isSeenThrough()), likewise
   /// Kinds of props that are visible and lit but left out, each once.
   std::vector<std::string> leftOut;
   /// Sentences: each kind left out with its number of props, and effects that shadows of other

@@ -3,6 +3,7 @@
 #include "plugin/scene/SplatSpheres.h"
 #include "plugin/vtk_versions/CompositeMappers.h"
 
+#include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkInformation.h"
@@ -56,6 +57,14 @@ bool drawnAsSurface(vtkProperty* property, vtkMapper* mapper)
   }
   const MapperKind kind = kindOf(mapper);
   return kind == MapperKind::Solids || kind == MapperKind::Molecule || kind == MapperKind::Splats;
+}
+
+//------------------------------------------------------------------------------
+bool isSeenThrough(vtkActor* actor)
+{
+  return actor->GetForceOpaque() &&
+    (actor->GetProperty()->GetOpacity() < 1.0 ||
+      (actor->GetMapper() && actor->GetMapper()->HasTranslucentPolygonalGeometry()));
 }
 
 //------------------------------------------------------------------------------

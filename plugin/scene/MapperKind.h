@@ -8,6 +8,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractMapper;
+class vtkActor;
 class vtkMapper;
 class vtkProperty;
 VTK_ABI_NAMESPACE_END
@@ -36,6 +37,11 @@ MapperKind kindOf(vtkMapper* mapper);
 /// True if a mapper draws surfaces for a property. Solids, molecules and splats look alike as a
 /// surface, as a wireframe and as points; other mappers go by the representation.
 bool drawnAsSurface(vtkProperty* property, vtkMapper* mapper);
+
+/// True if VTK blends surfaces of an actor over what was drawn before, yet in the opaque pass:
+/// ForceOpaqueOn with an opacity below 1, of the property, of scalars or of blocks. Textures do not
+/// count: their holes are in the snapshot (TextureCutouts.h).
+bool isSeenThrough(vtkActor* actor);
 
 /// Run the pipeline before a mapper, as when it draws.
 void runInput(vtkMapper* mapper, MapperKind kind);

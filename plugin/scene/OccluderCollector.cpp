@@ -18,6 +18,7 @@ SnapshotChange OccluderCollector::collect(
   this->notes_ = std::move(drawn.notes);
   this->leftOut_ = std::move(drawn.leftOut);
   this->translucentReceivers_ = drawn.translucentReceivers.size();
+  this->seenThrough_ = drawn.seenThrough;
   std::vector<WantedSurface> wanted = wantedSurfaces(drawn, this->surfaces_.records());
   for (WantedSurface& surface : wanted)
   {

@@ -60,8 +60,10 @@ public:
   /// As in DrawnProps, of the last collect().
   const std::vector<std::string>& leftOut() const { return this->leftOut_; }
 
-  /// The number of visible props with translucent surfaces that receive, as of the last collect().
+  /// The number of DrawnProps::translucentReceivers, as of the last collect().
   std::size_t translucentReceivers() const { return this->translucentReceivers_; }
+  /// As in DrawnProps, of the last collect().
+  const std::vector<const vtkProp*>& seenThrough() const { return this->seenThrough_; }
 
   /// Memory that all this holds: the snapshot, and what is remembered of each surface and prop.
   std::size_t bytes() const;
@@ -83,6 +85,7 @@ private:
   DrawnLookup lookup_;
   PropMemory propMemory_;
   std::size_t translucentReceivers_ = 0;
+  std::vector<const vtkProp*> seenThrough_;
   std::vector<std::string> notes_;
   std::vector<std::string> leftOut_;
 };

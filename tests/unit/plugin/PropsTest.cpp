@@ -25,14 +25,18 @@
 #include <vtkPoints.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProp3DFollower.h>
+#include <vtkPropAssembly.h>
 #include <vtkProperty.h>
 #include <vtkQuadricLODActor.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSphereSource.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <initializer_list>
+#include <string>
 
 using namespace gnomon::test;
 
@@ -558,6 +562,85 @@ TEST_P(Props, translucentOnesCastIfAsked)
   square->GetProperty()->SetOpacity(1.0);
   EXPECT_TRUE(this->dark(0.0, 0.0));
   EXPECT_FALSE(this->dark(0.0, 0.5));
+}
+
+//------------------------------------------------------------------------------
+/// A square of side 2 at height 2, of which half the light passes, in the opaque pass. The floor is
+/// seen through it; both are lit but where boxes shade one of them.
+TEST_P(Props, seenThroughOnesHideNoReceiver)
+{
+  vtkNew<vtkPlaneSource> square;
+  square->SetOrigin(-1.0, -1.0, 2.0);
+  square->SetPoint1(1.0, -1.0, 2.0);
+  square->SetPoint2(-1.0, 1.0, 2.0);
+  square->Update();
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(4);
+  for (int i = 0; i < 4; ++i)
+  {
+    colours->InsertNextTuple4(255, 255, 255, 128);
+  }
+  vtkNew<vtkPolyData> coloured;
+  coloured->ShallowCopy(square->GetOutput());
+  coloured->GetPointData()->SetScalars(colours);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, square->GetOutput());
+  enum
+  {
+    ByProperty,
+    ByScalars,
+    ByBlocks,
+    Unlit
+  };
+  this->scene.addBox({ -1.5, 0.2, 3.0 }, { -0.5, 0.6, 3.2 });   // shades the square
+  this->scene.addBox({ -3.3, -0.6, 3.0 }, { -2.9, -0.2, 3.2 }); // shades the floor under it
+  for (const int opacity : { ByProperty, ByScalars, ByBlocks, Unlit })
+  {
+    vtkSmartPointer<vtkMapper> mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+    if (opacity == ByBlocks)
+    {
+      auto shared = vtkSmartPointer<gnomon::SharedBlocksMapper>::New();
+      vtkNew<vtkCompositeDataDisplayAttributes> attributes;
+      shared->SetCompositeDataDisplayAttributes(attributes);
+      attributes->SetBlockOpacity(square->GetOutput(), 0.5);
+      mapper = shared;
+      mapper->SetInputDataObject(blocks);
+    }
+    else
+    {
+      mapper->SetInputDataObject(opacity == ByScalars ? coloured.Get() : square->GetOutput());
+    }
+    vtkNew<vtkActor> veil;
+    veil->SetMapper(mapper);
+    veil->ForceOpaqueOn();
+    veil->GetProperty()->SetOpacity(opacity == ByProperty || opacity == Unlit ? 0.5 : 1.0);
+    veil->GetProperty()->SetLighting(opacity != Unlit);
+    vtkNew<vtkAssembly> assembly;
+    assembly->AddPart(veil);
+    vtkNew<vtkPropAssembly> parts;
+    parts->AddPart(veil);
+    vtkNew<vtkFollower> follower;
+    follower->SetCamera(this->scene.renderer->GetActiveCamera());
+    follower->SetMapper(mapper);
+    follower->SetProperty(veil->GetProperty());
+    follower->ForceOpaqueOn();
+    for (vtkProp* prop : std::initializer_list<vtkProp*>{ veil, assembly, parts, follower })
+    {
+      if (prop == follower && opacity == ByBlocks)
+      {
+        continue; // VTK does not draw it
+      }
+      SCOPED_TRACE(std::to_string(opacity) + " " + prop->GetClassName());
+      this->scene.renderer->AddViewProp(prop);
+      const Picture picture = this->scene.render();
+      this->scene.renderer->RemoveViewProp(prop);
+      const int lit = opacity == Unlit ? 255 : 180;
+      const int shaded = opacity == Unlit ? 255 : 0;
+      EXPECT_NEAR(this->scene.redAt(picture, 0.0, 0.4), (shaded + 180) / 2, 2);
+      EXPECT_NEAR(this->scene.redAt(picture, 0.0, -0.4), (lit + 0) / 2, 2);
+      EXPECT_NEAR(this->scene.redAt(picture, 0.0, 0.8), (lit + 180) / 2, 2);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -6,11 +6,13 @@
 
 #include <vtkAxesActor.h>
 #include <vtkCellArray.h>
+#include <vtkImageData.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPoints.h>
 #include <vtkProperty.h>
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
+#include <vtkTexture.h>
 
 #include <gtest/gtest.h>
 
@@ -150,7 +152,13 @@ TEST_P(TriangleNumbers, areReplacedWherePropsBlend)
   for (PassScene* scene : { &this->right, &this->garbled })
   {
     vtkActor* const veil = scene->addFloor(0.5, 2.0); // over a part of the squares
-    veil->GetProperty()->SetOpacity(0.5);
+    vtkNew<vtkImageData> texels;
+    texels->SetDimensions(2, 2, 1);
+    texels->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+    std::fill_n(static_cast<unsigned char*>(texels->GetScalarPointer()), 16, 128);
+    vtkNew<vtkTexture> half;
+    half->SetInputData(texels);
+    veil->SetTexture(half);
     veil->ForceOpaqueOn();
   }
   this->expectSamePictures(vtkGnomonShadowPass::ROUTE_DEFERRED);
