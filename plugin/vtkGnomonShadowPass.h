@@ -152,8 +152,9 @@ public:
 
   ///@{
   /**
-   * Whether shadow rays start on the curved surface that normals of points imply, where facets are
-   * coarse: the shadow's edge on a smooth-shaded sphere of few triangles is then smooth, too. It is
+   * Whether a surface's own shadow is asked from the curve that normals of points imply, where
+   * facets are coarse: the shadow's edge on a smooth-shaded sphere of few triangles is then smooth,
+   * too. Other casters, also those in the same polydata, cast on the triangles. It is
    * for techniques that trace from the CPU (`silhouette`, `raytraced` and the like) by Embree, and
    * for maps on the inline route, on opaque surfaces without clipping planes. Off, receivers are on
    * the triangles. Default on.

@@ -282,10 +282,8 @@ void VisibilityStage::shareSurfaces(const std::vector<SurfaceName>& names)
 Receivers& VisibilityStage::ownReceivers()
 {
   ReceiversValue& value = this->frame_.view->receivers;
-  // Where no technique traces, the tracer is not updated, and may hold an older snapshot.
-  const FreeSegments* const freeSegments =
-    this->tracesOnCpu() && this->tracer_ ? &*this->tracer_ : nullptr;
-  if (!value.onCpu || value.onCpu->freeSegments() != freeSegments)
+  const bool findsCurves = this->tracesOnCpu(); // others do not ask for them
+  if (!value.onCpu || value.onCpu->findsCurves() != findsCurves)
   {
     if (value.numberOfImages != value.number)
     {
@@ -295,7 +293,7 @@ Receivers& VisibilityStage::ownReceivers()
     this->readImages();
     value.boxes.reset();
     value.onCpu.emplace(
-      value.images, value.drawnSurfaces, this->occluders_, value.pixels, freeSegments);
+      value.images, value.drawnSurfaces, this->occluders_, value.pixels, findsCurves);
     this->frame_.endStage("visibility: read receivers");
   }
   return *value.onCpu;
@@ -597,9 +595,9 @@ void VisibilityStage::smoothEdges(CpuScreenTechnique& technique, const ScreenInp
     return;
   }
   const ReceiversValue& value = this->frame_.view->receivers;
-  const Drawn drawn(value.images, value.drawnSurfaces, this->occluders_, nullptr, nullptr);
-  const SharedPicture several{ drawn, *this->tracer_, value.shared.surfaceOfPixel(),
-    value.shared.pixels(), [ranks](std::vector<float>& numbers) { ranks->reduceToLeast(numbers); },
+  const Drawn drawn(value.images, value.drawnSurfaces, this->occluders_, nullptr, false);
+  const SharedPicture several{ drawn, value.shared.surfaceOfPixel(), value.shared.pixels(),
+    [ranks](std::vector<float>& numbers) { ranks->reduceToLeast(numbers); },
     [&](const ReceiverPixels& own) -> const ReceiverPixels&
     {
       this->sharedSamples_.share(*ranks, own, this->occluders_);

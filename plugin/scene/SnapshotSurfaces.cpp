@@ -290,6 +290,7 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
   else if (moved)
   {
     std::copy(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
+    surface.patches = std::make_shared<Patches>();
     surface.positionsVersion = this->newVersion();
   }
   const bool sameNormals = surface.pointNormals == fresh.pointNormals &&
@@ -441,7 +442,7 @@ std::size_t SnapshotSurfaces::bytes() const
   for (const Surface& surface : this->occluders_.surfaces)
   {
     bytes += bytesOf(surface.triangleOfDrawn) + bytesOf(surface.textureCoordinates) +
-      bytesOf(surface.pointNormals) + bytesOf(surface.centredFromSource);
+      bytesOf(surface.pointNormals) + surface.patches->bytes() + bytesOf(surface.centredFromSource);
   }
   for (const SurfaceRecord& record : this->records_)
   {

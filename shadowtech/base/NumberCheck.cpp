@@ -150,7 +150,7 @@ NumberCheck checkNumbers(const ReceiverImages& images, const NumberTruth& truth,
   const std::vector<DrawnSurface>& drawnSurfaces, const std::vector<std::uint8_t>& compared,
   const Occluders& occluders)
 {
-  const Drawn drawn(images, drawnSurfaces, occluders, nullptr, nullptr);
+  const Drawn drawn(images, drawnSurfaces, occluders, nullptr, false);
   const NumberComparison comparison(drawn, truth);
   std::vector<std::uint8_t> looksAt(drawnSurfaces.size(), 0);
   for (std::size_t i = 0; i < std::min(compared.size(), drawnSurfaces.size()); ++i)

@@ -2,6 +2,7 @@
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/CutoutMask.h"
+#include "shadowtech/base/Patches.h"
 #include "shadowtech/base/Solid.h"
 
 #include <glm/glm.hpp>
@@ -45,6 +46,8 @@ struct Surface
   /// The largest height of the curved surface that these normals imply above its triangles, in
   /// centred coordinates. 0 without normals, or with more than `mostFacets` triangles.
   float facetHeight = 0.0f;
+  /// What its triangles' edges connect; another one once vertices move against each other.
+  std::shared_ptr<Patches> patches = std::make_shared<Patches>();
 
   Bounds boundsCentred; ///< box around all that VTK draws of it
 
@@ -128,6 +131,13 @@ struct Occluders
 
   std::size_t droppedNonFinite = 0;
   std::size_t droppedZeroArea = 0;
+
+  /// True if VTK shades a surface with normals of its points.
+  bool hasPointNormals() const
+  {
+    return std::any_of(this->surfaces.begin(), this->surfaces.end(),
+      [](const Surface& surface) { return !surface.pointNormals.empty(); });
+  }
 
   /// True if a caster is a solid. Triangles describe solids only approximately.
   bool castsSolids() const

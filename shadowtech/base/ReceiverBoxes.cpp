@@ -53,7 +53,8 @@ Bounds boxOf(
           receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
         lower = glm::min(lower, position);
         upper = glm::max(upper, position);
-        offset = std::max(offset, receivers.offset[i]);
+        const float height = receivers.curved[i] != 0 ? receivers.curves[i].height : 0.0f;
+        offset = std::max(offset, receivers.offset[i] + height);
       }
     }
   }

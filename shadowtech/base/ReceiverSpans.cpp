@@ -75,7 +75,7 @@ void projectFlat(
   std::fill_n(&receivers.normalY[first], count, seen.normal.y);
   std::fill_n(&receivers.normalZ[first], count, seen.normal.z);
   std::fill_n(&receivers.surface[first], count, seen.surface);
-  std::fill_n(&receivers.lifted[first], count, 0);
+  std::fill_n(&receivers.curved[first], count, 0);
   for (std::size_t j = 0; j < count; ++j)
   {
     if (inside[j])
@@ -105,42 +105,20 @@ void projectFlat(
 }
 
 //------------------------------------------------------------------------------
-void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const PixelSpan& span,
-  ReceiverPixels& receivers)
+void findCurves(const SeenTriangle& seen, const PixelSpan& span, ReceiverPixels& receivers)
 {
   using Row = std::array<float, ReceiverTile::mostColumns>;
   const std::size_t first = span.first;
-  const std::size_t count = span.count;
-  const PointArrays points{ &receivers.positionX[first], &receivers.positionY[first],
-    &receivers.positionZ[first] };
-  float* const offsets = &receivers.offset[first];
   Row heights, normalX, normalY, normalZ;
   SmoothFacet(seen.corners, *seen.smoothNormals)
-    .look(count, points, heights.data(), { normalX.data(), normalY.data(), normalZ.data() });
-  Row fromX, fromY, fromZ, toX, toY, toZ;
-  for (std::size_t i = 0; i < count; ++i)
+    .look(span.count,
+      { &receivers.positionX[first], &receivers.positionY[first], &receivers.positionZ[first] },
+      heights.data(), { normalX.data(), normalY.data(), normalZ.data() });
+  std::fill_n(&receivers.curved[first], span.count, 1);
+  for (std::size_t i = 0; i < span.count; ++i)
   {
-    fromX[i] = points.x[i] + offsets[i] * seen.normal.x;
-    fromY[i] = points.y[i] + offsets[i] * seen.normal.y;
-    fromZ[i] = points.z[i] + offsets[i] * seen.normal.z;
-    heights[i] += offsets[i];
-    toX[i] = points.x[i] + heights[i] * normalX[i];
-    toY[i] = points.y[i] + heights[i] * normalY[i];
-    toZ[i] = points.z[i] + heights[i] * normalZ[i];
-  }
-  std::uint8_t* const isLifted = &receivers.lifted[first];
-  freeSegments.areFree(count, { fromX.data(), fromY.data(), fromZ.data() },
-    { toX.data(), toY.data(), toZ.data() }, isLifted);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (isLifted[i] != 0)
-    {
-      receivers.normalX[first + i] = normalX[i];
-      receivers.normalY[first + i] = normalY[i];
-      receivers.normalZ[first + i] = normalZ[i];
-      offsets[i] = heights[i];
-    }
-    isLifted[i] = isLifted[i] != 0 ? ReceiverPixels::isLifted : ReceiverPixels::isBlocked;
+    receivers.curves[first + i] = { { normalX[i], normalY[i], normalZ[i] }, heights[i],
+      seen.found.triangle, seen.found.instance };
   }
 }
 
@@ -170,18 +148,18 @@ void projectSolid(
     receivers.offset[i] =
       point.isMet ? shadowRayOffsetInside(noise, footprint) : shadowRayOffset(noise, footprint);
     receivers.surface[i] = seen.surface;
-    receivers.lifted[i] = 0;
+    receivers.curved[i] = 0;
   }
 }
 
 //------------------------------------------------------------------------------
-void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const FreeSegments* freeSegments,
-  const PixelSpan& span, ReceiverPixels& receivers)
+void projectSpan(
+  const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span, ReceiverPixels& receivers)
 {
   projectFlat(seen, rays, span, receivers);
   if (seen.smoothNormals)
   {
-    liftSpan(seen, *freeSegments, span, receivers);
+    findCurves(seen, span, receivers);
   }
 }
 
@@ -193,7 +171,7 @@ void leaveUncovered(const PixelSpan& span, ReceiverPixels& receivers)
     std::fill_n(&(receivers.*plane)[span.first], span.count, 0.0f);
   }
   std::fill_n(&receivers.surface[span.first], span.count, ReceiverPixels::notCovered);
-  std::fill_n(&receivers.lifted[span.first], span.count, 0);
+  std::fill_n(&receivers.curved[span.first], span.count, 0);
 }
 
 } // namespace gnomon

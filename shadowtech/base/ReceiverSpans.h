@@ -46,20 +46,17 @@ inline TrianglePoint meetTriangle(
 void projectFlat(const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span,
   ReceiverPixels& receivers);
 
-/// Compute the receivers of a span that shows a triangle.
-/// @param freeSegments not null if the triangle has smooth normals
-void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const FreeSegments* freeSegments,
-  const PixelSpan& span, ReceiverPixels& receivers);
+/// Compute the receivers of a span that shows a triangle, and the curved surface above them.
+void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span,
+  ReceiverPixels& receivers);
 
 /// Compute the receivers of a span that shows a solid.
 void projectSolid(const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span,
   ReceiverPixels& receivers);
 
-/// Start the shadow rays of receivers on a triangle above the curved surface, and give these
-/// receivers that surface's normal, unless a caster lies in between.
+/// Find the curved surface above receivers on a triangle with smooth normals.
 /// @param span only its indices into the arrays count
-void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const PixelSpan& span,
-  ReceiverPixels& receivers);
+void findCurves(const SeenTriangle& seen, const PixelSpan& span, ReceiverPixels& receivers);
 
 /// Mark a span's pixels as not covered.
 void leaveUncovered(const PixelSpan& span, ReceiverPixels& receivers);

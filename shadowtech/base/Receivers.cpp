@@ -38,7 +38,6 @@ public:
     , receivers_(receivers)
     , known_(known)
     , decider_(drawn.decider)
-    , freeSegments_(drawn.freeSegments)
   {
   }
 
@@ -68,7 +67,7 @@ private:
 
   void project(const SeenTriangle& seen, const PixelSpan& span)
   {
-    projectSpan(seen, this->rays_, this->freeSegments_, span, this->receivers_);
+    projectSpan(seen, this->rays_, span, this->receivers_);
   }
 
   /// Leave out decided receivers. Of their numbers only the surface is set.
@@ -122,7 +121,6 @@ private:
   ReceiverPixels& receivers_;
   std::vector<Certainty>* known_;
   const ReceiverDecider* decider_;
-  const FreeSegments* freeSegments_;
 };
 
 /// A tile's pixels in the picture.
@@ -183,7 +181,11 @@ void copyTile(const ReceiverPixels& picture, const Rectangle& tile, ReceiverPixe
       copy(plane);
     }
     copy(&ReceiverPixels::surface);
-    copy(&ReceiverPixels::lifted);
+    copy(&ReceiverPixels::curved);
+    if (!picture.curves.empty())
+    {
+      copy(&ReceiverPixels::curves);
+    }
   }
 }
 
@@ -229,11 +231,11 @@ struct TileMaking
 
 //------------------------------------------------------------------------------
 Receivers::Receivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
-  const Occluders& occluders, ReceiverPixels& stored, const FreeSegments* freeSegments)
+  const Occluders& occluders, ReceiverPixels& stored, bool findCurves)
   : images_(&images)
   , drawnSurfaces_(&drawnSurfaces)
   , occluders_(&occluders)
-  , freeSegments_(freeSegments)
+  , findCurves_(findCurves)
   , toFill_(&stored)
   , width_(static_cast<std::size_t>(images.width))
   , height_(static_cast<std::size_t>(images.height))
@@ -252,7 +254,7 @@ Receivers::Receivers(const ReceiverPixels& stored)
 //------------------------------------------------------------------------------
 Drawn Receivers::drawn(const ReceiverDecider* decider) const
 {
-  return { *this->images_, *this->drawnSurfaces_, *this->occluders_, decider, this->freeSegments_ };
+  return { *this->images_, *this->drawnSurfaces_, *this->occluders_, decider, this->findCurves_ };
 }
 
 //------------------------------------------------------------------------------
@@ -264,7 +266,8 @@ void Receivers::visitTiles(const std::function<void(const ReceiverTile&)>& visit
   visitRectangles<TileMaking>(this->width_, this->height_, skipped,
     [&](const Rectangle& tile, TileMaking& making)
     {
-      making.receivers.resize(static_cast<int>(tile.columns), static_cast<int>(tile.rows));
+      making.receivers.resize(static_cast<int>(tile.columns), static_cast<int>(tile.rows),
+        drawn ? drawn->findsCurves : !this->stored_->curves.empty());
       making.known.assign(making.receivers.size(), Certainty::Uncertain);
       if (!drawn)
       {
@@ -284,8 +287,8 @@ const ReceiverPixels& Receivers::all()
 {
   if (!this->stored_)
   {
-    this->toFill_->resize(this->images_->width, this->images_->height);
     const Drawn drawn = this->drawn();
+    this->toFill_->resize(this->images_->width, this->images_->height, drawn.findsCurves);
     visitRectangles<SeenTriangles>(this->width_, this->height_, nullptr,
       [&](const Rectangle& tile, SeenTriangles& cache)
       {

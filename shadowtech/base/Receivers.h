@@ -37,12 +37,17 @@ struct ReceiverPixels
   std::vector<float> offset;
   /// Occluders::surfaces index; `notCovered` if the camera sees no surface of the snapshot.
   std::vector<std::uint32_t> surface;
-  /// `isLifted` if the normal is that of the curved surface that the corners' normals imply above
-  /// the triangle, and the offset extends beyond it (SmoothFacet.h). `isBlocked` if a caster is in
-  /// between. Else 0.
-  std::vector<std::uint8_t> lifted;
-  static constexpr std::uint8_t isLifted = 1;
-  static constexpr std::uint8_t isBlocked = 2;
+  /// The curved surface above a receiver, which its corners' normals imply (SmoothFacet.h).
+  struct Curve
+  {
+    glm::vec3 normal;
+    float height;                     ///< of the surface, along its normal
+    std::uint32_t triangle, instance; ///< of the receiver (TriangleOfFragment)
+  };
+  /// 1 if the receiver has a Curve, else 0.
+  std::vector<std::uint8_t> curved;
+  /// Those of the receivers that have one. Empty if none has.
+  std::vector<Curve> curves;
 
   static constexpr std::uint32_t notCovered = 0xffffffffu;
 
@@ -53,7 +58,7 @@ struct ReceiverPixels
   {
     return static_cast<std::size_t>(this->width) * static_cast<std::size_t>(this->height);
   }
-  void resize(int newWidth, int newHeight)
+  void resize(int newWidth, int newHeight, bool withCurves = false)
   {
     this->width = newWidth;
     this->height = newHeight;
@@ -62,11 +67,15 @@ struct ReceiverPixels
       (this->*plane).resize(this->size());
     }
     this->surface.resize(this->size());
-    this->lifted.resize(this->size());
+    this->curved.resize(this->size());
+    this->curves.resize(withCurves ? this->size() : 0);
   }
   /// Return the bytes on the heap. The arrays of floats and of surfaces have elements of the same
   /// size, and grow alike.
-  std::size_t bytes() const { return 8 * bytesOf(this->positionX) + bytesOf(this->lifted); }
+  std::size_t bytes() const
+  {
+    return 8 * bytesOf(this->positionX) + bytesOf(this->curved) + bytesOf(this->curves);
+  }
 };
 inline constexpr std::array<std::vector<float> ReceiverPixels::*, 7> ReceiverPixels::planes = {
   &ReceiverPixels::positionX, &ReceiverPixels::positionY, &ReceiverPixels::positionZ,
@@ -108,17 +117,6 @@ struct DrawnSurface
   bool operator==(const DrawnSurface& other) const { return this->blocks == other.blocks; }
 };
 
-/// Tests segments between points against the casters. Called from several threads at once.
-class FreeSegments
-{
-public:
-  virtual ~FreeSegments() = default;
-  /// @param from, to centred
-  /// @param free set to 1 for each pair without a caster in between, else 0
-  virtual void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
-    std::uint8_t* free) const = 0;
-};
-
 /// A part of the picture and its receivers.
 struct ReceiverTile
 {
@@ -140,21 +138,17 @@ struct ReceiverTile
 /// Rasterisers move corners by up to 1/256 pixel, and so draw triangles in pixels whose rays miss
 /// them. The receiver is then the point of the triangle that the camera sees closest to the ray.
 /// Pixels whose triangle cannot be found count as not covered.
-///
-/// Shadow rays of facets with smooth shading start above the curved surface, if a FreeSegments
-/// shows that nothing is in between. Otherwise the start might lie beyond another surface, on its
-/// lit side.
 class Receivers
 {
 public:
   /// @param stored where all() caches the receivers; empty until then
-  /// @param freeSegments of the same snapshot; null: all receivers stay on their triangles
+  /// @param findCurves true if smooth shading implies curves above receivers
   Receivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
-    const Occluders& occluders, ReceiverPixels& stored, const FreeSegments* freeSegments = nullptr);
+    const Occluders& occluders, ReceiverPixels& stored, bool findCurves = false);
   /// Wrap receivers that exist already. The conversion is implicit, so they can be passed directly.
   Receivers(const ReceiverPixels& stored);
 
-  const FreeSegments* freeSegments() const { return this->freeSegments_; }
+  bool findsCurves() const { return this->findCurves_; }
   std::size_t width() const { return this->width_; }
   std::size_t height() const { return this->height_; }
 
@@ -178,7 +172,7 @@ private:
   const ReceiverImages* images_ = nullptr; ///< these three are null for wrapped receivers
   const std::vector<DrawnSurface>* drawnSurfaces_ = nullptr;
   const Occluders* occluders_ = nullptr;
-  const FreeSegments* freeSegments_ = nullptr;
+  bool findCurves_ = false;
   ReceiverPixels* toFill_ = nullptr;
   const ReceiverPixels* stored_ = nullptr; ///< null until computed
   std::size_t width_, height_;

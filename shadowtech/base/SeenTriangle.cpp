@@ -14,7 +14,7 @@ namespace gnomon
 namespace
 {
 
-/// The least height of a facet's curved surface, in pixels' sides, that starts shadow rays on it.
+/// The least height of a facet's curved surface, in pixels' sides, that counts.
 /// Below it the steps of a terminator are no longer than a few pixels.
 constexpr double leastHeightPixels = 0.25;
 
@@ -97,6 +97,7 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
       occluders, surface, found.instance, found.triangle, of.corners, normal, doubleArea);
   };
   seen.surface = found.surface;
+  seen.found = found;
   seen.known = Certainty::Uncertain;
   seen.solid.reset();
   seen.smoothNormals.reset();
@@ -138,18 +139,19 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
     return;
   }
   // The area's vector points away from the camera if side > 0.
-  if (drawn.freeSegments)
+  if (drawn.findsCurves)
   {
     seen.smoothNormals = cornerNormals(
       occluders, found, glm::normalize(areaVector) * (side > 0.0 ? -1.0 : 1.0), side > 0.0);
     if (seen.smoothNormals &&
-      SmoothFacet(seen.corners, *seen.smoothNormals).largestHeight() <=
-        leastHeightPixels * drawn.footprints.largest(seen.corners))
+      (SmoothFacet(seen.corners, *seen.smoothNormals).largestHeight() <=
+          leastHeightPixels * drawn.footprints.largest(seen.corners) ||
+        surface.patches->isAtCrease(occluders, surface, found.triangle)))
     {
       seen.smoothNormals.reset();
     }
   }
-  // Deciders know flat triangles only.
+  // Deciders know flat triangles only: the light may reach a curve above one that is turned away.
   if (drawn.decider && !surface.isInstanced() && !seen.smoothNormals)
   {
     seen.known = drawn.decider->ofTriangle(

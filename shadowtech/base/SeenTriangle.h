@@ -1,6 +1,7 @@
 #pragma once
 
 #include "shadowtech/base/Certainty.h"
+#include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/PixelRays.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/Solid.h"
@@ -15,8 +16,6 @@
 
 namespace gnomon
 {
-
-struct Occluders;
 
 constexpr std::uint32_t notFound = 0xffffffffu;
 
@@ -72,8 +71,9 @@ struct SeenTriangle
   bool finite = false;
   Certainty known =
     Certainty::Uncertain; ///< of all its receivers; if decided, the above is invalid
-  /// The corners' normals (SmoothFacet), if the shadow rays start on the curved surface.
+  /// The corners' normals, if they imply a curved surface (SmoothFacet).
   std::optional<std::array<glm::vec3, 3>> smoothNormals;
+  TriangleOfFragment found;
   /// The solid that is seen instead of a triangle. If set, all above is invalid except the surface.
   std::optional<PlacedSolid> solid;
 };
@@ -123,25 +123,24 @@ private:
   double perDistance_; ///< from the origin
 };
 /// The input for computing receivers: the drawn images and surfaces, the snapshot, and the optional
-/// decider and FreeSegments.
+/// decider.
 struct Drawn
 {
   const ReceiverImages& images;
   const std::vector<DrawnSurface>& drawnSurfaces;
   const Occluders& occluders;
-  const ReceiverDecider* decider;   ///< may be null
-  const FreeSegments* freeSegments; ///< null: all receivers are on flat triangles
+  const ReceiverDecider* decider; ///< may be null
+  bool findsCurves;               ///< false also if no surface has normals
   Footprints footprints;
   bool raysFinite;
 
   Drawn(const ReceiverImages& ofImages, const std::vector<DrawnSurface>& surfaces,
-    const Occluders& snapshot, const ReceiverDecider* deciderOrNull,
-    const FreeSegments* freeSegmentsOrNull)
+    const Occluders& snapshot, const ReceiverDecider* deciderOrNull, bool withCurves)
     : images(ofImages)
     , drawnSurfaces(surfaces)
     , occluders(snapshot)
     , decider(deciderOrNull)
-    , freeSegments(freeSegmentsOrNull)
+    , findsCurves(withCurves && snapshot.hasPointNormals())
     , footprints(ofImages.rays)
     , raysFinite(isFinite(ofImages.rays))
   {

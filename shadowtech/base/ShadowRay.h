@@ -262,6 +262,30 @@ inline ShadowRay shadowRaySpot(
   return ray;
 }
 
+/// The second ray of a receiver whose triangle is turned away from the light, while the curved
+/// surface that its corners' normals imply is not (SmoothFacet.h). Let the *own surface* be what
+/// shared edges connect to the triangle, and P the plane across the curve's normal at its height.
+/// The receiver is lit if nothing but the own surface below P blocks the shadow ray, and if the
+/// own surface meets neither the lifted ray nor the segment between both starts.
+struct LiftedRay
+{
+  glm::vec3 origin;    ///< on P
+  glm::vec3 direction; ///< of a positional light's ray: to the same end
+  float leaves;        ///< where the shadow ray passes P, in lengths of its direction
+};
+
+/// @param origin, direction of the shadow ray
+/// @param normal of the curve, unit length
+/// @param height of the curve, and the offset
+inline LiftedRay liftedRay(const ShadowRayLight& light, const glm::vec3& position,
+  const glm::vec3& origin, const glm::vec3& direction, const glm::vec3& normal, float height)
+{
+  const glm::vec3 up = position + height * normal - origin;
+  const float along = glm::dot(normal, direction);
+  return { origin + up, light.kind == LightKind::Directional ? direction : direction - up,
+    along > 0.0f ? glm::dot(normal, up) / along : std::numeric_limits<float>::infinity() };
+}
+
 /// The common part of a receiver's shadow rays to the points of an area light. They start and end
 /// as the centre's ray does.
 struct AreaRays

@@ -16,14 +16,13 @@ namespace
 std::optional<std::array<glm::vec3, 3>> turnedNormals(const glm::dmat3& turn,
   const glm::vec3* normals, const glm::uvec3& vertices, const glm::dvec3& normal)
 {
-  constexpr double leastCosine = 0.17364818; // of 80 degrees
   std::array<glm::vec3, 3> turned;
   for (int i = 0; i < 3; ++i)
   {
     const glm::dvec3 centred = turn * glm::dvec3(normals[vertices[i]]);
     const double length = glm::length(centred);
     // Written so that NaN fails.
-    if (!(glm::dot(centred, normal) > leastCosine * length))
+    if (!(glm::dot(centred, normal) > leastCosineOfCurve * length))
     {
       return std::nullopt;
     }

@@ -73,10 +73,13 @@ inline glm::dmat3 normalMatrix(const glm::dmat3& matrix)
   return glm::determinant(matrix) < 0.0 ? -cofactors : cofactors;
 }
 
+/// Of 42 degrees: a corner's normal farther off its facet implies no curve.
+inline constexpr float leastCosineOfCurve = 0.74314483f;
+
 /// Return the normals of a triangle's corners, centred: unit length, on the camera's side.
 /// @param normal of the triangle, unit length, on the camera's side
 /// @param back true if the camera sees the corners run clockwise
-/// @return none if the surface has none, or if one is more than 80 degrees off the triangle's
+/// @return none if the surface has none, or if one is too far off the triangle's
 std::optional<std::array<glm::vec3, 3>> cornerNormals(
   const Occluders& occluders, const TriangleOfFragment& found, const glm::dvec3& normal, bool back);
 

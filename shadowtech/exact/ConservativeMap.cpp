@@ -344,8 +344,7 @@ void ConservativeMap::ask(const ReceiverPixels& receivers,
         continue;
       }
       const TexelBounds& texel = this->texels_[static_cast<std::size_t>(looks.texel[i])];
-      const bool isOnCaster = onCaster[receivers.surface[from + i] + 1u] != 0 &&
-        receivers.lifted[from + i] != ReceiverPixels::isLifted;
+      const bool isOnCaster = onCaster[receivers.surface[from + i] + 1u] != 0;
       const bool lit = looks.farthest[i] <= texel.litUpToOf(isOnCaster, receivers.offset[from + i]);
       const bool shadow = looks.nearest[i] > texel.shadowFrom;
       certain[from + i] = lit ? Certainty::Lit : shadow ? Certainty::Shadow : Certainty::Uncertain;

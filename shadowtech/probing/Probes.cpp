@@ -102,7 +102,7 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
     const std::optional<CasterHits::Hit> hit =
       hits.nearest(glm::vec3(origin), glm::vec3(direction), nearest, farthest);
     this->receivers_.surface[i] = ReceiverPixels::notCovered;
-    this->receivers_.lifted[i] = 0;
+    this->receivers_.curved[i] = 0;
     this->receivers_.offset[i] = 0.0f;
     if (!hit || !occluders.surfaces[hit->surface].receives)
     {

@@ -58,6 +58,14 @@ public:
       }
       this->perUnit_[pixel] = rays.perUnit;
     }
+    for (const TurnedPixel& turned : traced.turned)
+    {
+      const glm::vec3 normal = tile.receivers.curves[turned.receiver].normal;
+      for (glm::length_t axis = 0; axis < 3; ++axis)
+      {
+        this->normal_[static_cast<std::size_t>(axis)][turned.pixel] = normal[axis];
+      }
+    }
   }
 
   /// Compute the directions of a pixel's rays to all samples.

@@ -212,8 +212,8 @@ public:
     , receivers_(receivers)
     , orders_(orders)
   {
-    this->samples_.resize(static_cast<int>(places.size()), 1);
-    this->centre_.resize(1, 1);
+    this->samples_.resize(static_cast<int>(places.size()), 1, drawn.findsCurves);
+    this->centre_.resize(1, 1, drawn.findsCurves);
   }
 
   /// @param block the pixel's index among the pixels with samples
@@ -406,7 +406,7 @@ private:
     const std::size_t count = this->next_ - first;
     if (count > 0 && seen.smoothNormals)
     {
-      liftSpan(seen, *this->drawn_.freeSegments, { 0.0, 0.0, count, first }, this->samples_);
+      findCurves(seen, { 0.0, 0.0, count, first }, this->samples_);
     }
     for (std::size_t i = first; i < this->next_; ++i)
     {
@@ -423,7 +423,11 @@ private:
       (this->receivers_.*plane)[to] = (this->samples_.*plane)[i];
     }
     this->receivers_.surface[to] = this->samples_.surface[i];
-    this->receivers_.lifted[to] = this->samples_.lifted[i];
+    this->receivers_.curved[to] = this->samples_.curved[i];
+    if (this->samples_.curved[i] != 0)
+    {
+      this->receivers_.curves[to] = this->samples_.curves[i];
+    }
     if (this->several_)
     {
       this->orders_[to] = order;
@@ -448,7 +452,7 @@ private:
     samples.normalZ[i] = seen.normal.z;
     samples.offset[i] = met.offset;
     samples.surface[i] = seen.surface;
-    samples.lifted[i] = 0;
+    samples.curved[i] = 0;
   }
 
   const Drawn& drawn_;
@@ -503,7 +507,6 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
   const SharedPicture* several, LightReport& report)
 {
   const Drawn drawn = several ? several->drawn : input.receivers.drawn();
-  const FreeSegments* const hiders = several ? &several->hiders : drawn.freeSegments;
   const ReceiverImages& images = drawn.images;
   EdgePixels edges =
     findEdgePixels({ images.width, images.height, several ? several->surfaces : images.fragments },
@@ -522,9 +525,9 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
       {
         this->share(*several);
       }
-      if (drops && hiders)
+      if (drops)
       {
-        this->dropHidden(images, *hiders, several, some, count);
+        this->dropHidden(images, input.tracer, several, some, count);
       }
       Receivers samples(this->receivers_);
       LightReport ofSamples;
@@ -566,7 +569,7 @@ void EdgeSamples::place(const Drawn& drawn, const SharedPicture* several,
 {
   constexpr std::size_t columns = SampleBlocks::columns;
   const std::size_t rows = SampleBlocks(perPixel).rows(pixels.size());
-  this->receivers_.resize(static_cast<int>(columns), static_cast<int>(rows));
+  this->receivers_.resize(static_cast<int>(columns), static_cast<int>(rows), drawn.findsCurves);
   std::fill(this->receivers_.surface.begin(), this->receivers_.surface.end(),
     ReceiverPixels::notCovered); // after the last pixel's samples
   this->orders_.assign(
@@ -604,7 +607,7 @@ void EdgeSamples::share(const SharedPicture& several)
 
 //------------------------------------------------------------------------------
 /// Drop samples of pixels at outlines that casters hide from the camera.
-void EdgeSamples::dropHidden(const ReceiverImages& images, const FreeSegments& hiders,
+void EdgeSamples::dropHidden(const ReceiverImages& images, const EmbreeTracer& hiders,
   const SharedPicture* several, const std::vector<std::uint32_t>& pixels, std::size_t perPixel)
 {
   const std::vector<glm::dvec2> places = samplePlaces(perPixel);

@@ -13,6 +13,7 @@
 namespace gnomon
 {
 
+class EmbreeTracer;
 struct Drawn;
 
 /// A picture that several processes draw, each its own part of the triangles. All of them must call
@@ -21,7 +22,6 @@ struct SharedPicture
 {
   /// What this process drew. Fragments are 0 where the picture shows another process's triangle.
   const Drawn& drawn;
-  const FreeSegments& hiders; ///< this process's casters
   /// x: a number of the surface that a pixel shows, the same in all processes; 0: none.
   const std::vector<glm::vec2>& surfaces;
   const ReceiverPixels& receivers;
@@ -40,7 +40,7 @@ struct SharedPicture
 /// triangle, or on a neighbour's triangle that continues the pixel's surface. A triangle continues
 /// it on the same drawn surface, turned by less than 45 degrees, within a pixel's side of the own
 /// triangle's plane. So surfaces behind an outline do not colour the pixel. Samples count if they
-/// face the light and, at outlines, if the camera sees them; the latter needs a FreeSegments.
+/// face the light and, at outlines, if the camera sees them.
 ///
 /// Between surfaces most pixels are evenly lit: four samples decide which of them need all samples.
 ///
@@ -71,7 +71,7 @@ private:
   void place(const Drawn& drawn, const SharedPicture* several,
     const std::vector<std::uint32_t>& pixels, std::size_t perPixel);
   void share(const SharedPicture& several);
-  void dropHidden(const ReceiverImages& images, const FreeSegments& hiders,
+  void dropHidden(const ReceiverImages& images, const EmbreeTracer& hiders,
     const SharedPicture* several, const std::vector<std::uint32_t>& pixels, std::size_t perPixel);
   float mean(std::size_t pixel, std::size_t perPixel, float ofCentre) const;
 

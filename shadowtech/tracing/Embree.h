@@ -10,6 +10,8 @@
 namespace gnomon
 {
 
+struct OwnSurface;
+
 /// The kind of rays that Embree may optimise traversal for.
 enum class EmbreeRays
 {
@@ -31,6 +33,7 @@ struct EmbreeContext
 
   RTCRayQueryContext context;
   RTCRayQueryFlags flags;
+  const OwnSurface* own = nullptr; ///< of a single ray; null: every hit counts
 };
 
 inline void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
@@ -82,6 +85,7 @@ struct EmbreeContext
   }
 
   RTCIntersectContext context;
+  const OwnSurface* own = nullptr; ///< of a single ray; null: every hit counts
 };
 
 inline void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -20,6 +21,22 @@
 
 namespace gnomon
 {
+
+/// The surface that a ray passes through near its start (LiftedRay).
+struct OwnSurface
+{
+  unsigned int instance, geometry;           ///< Embree's numbers
+  const std::vector<std::uint32_t>* patches; ///< Patches::numbers(); null: the ray has none
+  std::uint32_t patch;                       ///< the receiver's
+  float until;                               ///< LiftedRay::leaves
+
+  bool has(unsigned int ofInstance, unsigned int ofGeometry, unsigned int triangle) const
+  {
+    return this->patches && ofInstance == this->instance && ofGeometry == this->geometry &&
+      (*this->patches)[triangle] == this->patch;
+  }
+};
+
 namespace
 {
 
@@ -82,11 +99,24 @@ void rejectHoles(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
-template <bool mirrored>
-void rejectBackFacesAndHoles(const RTCFilterFunctionNArguments* arguments)
+/// Reject a hit on the part of a single ray's own surface that it passes through.
+void rejectOwn(const RTCFilterFunctionNArguments* arguments)
 {
-  rejectBackFaces<mirrored>(arguments);
-  rejectHoles(arguments);
+  // The context is the first member.
+  const OwnSurface* const own = reinterpret_cast<const EmbreeContext*>(arguments->context)->own;
+  // The ray's end is the hit's place.
+  if (own && arguments->valid[0] && RTCRayN_tfar(arguments->ray, 1, 0) <= own->until &&
+    own->has(RTCHitN_instID(arguments->hit, 1, 0, 0), RTCHitN_geomID(arguments->hit, 1, 0),
+      RTCHitN_primID(arguments->hit, 1, 0)))
+  {
+    arguments->valid[0] = 0;
+  }
+}
+
+template <RTCFilterFunctionN... filters>
+void rejectBy(const RTCFilterFunctionNArguments* arguments)
+{
+  (filters(arguments), ...);
 }
 
 /// Return the filter of hits on a surface; null if every hit counts.
@@ -94,13 +124,17 @@ RTCFilterFunctionN filterOf(const Surface& surface)
 {
   if (!surface.oneSided)
   {
-    return surface.cutout ? rejectHoles : nullptr;
+    return surface.cutout            ? rejectBy<rejectHoles, rejectOwn>
+      : surface.pointNormals.empty() ? nullptr
+                                     : rejectOwn;
   }
   if (surface.cutout)
   {
-    return surface.mirrored ? rejectBackFacesAndHoles<true> : rejectBackFacesAndHoles<false>;
+    return surface.mirrored ? rejectBy<rejectBackFaces<true>, rejectHoles, rejectOwn>
+                            : rejectBy<rejectBackFaces<false>, rejectHoles, rejectOwn>;
   }
-  return surface.mirrored ? rejectBackFaces<true> : rejectBackFaces<false>;
+  return surface.mirrored ? rejectBy<rejectBackFaces<true>, rejectOwn>
+                          : rejectBy<rejectBackFaces<false>, rejectOwn>;
 }
 
 /// The solids of a surface that are not left out, for Embree's callbacks.
@@ -206,8 +240,8 @@ struct Caster
   Geometry geometry;
   /// For a surface with instances, the scene that holds its triangles once.
   Scene source;
-  /// The geometries attached to the tracer's scene, by Embree's numbers: the triangles, or the
-  /// instances of the source's scene that are not left out.
+  /// The geometries attached to the tracer's scene, by Embree's numbers: the triangles, or all
+  /// instances of the source's scene, with an invalid number for those that are left out.
   std::vector<unsigned int> attached;
   RTCFilterFunctionN filter = nullptr;
   std::unique_ptr<CutoutSurface> cutout; ///< on the heap, because Embree keeps its address
@@ -218,6 +252,17 @@ struct Caster
   std::size_t positionCount = 0;
   const glm::uvec3* triangles = nullptr;
 };
+
+/// Subtract what a ray stands for from its pixel's visibility, if it is blocked.
+void darken(TracedTile& tile, std::size_t pixel, bool blocked)
+{
+  // Nearly always there is one channel.
+  tile.visibility[0][pixel] -= blocked ? tile.samplesOfRay[0][pixel] : 0.0f;
+  for (std::size_t channel = 1; channel < tile.channels; ++channel)
+  {
+    tile.visibility[channel][pixel] -= blocked ? tile.samplesOfRay[channel][pixel] : 0.0f;
+  }
+}
 
 /// Traces a tile's rays in squares of 4 x 4 pixels, whose rays stay closer together than those of a
 /// row. Squares with few rays share a packet.
@@ -328,14 +373,7 @@ private:
     for (std::size_t lane = 0; lane < this->taken_; ++lane)
     {
       // Embree sets the far end of a blocked ray to minus infinity.
-      const std::uint16_t pixel = this->pixels_[lane];
-      const bool blocked = this->packet_.tfar[lane] < 0.0f;
-      // Nearly always there is one channel.
-      tile.visibility[0][pixel] -= blocked ? tile.samplesOfRay[0][pixel] : 0.0f;
-      for (std::size_t channel = 1; channel < tile.channels; ++channel)
-      {
-        tile.visibility[channel][pixel] -= blocked ? tile.samplesOfRay[channel][pixel] : 0.0f;
-      }
+      darken(tile, this->pixels_[lane], this->packet_.tfar[lane] < 0.0f);
     }
     this->taken_ = 0;
   }
@@ -439,6 +477,13 @@ struct EmbreeTracer::Impl
   void nameSurfaces(const Occluders& occluders);
   glm::vec3 normalOf(const RTCHit& hit) const;
   void check(const char* what) const;
+  RTCRayHit nearest(
+    const glm::vec3& origin, const glm::vec3& direction, float after, float until) const;
+  OwnSurface ownSurface(const Occluders& occluders, std::uint32_t number,
+    const ReceiverPixels::Curve& curve, float until) const;
+  bool meets(
+    const OwnSurface& own, const glm::vec3& origin, const glm::vec3& direction, float rayFar) const;
+  std::size_t traceTurned(const TracedPicture& picture, TracedTile& tile) const;
   template <typename Packet>
   std::size_t trace(const TracedPicture& picture) const;
 
@@ -591,18 +636,20 @@ void EmbreeTracer::Impl::attachInstances(Caster& caster, const Surface& surface)
   rtcCommitScene(caster.source.get());
   for (const glm::mat4x3& instance : surface.centredFromSource)
   {
-    if (!Surface::isLeftOut(instance))
+    if (Surface::isLeftOut(instance))
     {
-      const Geometry geometry(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-      rtcSetGeometryInstancedScene(geometry.get(), caster.source.get());
-      caster.attached.push_back(rtcAttachGeometry(this->scene.get(), geometry.get()));
+      caster.attached.push_back(RTC_INVALID_GEOMETRY_ID);
+      continue;
     }
+    const Geometry geometry(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+    rtcSetGeometryInstancedScene(geometry.get(), caster.source.get());
+    caster.attached.push_back(rtcAttachGeometry(this->scene.get(), geometry.get()));
   }
   this->move(caster, surface);
 }
 
 /// Refit a surface's structure to its moved vertices, or set the matrices of its attached
-/// instances, in their order.
+/// instances.
 void EmbreeTracer::Impl::move(Caster& caster, const Surface& surface) const
 {
   if (caster.solids)
@@ -617,13 +664,13 @@ void EmbreeTracer::Impl::move(Caster& caster, const Surface& surface) const
     rtcCommitGeometry(caster.geometry.get());
     return;
   }
-  auto attached = caster.attached.begin();
-  for (const glm::mat4x3& instance : surface.centredFromSource)
+  for (std::size_t i = 0; i < caster.attached.size(); ++i)
   {
-    if (!Surface::isLeftOut(instance))
+    if (caster.attached[i] != RTC_INVALID_GEOMETRY_ID)
     {
-      const RTCGeometry geometry = rtcGetGeometry(this->scene.get(), *attached++);
-      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &instance[0][0]);
+      const RTCGeometry geometry = rtcGetGeometry(this->scene.get(), caster.attached[i]);
+      rtcSetGeometryTransform(
+        geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &surface.centredFromSource[i][0][0]);
       rtcCommitGeometry(geometry);
     }
   }
@@ -643,11 +690,29 @@ void EmbreeTracer::Impl::nameSurfaces(const Occluders& occluders)
     }
     for (const unsigned int attached : caster->second.attached)
     {
+      if (attached == RTC_INVALID_GEOMETRY_ID)
+      {
+        continue;
+      }
       this->named.resize(std::max<std::size_t>(this->named.size(), attached + 1u));
       this->named[attached] = { static_cast<std::uint32_t>(i), surface.firstTriangle,
         caster->second.solids.get() };
     }
   }
+}
+
+/// Return the nearest hit of a ray.
+RTCRayHit EmbreeTracer::Impl::nearest(
+  const glm::vec3& origin, const glm::vec3& direction, float after, float until) const
+{
+  RTCRayHit query{};
+  query.ray = { origin.x, origin.y, origin.z, after, direction.x, direction.y, direction.z, 0.0f,
+    until, 0xffffffffu, 0, 0 };
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  EmbreeContext context;
+  intersect(this->scene.get(), context, query);
+  return query;
 }
 
 /// Return the hit triangle's normal, in centred coordinates.
@@ -710,7 +775,10 @@ EmbreeTracer::Update EmbreeTracer::update(const Occluders& occluders)
   {
     for (const unsigned int attached : gone.second.attached)
     {
-      rtcDetachGeometry(impl.scene.get(), attached);
+      if (attached != RTC_INVALID_GEOMETRY_ID)
+      {
+        rtcDetachGeometry(impl.scene.get(), attached);
+      }
     }
   }
   impl.casters = std::move(casters);
@@ -723,12 +791,90 @@ EmbreeTracer::Update EmbreeTracer::update(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
+/// Return the surface that a receiver's ray passes through.
+OwnSurface EmbreeTracer::Impl::ownSurface(const Occluders& occluders, std::uint32_t number,
+  const ReceiverPixels::Curve& curve, float until) const
+{
+  const Surface& surface = occluders.surfaces[number];
+  const auto caster = this->casters.find(surface.topologyVersion);
+  if (caster == this->casters.end())
+  {
+    return {}; // casts nothing
+  }
+  const std::vector<std::uint32_t>& patches = surface.patches->numbers(occluders, surface);
+  const unsigned int attached = caster->second.attached[surface.isInstanced() ? curve.instance : 0];
+  return { surface.isInstanced() ? attached : RTC_INVALID_GEOMETRY_ID,
+    surface.isInstanced() ? 0u : attached, &patches,
+    patches[curve.triangle - surface.firstTriangle], until };
+}
+
+//------------------------------------------------------------------------------
+/// True if a ray meets its own surface, on either side.
+bool EmbreeTracer::Impl::meets(
+  const OwnSurface& own, const glm::vec3& origin, const glm::vec3& direction, float rayFar) const
+{
+  float after = shadowRayNear;
+  while (true)
+  {
+    const RTCRayHit found = this->nearest(origin, direction, after, rayFar);
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    {
+      return false;
+    }
+    if (own.has(found.hit.instID[0], found.hit.geomID, found.hit.primID))
+    {
+      return true;
+    }
+    after = std::nextafter(found.ray.tfar, std::numeric_limits<float>::infinity());
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Trace the rays of a tile's turned pixels, which are not needed afterwards.
+/// @return their number
+std::size_t EmbreeTracer::Impl::traceTurned(const TracedPicture& picture, TracedTile& tile) const
+{
+  const ReceiverPixels& receivers = *tile.receivers;
+  std::size_t count = 0;
+  for (const auto& [pixel, i] : tile.turned)
+  {
+    if (tile.needed[pixel] == 0)
+    {
+      continue;
+    }
+    tile.needed[pixel] = 0;
+    ++count;
+    const ReceiverPixels::Curve& curve = receivers.curves[i];
+    const glm::vec3 origin(tile.originX[pixel], tile.originY[pixel], tile.originZ[pixel]);
+    const glm::vec3 direction(
+      tile.directionX[pixel], tile.directionY[pixel], tile.directionZ[pixel]);
+    const LiftedRay lifted = liftedRay(picture.light(),
+      { receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] }, origin, direction,
+      curve.normal, curve.height + receivers.offset[i]);
+    const OwnSurface own =
+      this->ownSurface(picture.occluders(), receivers.surface[i], curve, lifted.leaves);
+    EmbreeContext context;
+    context.own = &own;
+    RTCRay ray{ origin.x, origin.y, origin.z, shadowRayNear, direction.x, direction.y, direction.z,
+      0.0f, picture.rayFar(), 0xffffffffu, 0, 0 };
+    occlude(this->scene.get(), context, ray);
+    darken(tile, pixel,
+      ray.tfar < 0.0f || this->meets(own, origin, lifted.origin - origin, 1.0f) ||
+        this->meets(own, lifted.origin, lifted.direction, picture.rayFar()));
+  }
+  return count;
+}
+
+//------------------------------------------------------------------------------
 template <typename Packet>
 std::size_t EmbreeTracer::Impl::trace(const TracedPicture& picture) const
 {
   return picture.visitTiles(picture.allSamples(),
     [&](TracedTile& tile)
-    { return TileTracer<Packet>(this->scene.get(), picture.rayFar()).trace(tile); });
+    {
+      const std::size_t turned = this->traceTurned(picture, tile);
+      return turned + TileTracer<Packet>(this->scene.get(), picture.rayFar()).trace(tile);
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -780,13 +926,7 @@ std::optional<CasterHits::Hit> EmbreeTracer::nearest(
   {
     return std::nullopt;
   }
-  RTCRayHit query{};
-  query.ray = { origin.x, origin.y, origin.z, after, direction.x, direction.y, direction.z, 0.0f,
-    until, 0xffffffffu, 0, 0 };
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  EmbreeContext context;
-  intersect(impl.scene.get(), context, query);
+  const RTCRayHit query = impl.nearest(origin, direction, after, until);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
   {
     return std::nullopt;

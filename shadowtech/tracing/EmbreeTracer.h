@@ -16,9 +16,7 @@ namespace gnomon
 /// Traces shadow rays against the casting surfaces: the truth, and the one entry point of all
 /// tracing. Embree traces in robust mode, with one acceleration structure per surface. All
 /// techniques of a frame share one tracer, so their answers agree to the last bit.
-class EmbreeTracer
-  : public FreeSegments
-  , public CasterHits
+class EmbreeTracer : public CasterHits
 {
 public:
   /// @throws std::runtime_error if Embree cannot be started
@@ -85,8 +83,11 @@ public:
     return rays;
   }
 
-  void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
-    std::uint8_t* free) const override;
+  /// Test segments between points. Called from several threads at once.
+  /// @param from, to centred
+  /// @param free set to 1 for each pair without a caster in between, else 0
+  void areFree(
+    std::size_t count, const PointArrays& from, const PointArrays& to, std::uint8_t* free) const;
 
   /// Test which rays are blocked; each ray has the same answer as in a picture (trace()). Called
   /// from several threads at once.

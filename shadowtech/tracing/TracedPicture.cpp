@@ -145,7 +145,8 @@ TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluder
   const Receivers& receivers, const ReceiverDecider* decider, std::vector<float>& visibility,
   std::vector<std::uint8_t>* classes, TracedTiles* tiles, const TileVerdicts* verdicts,
   const LightSamples* samples, const SampleChooser* chooser)
-  : receivers_(receivers)
+  : occluders_(occluders)
+  , receivers_(receivers)
   , decider_(decider)
   , visibility_(visibility)
   , classes_(classes)
@@ -253,6 +254,7 @@ void TracedPicture::prepare(
   const auto columns = static_cast<std::size_t>(receivers.width);
   const auto rows = static_cast<std::size_t>(receivers.height);
   traced.channels = this->channels();
+  traced.receivers = &receivers;
   traced.columnsOfPicture = this->receivers_.width();
   traced.number =
     tile.firstRow / TracedTile::rows * tilesAcross(traced.columnsOfPicture, TracedTile::columns) +
@@ -292,6 +294,34 @@ void TracedPicture::prepare(
 }
 
 //------------------------------------------------------------------------------
+/// Find the pixels whose triangle is turned away from the light, while the curve above is not.
+/// They need their rays.
+template <typename MakeRay>
+void TracedPicture::findTurned(const MakeRay& makeRay, TracedTile& traced) const
+{
+  const ReceiverPixels& receivers = *traced.receivers;
+  const auto columns = static_cast<std::size_t>(receivers.width);
+  for (std::size_t i = 0; i < receivers.curves.size(); ++i)
+  {
+    const std::size_t pixel = i / columns * TracedTile::columns + i % columns;
+    if (receivers.curved[i] != 0 && this->receives_[receivers.surface[i] + 1u] != 0 &&
+      traced.classes[pixel] == static_cast<std::uint8_t>(TracedClass::Unreached) &&
+      makeRay({ receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] },
+        receivers.curves[i].normal, receivers.offset[i])
+        .traced)
+    {
+      traced.turned.push_back({ pixel, i });
+      traced.needed[pixel] = 1;
+      traced.classes[pixel] = static_cast<std::uint8_t>(TracedClass::Traced);
+      for (std::size_t channel = 0; channel < traced.channels; ++channel)
+      {
+        traced.visibility[channel][pixel] = this->lit_[channel];
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 /// Copy a tile into the picture.
 void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) const
 {
@@ -322,11 +352,21 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
   wantAll(traced, static_cast<std::size_t>(this->samples_->count()), rays);
   if (this->chooser_)
   {
+    // It knows no rays that pass through their own surface.
+    const auto setTurned = [&](int needed)
+    {
+      for (const TurnedPixel& turned : traced.turned)
+      {
+        traced.needed[turned.pixel] = needed;
+      }
+    };
+    setTurned(0);
     this->chooser_->choose(
       traced,
       [&](std::size_t pixel, const LightSamples::Coordinates& directions)
       { area.directionsOf(pixel, directions); },
       rays, samples.first > 0);
+    setTurned(1);
   }
   for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
   {
@@ -406,6 +446,7 @@ std::size_t TracedPicture::visitTiles(
           }
           TracedTile traced; // 56 KB, uninitialised on purpose
           this->prepare(tile, makeRay, traced);
+          this->findTurned(makeRay, traced);
           if (!this->samples_)
           {
             traced.samplesOfRay[0].fill(1.0f);

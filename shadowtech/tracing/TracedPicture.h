@@ -33,6 +33,13 @@ enum class TracedClass : std::uint8_t
 /// Return the names and colours of the TracedClass values.
 std::vector<PixelClass> classesOfTracing();
 
+/// A pixel whose triangle is turned away from the light, while the curve above it is not.
+struct TurnedPixel
+{
+  std::size_t pixel;    ///< of the tile
+  std::size_t receiver; ///< of the tile's receivers
+};
+
 /// A tile of the picture: the pixels that need their shadow ray, and their visibility if it is not
 /// blocked.
 struct alignas(64) TracedTile
@@ -55,7 +62,9 @@ struct alignas(64) TracedTile
   std::array<Plane<float>, 3> visibility;
   std::array<Plane<float>, 3> samplesOfRay;
   ///@}
-  Plane<std::uint8_t> classes; ///< TracedClass
+  Plane<std::uint8_t> classes;     ///< TracedClass
+  const ReceiverPixels* receivers; ///< of the tile
+  std::vector<TurnedPixel> turned; ///< needed ones
 
   std::size_t channels;         ///< of the visibility: 1 or 3
   std::size_t number;           ///< index among the picture's tiles, row by row
@@ -101,6 +110,8 @@ public:
   std::size_t columns() const { return this->receivers_.width(); }
   /// Return the far end of the rays, in lengths of their direction.
   float rayFar() const;
+  const ShadowRayLight& light() const { return this->light_; }
+  const Occluders& occluders() const { return this->occluders_; }
 
   /// Return the number of rays of a pixel that has any.
   int samples() const { return this->samples_ ? this->samples_->count() : 1; }
@@ -130,6 +141,8 @@ private:
   void fillDarkTiles() const;
   template <typename MakeRay>
   void prepare(const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const;
+  template <typename MakeRay>
+  void findTurned(const MakeRay& makeRay, TracedTile& traced) const;
   std::size_t visitSamples(const SampleRange& samples, const ReceiverTile& tile, TracedTile& traced,
     const std::function<std::size_t(TracedTile&)>& trace) const;
   void keep(const ReceiverTile& tile, const TracedTile& traced) const;
@@ -137,6 +150,7 @@ private:
   void scale(std::size_t pixel, const glm::vec3& all) const;
   bool isKept(std::size_t tile) const { return this->tiles_ && this->tiles_->kept()[tile] != 0; }
 
+  const Occluders& occluders_;
   const Receivers& receivers_;
   const ReceiverDecider* decider_;
   std::vector<float>& visibility_;

@@ -211,14 +211,10 @@ void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
 //------------------------------------------------------------------------------
 void TracedTiles::note(const ReceiverTile& tile)
 {
-  const ReceiverPixels& receivers = tile.receivers;
   const std::size_t number = tile.firstRow / ReceiverTile::mostRows * this->tilesAcross_ +
     tile.firstColumn / ReceiverTile::mostColumns;
-  const bool isBlocked = std::find(receivers.lifted.begin(), receivers.lifted.end(),
-                           ReceiverPixels::isBlocked) != receivers.lifted.end();
-  this->boxes_[number] = isBlocked ? everything()
-                                   : boxOf(receivers, 0, static_cast<std::size_t>(receivers.width),
-                                       static_cast<std::size_t>(receivers.height));
+  this->boxes_[number] = boxOf(tile.receivers, 0, static_cast<std::size_t>(tile.receivers.width),
+    static_cast<std::size_t>(tile.receivers.height));
 }
 
 //------------------------------------------------------------------------------

@@ -78,9 +78,7 @@ private:
   std::uint64_t topologyVersion_ = 0;
   glm::dvec3 centreWorld_{ 0.0 };
   std::vector<Place> places_; ///< by surface
-  /// By tile, the box around its receivers and the starts of their rays. It is infinite if these
-  /// are unknown, or if a receiver may start elsewhere once something moves
-  /// (ReceiverPixels::isBlocked).
+  /// By tile, the box around its receivers and the starts of their rays; infinite if unknown.
   std::vector<Bounds> boxes_;
   std::vector<std::uint8_t> kept_;
 };

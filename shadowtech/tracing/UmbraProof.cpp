@@ -277,6 +277,7 @@ bool UmbraProof::isBlockedBy(std::uint32_t first) const
       this->isBetween(triangle);
   };
 
+  const Surface& surface = surfaceOf(this->occluders_, first);
   Triangle triangle(this->occluders_, first);
   const glm::dvec3 direction =
     this->ends_.isDirectional ? this->ends_.middle : this->ends_.middle - this->middle_;
@@ -303,7 +304,8 @@ bool UmbraProof::isBlockedBy(std::uint32_t first) const
     const auto growTo = [&](std::uint32_t number)
     {
       Triangle next(this->occluders_, number);
-      if (!next.beginWith(edge.to, edge.from) || !mayBlock(next, number))
+      if (&surfaceOf(this->occluders_, number) != &surface || !next.beginWith(edge.to, edge.from) ||
+        !mayBlock(next, number))
       {
         return false;
       }

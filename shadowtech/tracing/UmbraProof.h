@@ -43,7 +43,8 @@ struct RayEnds
 ///   positive for all rays if it exceeds rounding for the rays between corners. The same holds for
 ///   the distances to the triangle's plane, from which t follows.
 ///
-/// A blocker is one triangle, or n triangles joined along n - 1 edges that they share bit by bit.
+/// A blocker is one triangle, or n triangles of a surface joined along n - 1 edges that they share
+/// bit by bit.
 /// If all rays pass all other edges on their left, each ray hits one of the triangles. As F(B, A)
 /// rounds to -F(A, B), a ray passes a joint on the right for at most one of its two triangles. So
 /// one triangle remains that the ray passes nowhere on the right. A blocker need be neither flat

@@ -167,14 +167,14 @@ using SmoothTerminatorsTest = PassTest;
 
 } // namespace
 
-TEST_F(SmoothTerminatorsTest, stepsOfVtksSphereAreAThird)
+TEST_F(SmoothTerminatorsTest, vtksSphereHasNoSteps)
 {
   SphereScene scene;
   const Steps steps = meanSteps(scene, 100);
   RecordProperty("flat", std::to_string(steps.flat));
   RecordProperty("smooth", std::to_string(steps.smooth));
   EXPECT_GT(steps.flat, 30.0);
-  EXPECT_LE(steps.smooth, steps.flat / 3.0) << steps.flat;
+  EXPECT_EQ(steps.smooth, 0.0) << steps.flat;
 }
 
 // Nothing blocks a ball's light, from any direction, and its cone is VTK's.
@@ -309,7 +309,7 @@ TEST_F(SmoothTerminatorsTest, followNormalsThatChangeAlone)
   const glm::dvec3 towards = glm::normalize(glm::dvec3(1.0, 0.4, 0.3));
   scene.pass->KeepVisibilityOn();
   scene.underSun(towards);
-  const std::vector<float> before = scene.pass->GetVisibility().normalX;
+  const std::vector<float> before = scene.pass->GetVisibility().visibility[0];
   vtkDataArray* normals = data->GetPointData()->GetNormals();
   for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
   {
@@ -320,7 +320,7 @@ TEST_F(SmoothTerminatorsTest, followNormalsThatChangeAlone)
   normals->Modified();
   data->Modified();
   scene.render();
-  EXPECT_NE(scene.pass->GetVisibility().normalX, before);
+  EXPECT_NE(scene.pass->GetVisibility().visibility[0], before);
 }
 
 // All exact techniques trace from the same points. Visibility is not kept here: it would compute
@@ -329,6 +329,7 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
 {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  int differing = 0;
   for (int i = 0; i < 12; ++i)
   {
     PassScene scene(200, 160);
@@ -353,7 +354,7 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
     const Picture flat = scene.render();
     scene.pass->SmoothTerminatorsOn();
     const Picture truth = scene.render();
-    EXPECT_GT(differingPixels(flat, truth), 0u) << i;
+    differing += differingPixels(flat, truth) > 0 ? 1 : 0;
     const std::vector<const char*> others = isArea
       ? std::vector<const char*>{ "penumbra" }
       : std::vector<const char*>{ "crsm", "crsma", "silhouette" };
@@ -363,6 +364,7 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
       EXPECT_EQ(differingPixels(scene.render(), truth), 0u) << i << ", " << technique;
     }
   }
+  EXPECT_GE(differing, 10);
 }
 
 // A square whose normals lean to one side, lit from below. The map's only layer is the receivers'

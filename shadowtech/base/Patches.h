@@ -1,0 +1,38 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+namespace gnomon
+{
+
+struct Occluders;
+struct Surface;
+
+/// A surface's parts that shared edges connect, and its normals that imply no curve. Found when
+/// first asked for, by several threads at once. For instances all of this is in source coordinates.
+class Patches
+{
+public:
+  /// Return a number for each of the surface's triangles, the same for connected ones. Edges are
+  /// shared if their ends have the same coordinates, so the seam of a texture connects, too.
+  const std::vector<std::uint32_t>& numbers(const Occluders& occluders, const Surface& surface);
+
+  /// True if a triangle has a corner whose normal is too far off (leastCosineOfCurve) a facet that
+  /// shares it. A normal that is averaged over an edge of more than 84 degrees is.
+  /// @param triangle of the snapshot
+  bool isAtCrease(const Occluders& occluders, const Surface& surface, std::uint32_t triangle);
+
+  std::size_t bytes() const;
+
+private:
+  std::mutex mutex_;
+  std::atomic<std::uint64_t> positionsVersion_{ 0xffffffffffffffff }; ///< of creased_
+  std::vector<std::uint32_t> numbers_;
+  std::vector<std::uint8_t> creased_; ///< by vertex: 1 or 0
+};
+
+} // namespace gnomon
