@@ -32,6 +32,7 @@
 #include "GnomonLightsModule.h" // For export macro
 #include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDoubleArray;
@@ -151,7 +152,7 @@ public:
    * @return false, with an error and unchanged arrays, for an invalid step or null `directions`
    */
   bool MakeDayPath(double stepMinutes, vtkDoubleArray* directions, vtkDoubleArray* hours,
-    vtkDoubleArray* times = nullptr);
+    vtkDoubleArray* times = nullptr) VTK_EXPECTS(directions != nullptr);
 
   /**
    * Fill arrays with the suns of the date's whole year, as MakeDayPath() does for a day.
@@ -162,7 +163,7 @@ public:
    * @return false as MakeDayPath()
    */
   bool MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
-    vtkDoubleArray* hours, vtkDoubleArray* times = nullptr);
+    vtkDoubleArray* hours, vtkDoubleArray* times = nullptr) VTK_EXPECTS(directions != nullptr);
 
 protected:
   vtkGnomonSun() = default;

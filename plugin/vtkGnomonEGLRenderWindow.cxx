@@ -6,11 +6,13 @@
 
 #include "shadowtech/base/Gl.h"
 
+#include "vtkFloatArray.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
 #include "vtkRendererCollection.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -239,8 +241,13 @@ int* vtkGnomonEGLRenderWindow::GetScreenSize()
 }
 
 //------------------------------------------------------------------------------
-bool vtkGnomonEGLRenderWindow::HasFrame()
+bool vtkGnomonEGLRenderWindow::HasFrame(const void* pixels)
 {
+  if (!pixels)
+  {
+    vtkErrorMacro("There is no array to read pixels into or write them from.");
+    return false;
+  }
   if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
   {
     vtkErrorMacro("There are no pixels to read or write before the first Render().");
@@ -289,35 +296,68 @@ int vtkGnomonEGLRenderWindow::GetDepthBufferSize()
 int vtkGnomonEGLRenderWindow::ReadPixels(
   const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right)
 {
-  return this->HasFrame() ? this->Superclass::ReadPixels(rect, front, glFormat, glType, data, right)
-                          : VTK_ERROR;
+  return this->HasFrame(data)
+    ? this->Superclass::ReadPixels(rect, front, glFormat, glType, data, right)
+    : VTK_ERROR;
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, float* z)
 {
-  return this->HasFrame() ? this->Superclass::GetZbufferData(x1, y1, x2, y2, z) : VTK_ERROR;
+  return this->HasFrame(z) ? this->Superclass::GetZbufferData(x1, y1, x2, y2, z) : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
+{
+  return this->HasFrame(buffer) ? this->Superclass::GetZbufferData(x1, y1, x2, y2, buffer)
+                                : VTK_ERROR;
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetZbufferData(int x1, int y1, int x2, int y2, float* buffer)
 {
-  return this->HasFrame() ? this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer) : VTK_ERROR;
+  return this->HasFrame(buffer) ? this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer)
+                                : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
+{
+  return this->HasFrame(buffer) ? this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer)
+                                : VTK_ERROR;
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetPixelData(
   int x1, int y1, int x2, int y2, unsigned char* data, int front, int right)
 {
-  return this->HasFrame() ? this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right)
-                          : VTK_ERROR;
+  return this->HasFrame(data) ? this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right)
+                              : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetPixelData(
+  int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front, int right)
+{
+  return this->HasFrame(data) ? this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right)
+                              : VTK_ERROR;
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetRGBAPixelData(
   int x1, int y1, int x2, int y2, float* data, int front, int blend, int right)
 {
-  return this->HasFrame()
+  return this->HasFrame(data)
+    ? this->Superclass::SetRGBAPixelData(x1, y1, x2, y2, data, front, blend, right)
+    : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetRGBAPixelData(
+  int x1, int y1, int x2, int y2, vtkFloatArray* data, int front, int blend, int right)
+{
+  return this->HasFrame(data)
     ? this->Superclass::SetRGBAPixelData(x1, y1, x2, y2, data, front, blend, right)
     : VTK_ERROR;
 }
@@ -326,7 +366,16 @@ int vtkGnomonEGLRenderWindow::SetRGBAPixelData(
 int vtkGnomonEGLRenderWindow::SetRGBACharPixelData(
   int x1, int y1, int x2, int y2, unsigned char* data, int front, int blend, int right)
 {
-  return this->HasFrame()
+  return this->HasFrame(data)
+    ? this->Superclass::SetRGBACharPixelData(x1, y1, x2, y2, data, front, blend, right)
+    : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetRGBACharPixelData(
+  int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front, int blend, int right)
+{
+  return this->HasFrame(data)
     ? this->Superclass::SetRGBACharPixelData(x1, y1, x2, y2, data, front, blend, right)
     : VTK_ERROR;
 }

@@ -28,6 +28,7 @@
 
 #include "GnomonPluginModule.h" // For export macro
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
@@ -109,23 +110,29 @@ public:
   void* GetGenericContext() override;
   ///@}
 
-  using vtkOpenGLRenderWindow::GetZbufferData;
-  using vtkOpenGLRenderWindow::SetPixelData;
-  using vtkOpenGLRenderWindow::SetRGBACharPixelData;
-  using vtkOpenGLRenderWindow::SetRGBAPixelData;
-  using vtkOpenGLRenderWindow::SetZbufferData;
   ///@{
   /**
-   * Read and write pixels. An error before the first Render().
+   * Read and write pixels. An error before the first Render(), and without an array.
    */
+  using vtkOpenGLRenderWindow::GetZbufferData;
   int GetZbufferData(int x1, int y1, int x2, int y2, float* z) override;
+  int GetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
+    VTK_EXPECTS(buffer != nullptr) override;
   int SetZbufferData(int x1, int y1, int x2, int y2, float* buffer) override;
+  int SetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
+    VTK_EXPECTS(buffer != nullptr) override;
   int SetPixelData(
     int x1, int y1, int x2, int y2, unsigned char* data, int front, int right = 0) override;
+  int SetPixelData(int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front,
+    int right = 0) VTK_EXPECTS(data != nullptr) override;
   int SetRGBAPixelData(
     int x1, int y1, int x2, int y2, float* data, int front, int blend = 0, int right = 0) override;
+  int SetRGBAPixelData(int x1, int y1, int x2, int y2, vtkFloatArray* data, int front,
+    int blend = 0, int right = 0) VTK_EXPECTS(data != nullptr) override;
   int SetRGBACharPixelData(int x1, int y1, int x2, int y2, unsigned char* data, int front,
     int blend = 0, int right = 0) override;
+  int SetRGBACharPixelData(int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front,
+    int blend = 0, int right = 0) VTK_EXPECTS(data != nullptr) override;
   ///@}
 
   ///@{
@@ -162,7 +169,7 @@ private:
   vtkGnomonEGLRenderWindow(const vtkGnomonEGLRenderWindow&) = delete;
   void operator=(const vtkGnomonEGLRenderWindow&) = delete;
 
-  bool HasFrame();
+  bool HasFrame(const void* pixels);
   void TellOfContext(const std::string& error);
 
   std::unique_ptr<gnomon::EglContext> Context;
