@@ -6,7 +6,10 @@
 
 #include "shadowtech/base/Gl.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkFloatArray.h"
+#include "vtkGenericRenderWindowInteractor.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLState.h"
@@ -20,6 +23,25 @@
 #include <string>
 
 vtkStandardNewMacro(vtkGnomonEGLRenderWindow);
+
+namespace
+{
+
+/// X's interactors take a window's display for X's, and crash. An interactor that believes to be
+/// initialized, and done, does not ask for it. Naming its members through a subclass gives access.
+struct XInteractorAccess : vtkRenderWindowInteractor
+{
+  static void keepFromDisplay(vtkRenderWindowInteractor* interactor)
+  {
+    interactor->*(&XInteractorAccess::Initialized) = 1;
+    interactor->*(&XInteractorAccess::Enabled) = 1;
+    interactor->*(&XInteractorAccess::Done) = true;
+    vtkNew<vtkCallbackCommand> nothing;
+    interactor->AddObserver(vtkCommand::StartEvent, nothing); // instead of X's loop of events
+  }
+};
+
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkGnomonEGLRenderWindow::vtkGnomonEGLRenderWindow()
@@ -127,8 +149,7 @@ void vtkGnomonEGLRenderWindow::WindowRemap()
 //------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::Start()
 {
-  this->Initialize();
-  if (this->Initialized)
+  if (this->HasContext())
   {
     this->Superclass::Start();
   }
@@ -137,8 +158,7 @@ void vtkGnomonEGLRenderWindow::Start()
 //------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::Render()
 {
-  this->Initialize();
-  if (this->Initialized)
+  if (this->HasContext())
   {
     this->Superclass::Render();
   }
@@ -149,9 +169,24 @@ void vtkGnomonEGLRenderWindow::MakeCurrent()
 {
   if (this->Context && !this->Context->makeCurrent())
   {
-    this->TellOfContext(
-      std::string("The context cannot be made current (") + gnomon::EglContext::lastError() + ").");
+    this->TellOfContext("The window's context cannot be made current on this thread (" +
+      gnomon::EglContext::lastError() +
+      "). If another thread used the window, call ReleaseCurrent() there first.");
   }
+}
+
+//------------------------------------------------------------------------------
+/// True if the context is ready and current, else the reason is reported.
+bool vtkGnomonEGLRenderWindow::HasContext()
+{
+  this->Initialize();
+  this->MakeCurrent();
+  const bool has = this->Initialized && this->IsCurrent();
+  if (has)
+  {
+    this->TellOfContext("");
+  }
+  return has;
 }
 
 //------------------------------------------------------------------------------
@@ -215,8 +250,7 @@ void vtkGnomonEGLRenderWindow::OpenGLInitContext()
 //------------------------------------------------------------------------------
 const char* vtkGnomonEGLRenderWindow::ReportCapabilities()
 {
-  this->Initialize();
-  return this->Initialized ? this->Superclass::ReportCapabilities() : "";
+  return this->HasContext() ? this->Superclass::ReportCapabilities() : "";
 }
 
 //------------------------------------------------------------------------------
@@ -229,6 +263,26 @@ void* vtkGnomonEGLRenderWindow::GetGenericDisplayId()
 void* vtkGnomonEGLRenderWindow::GetGenericContext()
 {
   return this->Context ? this->Context->context() : nullptr;
+}
+
+//------------------------------------------------------------------------------
+vtkRenderWindowInteractor* vtkGnomonEGLRenderWindow::MakeRenderWindowInteractor()
+{
+  this->SetInteractor(vtkNew<vtkGenericRenderWindowInteractor>());
+  return this->Interactor;
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::SetInteractor(vtkRenderWindowInteractor* interactor)
+{
+  this->Superclass::SetInteractor(interactor);
+  if (interactor && interactor->IsA("vtkXRenderWindowInteractor") && !interactor->GetInitialized())
+  {
+    XInteractorAccess::keepFromDisplay(interactor);
+    vtkErrorMacro("A window without a display sends a "
+      << interactor->GetClassName()
+      << " no events: Start() returns at once. Use a vtkGenericRenderWindowInteractor.");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -253,13 +307,13 @@ bool vtkGnomonEGLRenderWindow::HasFrame(const void* pixels)
     vtkErrorMacro("There are no pixels to read or write before the first Render().");
     return false;
   }
-  return true;
+  return this->HasContext();
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 {
-  if (!rgba || !this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
+  if (!rgba || !this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
   {
     // A context without a surface has no other buffers, and newer VTK warns when it asks for them.
     if (rgba)
@@ -268,7 +322,6 @@ int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
     }
     return 0;
   }
-  this->MakeCurrent();
   this->GetState()->PushFramebufferBindings();
   this->RenderFramebuffer->Bind();
   const int sum = this->Superclass::GetColorBufferSizes(rgba);
@@ -280,11 +333,10 @@ int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 int vtkGnomonEGLRenderWindow::GetDepthBufferSize()
 {
   constexpr int usual = 24;
-  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
+  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
   {
     return usual;
   }
-  this->MakeCurrent();
   this->GetState()->PushFramebufferBindings();
   this->RenderFramebuffer->Bind();
   const int bits = this->Superclass::GetDepthBufferSize();

@@ -19,8 +19,9 @@
  *
  * Multisampling is off by default (SetMultiSamples). If no context can be made, Initialize() and
  * everything that needs one is an error (vtkErrorMacro), said once, that says what was tried, and
- * nothing is drawn. The window's calls belong on one thread; on a thread where another window
- * system's context (GLX) is current, release that one first.
+ * nothing is drawn. The window's calls belong on one thread. Another thread may use the window
+ * after ReleaseCurrent() on the first; before that, its calls are one error and draw nothing. On a
+ * thread where another window system's context (GLX) is current, release that one first.
  */
 
 #ifndef vtkGnomonEGLRenderWindow_h
@@ -110,11 +111,11 @@ public:
   void* GetGenericContext() override;
   ///@}
 
+  using vtkOpenGLRenderWindow::GetZbufferData;
   ///@{
   /**
    * Read and write pixels. An error before the first Render(), and without an array.
    */
-  using vtkOpenGLRenderWindow::GetZbufferData;
   int GetZbufferData(int x1, int y1, int x2, int y2, float* z) override;
   int GetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
     VTK_EXPECTS(buffer != nullptr) override;
@@ -147,6 +148,16 @@ public:
 
   ///@{
   /**
+   * The interactor: a vtkGenericRenderWindowInteractor, which gets the events that the program
+   * sends it. X's interactor is an error; it gets no events, draws, and its Start() returns at
+   * once.
+   */
+  vtkRenderWindowInteractor* MakeRenderWindowInteractor() override;
+  void SetInteractor(vtkRenderWindowInteractor* interactor) override;
+  ///@}
+
+  ///@{
+  /**
    * What a window without a screen answers.
    */
   int* GetScreenSize() override;
@@ -169,6 +180,7 @@ private:
   vtkGnomonEGLRenderWindow(const vtkGnomonEGLRenderWindow&) = delete;
   void operator=(const vtkGnomonEGLRenderWindow&) = delete;
 
+  bool HasContext();
   bool HasFrame(const void* pixels);
   void TellOfContext(const std::string& error);
 

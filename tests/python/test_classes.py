@@ -31,6 +31,7 @@ GETTERS = {
 # Objects that may be None: it resets them, asks for nothing, or has nothing to release.
 MAY_BE_NONE = {
     "vtkGnomonAreaLight.SetTexture(_arg)",
+    "vtkGnomonEGLRenderWindow.SetInteractor(interactor)",
     "vtkGnomonLightKeys.SetSettings(settings)",
     "vtkGnomonLightSamplingPass.SetDelegatePass(pass_)",
     "vtkGnomonLightSamplingPass.ReleaseGraphicsResources(window)",
