@@ -2,6 +2,8 @@
 
 #include "shadowtech/tracing/Embree.h"
 
+#include <atomic>
+#include <stdexcept>
 #include <utility>
 
 namespace gnomon
@@ -43,5 +45,20 @@ using EmbreeDevice = EmbreeHandle<RTCDevice, rtcReleaseDevice>;
 using EmbreeScene = EmbreeHandle<RTCScene, rtcReleaseScene>;
 using EmbreeGeometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
 using EmbreeBvh = EmbreeHandle<RTCBVH, rtcReleaseBVH>;
+
+/// Return a new device. A start that fails for want of memory leaves Embree locked, and the release
+/// of a later device would wait for ever. So Embree is not asked again after a failure.
+/// @throws std::runtime_error if Embree cannot be started
+inline EmbreeDevice startEmbree()
+{
+  static std::atomic<bool> hasFailed{ false };
+  EmbreeDevice device(hasFailed ? nullptr : rtcNewDevice(nullptr));
+  if (!device.get())
+  {
+    hasFailed = true;
+    throw std::runtime_error("Embree cannot be started in this process");
+  }
+  return device;
+}
 
 } // namespace gnomon

@@ -460,12 +460,8 @@ struct EmbreeTracer::Impl
 };
 
 EmbreeTracer::Impl::Impl()
-  : device(rtcNewDevice(nullptr))
+  : device(startEmbree())
 {
-  if (!this->device.get())
-  {
-    throw std::runtime_error("Embree cannot be started on this machine");
-  }
   rtcSetDeviceMemoryMonitorFunction(
     this->device.get(),
     [](void* user, ssize_t change, bool)
