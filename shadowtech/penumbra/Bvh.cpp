@@ -84,6 +84,7 @@ Bvh buildBvh(
     [&](std::size_t i)
     {
       const Bounds bounds = boundsOf(records[i]);
+      checkEmbreeRange(bounds);
       const glm::vec3 lower(bounds.lower);
       const glm::vec3 upper(bounds.upper);
       primitives[i] = { lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lights/Bounds.h"
 #include "shadowtech/tracing/Embree.h"
 
 #include <atomic>
@@ -59,6 +60,18 @@ inline EmbreeDevice startEmbree()
     throw std::runtime_error("Embree cannot be started in this process");
   }
   return device;
+}
+
+/// Let nothing pass that Embree ignores (triangles) or dies of (boxes of its builder).
+/// @param bounds of what casts
+/// @throws std::runtime_error if it is beyond the range of Embree
+inline void checkEmbreeRange(const Bounds& bounds)
+{
+  constexpr double largest = 1.8e18; // its square is a float
+  if (!isWithin(bounds, largest))
+  {
+    throw std::runtime_error("casters lie more than 1.8e18 units off the scene's centre");
+  }
 }
 
 } // namespace gnomon

@@ -677,6 +677,10 @@ EmbreeTracer::Update EmbreeTracer::update(const Occluders& occluders)
   {
     return {};
   }
+  if (!occluders.castersCentred.empty())
+  {
+    checkEmbreeRange(occluders.castersCentred);
+  }
   Update update;
   std::unordered_map<std::uint64_t, Caster> casters;
   for (const Surface& surface : occluders.surfaces)
