@@ -48,6 +48,21 @@ struct Bounds
   }
 };
 
+/// The largest magnitude of a coordinate of the world. Larger ones, and those that are not finite,
+/// mark missing data, as the largest float does in rasters.
+constexpr double largestOfWorld = 0x1p100;
+
+/// True if every coordinate is a number of at most this magnitude.
+inline bool isWithin(const glm::dvec3& point, double largest)
+{
+  return glm::all(glm::lessThanEqual(glm::abs(point), glm::dvec3(largest))); // false for NaN
+}
+/// True if a box that is not empty is.
+inline bool isWithin(const Bounds& bounds, double largest)
+{
+  return isWithin(bounds.lower, largest) && isWithin(bounds.upper, largest);
+}
+
 /// Return the largest magnitude of a coordinate in a box; minus infinity in an empty one.
 inline double largestCoordinate(const Bounds& bounds)
 {

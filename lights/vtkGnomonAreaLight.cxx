@@ -79,6 +79,11 @@ void vtkGnomonAreaLight::CopyArea(vtkGnomonAreaLight* light)
 //------------------------------------------------------------------------------
 void vtkGnomonAreaLight::DeepCopy(vtkLight* light)
 {
+  if (!light)
+  {
+    vtkErrorMacro("There is no light to copy.");
+    return;
+  }
   auto* const area = vtkGnomonAreaLight::SafeDownCast(light);
   if (area)
   {

@@ -49,6 +49,7 @@
 #include "vtkImageData.h"
 #include "vtkLight.h"
 #include "vtkSmartPointer.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 class GNOMONLIGHTS_EXPORT vtkGnomonAreaLight : public vtkLight
 {
@@ -141,7 +142,7 @@ public:
    * Copy all parameters. From a light of another class, copy the parameters of vtkLight. The
    * transform matrix and the information are copied, not shared; the texture is shared.
    */
-  void DeepCopy(vtkLight* light);
+  void DeepCopy(vtkLight* light) VTK_EXPECTS(light != nullptr);
 
 protected:
   vtkGnomonAreaLight();

@@ -10,6 +10,7 @@
 #include "vtkInformationStringVectorKey.h"
 #include "vtkLight.h"
 #include "vtkObjectFactory.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,28 +24,45 @@ vtkInformationKeyMacro(vtkGnomonLightKeys, SETTINGS, StringVector);
 vtkInformationKeyMacro(vtkGnomonLightKeys, BOX, DoubleVector);
 vtkInformationKeyRestrictedMacro(vtkGnomonLightKeys, OBJECT, ObjectBase, "vtkGnomonShadowSettings");
 
+namespace
+{
+
+/// Return a light's keys. Without a light, report an error and return empty keys of no light.
+vtkSmartPointer<vtkInformation> keysOf(vtkLight* light)
+{
+  if (light)
+  {
+    return light->GetInformation();
+  }
+  vtkErrorWithObjectMacro(light, "vtkGnomonLightKeys needs a light, not null.");
+  return vtkSmartPointer<vtkInformation>::New();
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetSettings(vtkLight* light, vtkGnomonShadowSettings* settings)
 {
-  light->GetInformation()->Set(OBJECT(), settings);
+  keysOf(light)->Set(OBJECT(), settings);
 }
 
 //------------------------------------------------------------------------------
 vtkGnomonShadowSettings* vtkGnomonLightKeys::GetSettings(vtkLight* light)
 {
-  return vtkGnomonShadowSettings::SafeDownCast(light->GetInformation()->Get(OBJECT()));
+  return vtkGnomonShadowSettings::SafeDownCast(keysOf(light)->Get(OBJECT()));
 }
 
 //------------------------------------------------------------------------------
 bool vtkGnomonLightKeys::GetCasts(vtkLight* light)
 {
-  return !light->GetInformation()->Has(CASTS()) || light->GetInformation()->Get(CASTS()) != 0;
+  const auto keys = keysOf(light);
+  return !keys->Has(CASTS()) || keys->Get(CASTS()) != 0;
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetCasts(vtkLight* light, bool casts)
 {
-  light->GetInformation()->Set(CASTS(), casts ? 1 : 0);
+  keysOf(light)->Set(CASTS(), casts ? 1 : 0);
 }
 
 //------------------------------------------------------------------------------
@@ -67,7 +85,7 @@ void vtkGnomonLightKeys::SetSetting(vtkLight* light, const char* name, const cha
                         << setting->expected() << ".");
     return;
   }
-  vtkInformation* keys = light->GetInformation();
+  const auto keys = keysOf(light);
   std::vector<std::string> pairs;
   for (int i = 0; i + 1 < keys->Length(SETTINGS()); i += 2)
   {
@@ -91,7 +109,7 @@ void vtkGnomonLightKeys::SetSetting(vtkLight* light, const char* name, const cha
 //------------------------------------------------------------------------------
 const char* vtkGnomonLightKeys::GetSetting(vtkLight* light, const char* name)
 {
-  vtkInformation* keys = light->GetInformation();
+  const auto keys = keysOf(light);
   for (int i = 0; i + 1 < keys->Length(SETTINGS()); i += 2)
   {
     if (std::string(keys->Get(SETTINGS(), i)) == (name ? name : ""))
@@ -152,13 +170,13 @@ void vtkGnomonLightKeys::SetBox(
     return;
   }
   const double numbers[6] = { width, height, depth, up[0], up[1], up[2] };
-  light->GetInformation()->Set(BOX(), numbers, 6);
+  keysOf(light)->Set(BOX(), numbers, 6);
 }
 
 //------------------------------------------------------------------------------
 bool vtkGnomonLightKeys::GetBox(vtkLight* light, double size[3], double up[3])
 {
-  vtkInformation* keys = light->GetInformation();
+  const auto keys = keysOf(light);
   if (keys->Length(BOX()) != 6)
   {
     return false;
@@ -172,5 +190,5 @@ bool vtkGnomonLightKeys::GetBox(vtkLight* light, double size[3], double up[3])
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::RemoveBox(vtkLight* light)
 {
-  light->GetInformation()->Remove(BOX());
+  keysOf(light)->Remove(BOX());
 }

@@ -26,6 +26,9 @@
  * The limit is part of visibility. So a light without shadows (CASTS 0 or ShadowAttenuation 0) has
  * no limit, and a ShadowAttenuation in between leaves its share of light outside. Props that do not
  * receive shadows (vtkGnomonPropKeys) are lit everywhere.
+ *
+ * A null light is an error (vtkErrorMacro) that changes nothing, and for which getters return the
+ * values of a light without settings. In Python it is a ValueError.
  */
 
 #ifndef vtkGnomonLightKeys_h
@@ -34,6 +37,7 @@
 #include "GnomonLightsModule.h" // For export macro
 #include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 class vtkGnomonShadowSettings;
 VTK_ABI_NAMESPACE_BEGIN
@@ -74,8 +78,9 @@ public:
    * the pass's value applies. An unknown name or an invalid value is an error and changes nothing.
    * GetSetting() returns null for a setting that the light leaves unset.
    */
-  static void SetSetting(vtkLight* light, const char* name, const char* value);
-  static const char* GetSetting(vtkLight* light, const char* name);
+  static void SetSetting(vtkLight* light, const char* name, const char* value)
+    VTK_EXPECTS(light != nullptr);
+  static const char* GetSetting(vtkLight* light, const char* name) VTK_EXPECTS(light != nullptr);
   ///@}
 
   ///@{
@@ -84,16 +89,17 @@ public:
    * apply. SetSetting() overrides them, and they override the pass. Null removes the object.
    * Default: null.
    */
-  static void SetSettings(vtkLight* light, vtkGnomonShadowSettings* settings);
-  static vtkGnomonShadowSettings* GetSettings(vtkLight* light);
+  static void SetSettings(vtkLight* light, vtkGnomonShadowSettings* settings)
+    VTK_EXPECTS(light != nullptr);
+  static vtkGnomonShadowSettings* GetSettings(vtkLight* light) VTK_EXPECTS(light != nullptr);
   ///@}
 
   ///@{
   /**
    * True if the light casts shadows. Default: true.
    */
-  static void SetCasts(vtkLight* light, bool casts);
-  static bool GetCasts(vtkLight* light);
+  static void SetCasts(vtkLight* light, bool casts) VTK_EXPECTS(light != nullptr);
+  static bool GetCasts(vtkLight* light) VTK_EXPECTS(light != nullptr);
   ///@}
 
   ///@{
@@ -102,10 +108,10 @@ public:
    * clamped to [16, 16384]; 0 or less removes the setting. If the light does not set them,
    * GetTechnique returns null and GetMapSize 0.
    */
-  static void SetTechnique(vtkLight* light, const char* technique);
-  static const char* GetTechnique(vtkLight* light);
-  static void SetMapSize(vtkLight* light, int mapSizeTexels);
-  static int GetMapSize(vtkLight* light);
+  static void SetTechnique(vtkLight* light, const char* technique) VTK_EXPECTS(light != nullptr);
+  static const char* GetTechnique(vtkLight* light) VTK_EXPECTS(light != nullptr);
+  static void SetMapSize(vtkLight* light, int mapSizeTexels) VTK_EXPECTS(light != nullptr);
+  static int GetMapSize(vtkLight* light) VTK_EXPECTS(light != nullptr);
   ///@}
 
   ///@{
@@ -121,10 +127,10 @@ public:
    * - `depth`: size along the light, in world units
    * - `up`: the near face's up direction, of any length, in the light's own coordinates
    */
-  static void SetBox(
-    vtkLight* light, double width, double height, double depth, const double up[3]);
-  static bool GetBox(vtkLight* light, double size[3], double up[3]);
-  static void RemoveBox(vtkLight* light);
+  static void SetBox(vtkLight* light, double width, double height, double depth, const double up[3])
+    VTK_EXPECTS(light != nullptr);
+  static bool GetBox(vtkLight* light, double size[3], double up[3]) VTK_EXPECTS(light != nullptr);
+  static void RemoveBox(vtkLight* light) VTK_EXPECTS(light != nullptr);
   ///@}
 
 protected:

@@ -34,6 +34,11 @@ bool isFinite(const glm::dvec3& point)
 /// direction.
 std::optional<glm::dvec3> travelOf(vtkLight* light)
 {
+  if (!light)
+  {
+    vtkErrorWithObjectMacro(light, "vtkGnomonLightPlacement needs a light, not null.");
+    return std::nullopt;
+  }
   const glm::dvec3 arm =
     glm::make_vec3(light->GetFocalPoint()) - glm::make_vec3(light->GetPosition());
   const double length = glm::length(arm);
@@ -127,6 +132,11 @@ void vtkGnomonLightPlacement::ShineOnPoints(vtkLight* light, vtkPoints* points)
 void vtkGnomonLightPlacement::MakeKeyLight(
   vtkLight* light, vtkCamera* camera, const double bounds[6])
 {
+  if (!light || !camera)
+  {
+    vtkErrorWithObjectMacro(light, "A key light needs a light and a camera, not null.");
+    return;
+  }
   constexpr double left = glm::radians(35.0);
   constexpr double above = glm::radians(40.0);
   const glm::dvec3 fromView(

@@ -15,7 +15,8 @@
  * are world coordinates unless the light has a transform matrix or is a headlight or camera light.
  *
  * Invalid input is an error of the light (vtkErrorMacro) and leaves the light unchanged: a number
- * that is not finite, a radius that is not positive, a light whose position is its focal point.
+ * that is not finite, a radius that is not positive, a light whose position is its focal point. A
+ * null object is an error, too, and a ValueError in Python.
  */
 
 #ifndef vtkGnomonLightPlacement_h
@@ -24,6 +25,7 @@
 #include "GnomonLightsModule.h" // For export macro
 #include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkCamera;
@@ -47,7 +49,8 @@ public:
    * @param center centre of the sphere, finite
    * @param radius radius of the sphere, finite, > 0
    */
-  static void ShineOnSphere(vtkLight* light, const double center[3], double radius);
+  static void ShineOnSphere(vtkLight* light, const double center[3], double radius)
+    VTK_EXPECTS(light != nullptr);
 
   /**
    * Make a light shine on the sphere around a box, as ShineOnSphere() does. An empty box is an
@@ -57,14 +60,15 @@ public:
    * @param bounds xmin, xmax, ymin, ymax, zmin, zmax (vtkProp's GetBounds, vtkRenderer's
    * ComputeVisiblePropBounds)
    */
-  static void ShineOnBox(vtkLight* light, const double bounds[6]);
+  static void ShineOnBox(vtkLight* light, const double bounds[6]) VTK_EXPECTS(light != nullptr);
 
   /**
    * Make a light shine on points, as ShineOnSphere() does. The sphere around them is centred on the
    * middle of their bounds, and at most as large as the sphere around the bounds. No points, or one
    * point only, are an error.
    */
-  static void ShineOnPoints(vtkLight* light, vtkPoints* points);
+  static void ShineOnPoints(vtkLight* light, vtkPoints* points) VTK_EXPECTS(light != nullptr)
+    VTK_EXPECTS(points != nullptr);
 
   /**
    * Make a light the key light for a camera: a directional light that shines on a box. It shines
@@ -79,7 +83,8 @@ public:
    * renderer->AddLight(key);
    * @endcode
    */
-  static void MakeKeyLight(vtkLight* light, vtkCamera* camera, const double bounds[6]);
+  static void MakeKeyLight(vtkLight* light, vtkCamera* camera, const double bounds[6])
+    VTK_EXPECTS(light != nullptr) VTK_EXPECTS(camera != nullptr);
 
   ///@{
   /**
@@ -95,8 +100,9 @@ public:
    * vtkLight's SetDirectionAngle takes -pitch and yaw, but moves the focal point to the origin and
    * makes the light directional.
    */
-  static void SetPitchAndYaw(vtkLight* light, double pitchDegrees, double yawDegrees);
-  static void GetPitchAndYaw(vtkLight* light, double degrees[2]);
+  static void SetPitchAndYaw(vtkLight* light, double pitchDegrees, double yawDegrees)
+    VTK_EXPECTS(light != nullptr);
+  static void GetPitchAndYaw(vtkLight* light, double degrees[2]) VTK_EXPECTS(light != nullptr);
   ///@}
 
 protected:

@@ -15,7 +15,7 @@
  * Positions follow the Solar Position Algorithm (Reda and Andreas, Solar Energy 76, 2004; revised
  * 2008), without periodic terms below 2e-6 radians. With the right DeltaT, they are within 0.001
  * degrees of the full theory (VSOP87) in the years 1583 to 3000. With the default DeltaT, they are
- * within 0.002 degrees in 1900 to 2100. They are positions of the centre of the sun's disc, for an
+ * within 0.003 degrees in 1900 to 2100. They are positions of the centre of the sun's disc, for an
  * observer on the ground.
  *
  * The scene's axes are given by North and Up. By default +y is north, +z is up and +x is east.
@@ -32,6 +32,7 @@
 #include "GnomonLightsModule.h" // For export macro
 #include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDoubleArray;
@@ -151,7 +152,7 @@ public:
    * @return false, with an error and unchanged arrays, for an invalid step or null `directions`
    */
   bool MakeDayPath(double stepMinutes, vtkDoubleArray* directions, vtkDoubleArray* hours,
-    vtkDoubleArray* times = nullptr);
+    vtkDoubleArray* times = nullptr) VTK_EXPECTS(directions != nullptr);
 
   /**
    * Fill arrays with the suns of the date's whole year, as MakeDayPath() does for a day.
@@ -162,7 +163,7 @@ public:
    * @return false as MakeDayPath()
    */
   bool MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
-    vtkDoubleArray* hours, vtkDoubleArray* times = nullptr);
+    vtkDoubleArray* hours, vtkDoubleArray* times = nullptr) VTK_EXPECTS(directions != nullptr);
 
 protected:
   vtkGnomonSun() = default;

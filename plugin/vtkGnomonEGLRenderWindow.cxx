@@ -6,11 +6,16 @@
 
 #include "shadowtech/base/Gl.h"
 
+#include "vtkCallbackCommand.h"
+#include "vtkFloatArray.h"
+#include "vtkGenericRenderWindowInteractor.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
 #include "vtkRendererCollection.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -18,6 +23,25 @@
 #include <string>
 
 vtkStandardNewMacro(vtkGnomonEGLRenderWindow);
+
+namespace
+{
+
+/// X's interactors take a window's display for X's, and crash. An interactor that believes to be
+/// initialized, and done, does not ask for it. Naming its members through a subclass gives access.
+struct XInteractorAccess : vtkRenderWindowInteractor
+{
+  static void keepFromDisplay(vtkRenderWindowInteractor* interactor)
+  {
+    interactor->*(&XInteractorAccess::Initialized) = 1;
+    interactor->*(&XInteractorAccess::Enabled) = 1;
+    interactor->*(&XInteractorAccess::Done) = true;
+    vtkNew<vtkCallbackCommand> nothing;
+    interactor->AddObserver(vtkCommand::StartEvent, nothing); // instead of X's loop of events
+  }
+};
+
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkGnomonEGLRenderWindow::vtkGnomonEGLRenderWindow()
@@ -125,8 +149,7 @@ void vtkGnomonEGLRenderWindow::WindowRemap()
 //------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::Start()
 {
-  this->Initialize();
-  if (this->Initialized)
+  if (this->HasContext())
   {
     this->Superclass::Start();
   }
@@ -135,8 +158,7 @@ void vtkGnomonEGLRenderWindow::Start()
 //------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::Render()
 {
-  this->Initialize();
-  if (this->Initialized)
+  if (this->HasContext())
   {
     this->Superclass::Render();
   }
@@ -147,9 +169,24 @@ void vtkGnomonEGLRenderWindow::MakeCurrent()
 {
   if (this->Context && !this->Context->makeCurrent())
   {
-    this->TellOfContext(
-      std::string("The context cannot be made current (") + gnomon::EglContext::lastError() + ").");
+    this->TellOfContext("The window's context cannot be made current on this thread (" +
+      gnomon::EglContext::lastError() +
+      "). If another thread used the window, call ReleaseCurrent() there first.");
   }
+}
+
+//------------------------------------------------------------------------------
+/// True if the context is ready and current, else the reason is reported.
+bool vtkGnomonEGLRenderWindow::HasContext()
+{
+  this->Initialize();
+  this->MakeCurrent();
+  const bool has = this->Initialized && this->IsCurrent();
+  if (has)
+  {
+    this->TellOfContext("");
+  }
+  return has;
 }
 
 //------------------------------------------------------------------------------
@@ -213,8 +250,7 @@ void vtkGnomonEGLRenderWindow::OpenGLInitContext()
 //------------------------------------------------------------------------------
 const char* vtkGnomonEGLRenderWindow::ReportCapabilities()
 {
-  this->Initialize();
-  return this->Initialized ? this->Superclass::ReportCapabilities() : "";
+  return this->HasContext() ? this->Superclass::ReportCapabilities() : "";
 }
 
 //------------------------------------------------------------------------------
@@ -230,6 +266,26 @@ void* vtkGnomonEGLRenderWindow::GetGenericContext()
 }
 
 //------------------------------------------------------------------------------
+vtkRenderWindowInteractor* vtkGnomonEGLRenderWindow::MakeRenderWindowInteractor()
+{
+  this->SetInteractor(vtkNew<vtkGenericRenderWindowInteractor>());
+  return this->Interactor;
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::SetInteractor(vtkRenderWindowInteractor* interactor)
+{
+  this->Superclass::SetInteractor(interactor);
+  if (interactor && interactor->IsA("vtkXRenderWindowInteractor") && !interactor->GetInitialized())
+  {
+    XInteractorAccess::keepFromDisplay(interactor);
+    vtkErrorMacro("A window without a display sends a "
+      << interactor->GetClassName()
+      << " no events: Start() returns at once. Use a vtkGenericRenderWindowInteractor.");
+  }
+}
+
+//------------------------------------------------------------------------------
 int* vtkGnomonEGLRenderWindow::GetScreenSize()
 {
   // A screen of the window's own size.
@@ -239,20 +295,25 @@ int* vtkGnomonEGLRenderWindow::GetScreenSize()
 }
 
 //------------------------------------------------------------------------------
-bool vtkGnomonEGLRenderWindow::HasFrame()
+bool vtkGnomonEGLRenderWindow::HasFrame(const void* pixels)
 {
+  if (!pixels)
+  {
+    vtkErrorMacro("There is no array to read pixels into or write them from.");
+    return false;
+  }
   if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
   {
     vtkErrorMacro("There are no pixels to read or write before the first Render().");
     return false;
   }
-  return true;
+  return this->HasContext();
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 {
-  if (!rgba || !this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
+  if (!rgba || !this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
   {
     // A context without a surface has no other buffers, and newer VTK warns when it asks for them.
     if (rgba)
@@ -261,7 +322,6 @@ int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
     }
     return 0;
   }
-  this->MakeCurrent();
   this->GetState()->PushFramebufferBindings();
   this->RenderFramebuffer->Bind();
   const int sum = this->Superclass::GetColorBufferSizes(rgba);
@@ -273,11 +333,10 @@ int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 int vtkGnomonEGLRenderWindow::GetDepthBufferSize()
 {
   constexpr int usual = 24;
-  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
+  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
   {
     return usual;
   }
-  this->MakeCurrent();
   this->GetState()->PushFramebufferBindings();
   this->RenderFramebuffer->Bind();
   const int bits = this->Superclass::GetDepthBufferSize();
@@ -289,35 +348,68 @@ int vtkGnomonEGLRenderWindow::GetDepthBufferSize()
 int vtkGnomonEGLRenderWindow::ReadPixels(
   const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right)
 {
-  return this->HasFrame() ? this->Superclass::ReadPixels(rect, front, glFormat, glType, data, right)
-                          : VTK_ERROR;
+  return this->HasFrame(data)
+    ? this->Superclass::ReadPixels(rect, front, glFormat, glType, data, right)
+    : VTK_ERROR;
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, float* z)
 {
-  return this->HasFrame() ? this->Superclass::GetZbufferData(x1, y1, x2, y2, z) : VTK_ERROR;
+  return this->HasFrame(z) ? this->Superclass::GetZbufferData(x1, y1, x2, y2, z) : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
+{
+  return this->HasFrame(buffer) ? this->Superclass::GetZbufferData(x1, y1, x2, y2, buffer)
+                                : VTK_ERROR;
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetZbufferData(int x1, int y1, int x2, int y2, float* buffer)
 {
-  return this->HasFrame() ? this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer) : VTK_ERROR;
+  return this->HasFrame(buffer) ? this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer)
+                                : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
+{
+  return this->HasFrame(buffer) ? this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer)
+                                : VTK_ERROR;
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetPixelData(
   int x1, int y1, int x2, int y2, unsigned char* data, int front, int right)
 {
-  return this->HasFrame() ? this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right)
-                          : VTK_ERROR;
+  return this->HasFrame(data) ? this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right)
+                              : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetPixelData(
+  int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front, int right)
+{
+  return this->HasFrame(data) ? this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right)
+                              : VTK_ERROR;
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetRGBAPixelData(
   int x1, int y1, int x2, int y2, float* data, int front, int blend, int right)
 {
-  return this->HasFrame()
+  return this->HasFrame(data)
+    ? this->Superclass::SetRGBAPixelData(x1, y1, x2, y2, data, front, blend, right)
+    : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetRGBAPixelData(
+  int x1, int y1, int x2, int y2, vtkFloatArray* data, int front, int blend, int right)
+{
+  return this->HasFrame(data)
     ? this->Superclass::SetRGBAPixelData(x1, y1, x2, y2, data, front, blend, right)
     : VTK_ERROR;
 }
@@ -326,7 +418,16 @@ int vtkGnomonEGLRenderWindow::SetRGBAPixelData(
 int vtkGnomonEGLRenderWindow::SetRGBACharPixelData(
   int x1, int y1, int x2, int y2, unsigned char* data, int front, int blend, int right)
 {
-  return this->HasFrame()
+  return this->HasFrame(data)
+    ? this->Superclass::SetRGBACharPixelData(x1, y1, x2, y2, data, front, blend, right)
+    : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetRGBACharPixelData(
+  int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front, int blend, int right)
+{
+  return this->HasFrame(data)
     ? this->Superclass::SetRGBACharPixelData(x1, y1, x2, y2, data, front, blend, right)
     : VTK_ERROR;
 }

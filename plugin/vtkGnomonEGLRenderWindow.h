@@ -19,8 +19,9 @@
  *
  * Multisampling is off by default (SetMultiSamples). If no context can be made, Initialize() and
  * everything that needs one is an error (vtkErrorMacro), said once, that says what was tried, and
- * nothing is drawn. The window's calls belong on one thread; on a thread where another window
- * system's context (GLX) is current, release that one first.
+ * nothing is drawn. The window's calls belong on one thread. Another thread may use the window
+ * after ReleaseCurrent() on the first; before that, its calls are one error and draw nothing. On a
+ * thread where another window system's context (GLX) is current, release that one first.
  */
 
 #ifndef vtkGnomonEGLRenderWindow_h
@@ -28,6 +29,7 @@
 
 #include "GnomonPluginModule.h" // For export macro
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
@@ -110,22 +112,28 @@ public:
   ///@}
 
   using vtkOpenGLRenderWindow::GetZbufferData;
-  using vtkOpenGLRenderWindow::SetPixelData;
-  using vtkOpenGLRenderWindow::SetRGBACharPixelData;
-  using vtkOpenGLRenderWindow::SetRGBAPixelData;
-  using vtkOpenGLRenderWindow::SetZbufferData;
   ///@{
   /**
-   * Read and write pixels. An error before the first Render().
+   * Read and write pixels. An error before the first Render(), and without an array.
    */
   int GetZbufferData(int x1, int y1, int x2, int y2, float* z) override;
+  int GetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
+    VTK_EXPECTS(buffer != nullptr) override;
   int SetZbufferData(int x1, int y1, int x2, int y2, float* buffer) override;
+  int SetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
+    VTK_EXPECTS(buffer != nullptr) override;
   int SetPixelData(
     int x1, int y1, int x2, int y2, unsigned char* data, int front, int right = 0) override;
+  int SetPixelData(int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front,
+    int right = 0) VTK_EXPECTS(data != nullptr) override;
   int SetRGBAPixelData(
     int x1, int y1, int x2, int y2, float* data, int front, int blend = 0, int right = 0) override;
+  int SetRGBAPixelData(int x1, int y1, int x2, int y2, vtkFloatArray* data, int front,
+    int blend = 0, int right = 0) VTK_EXPECTS(data != nullptr) override;
   int SetRGBACharPixelData(int x1, int y1, int x2, int y2, unsigned char* data, int front,
     int blend = 0, int right = 0) override;
+  int SetRGBACharPixelData(int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front,
+    int blend = 0, int right = 0) VTK_EXPECTS(data != nullptr) override;
   ///@}
 
   ///@{
@@ -136,6 +144,16 @@ public:
    */
   int GetColorBufferSizes(int* rgba) override;
   int GetDepthBufferSize() override;
+  ///@}
+
+  ///@{
+  /**
+   * The interactor: a vtkGenericRenderWindowInteractor, which gets the events that the program
+   * sends it. X's interactor is an error; it gets no events, draws, and its Start() returns at
+   * once.
+   */
+  vtkRenderWindowInteractor* MakeRenderWindowInteractor() override;
+  void SetInteractor(vtkRenderWindowInteractor* interactor) override;
   ///@}
 
   ///@{
@@ -162,7 +180,8 @@ private:
   vtkGnomonEGLRenderWindow(const vtkGnomonEGLRenderWindow&) = delete;
   void operator=(const vtkGnomonEGLRenderWindow&) = delete;
 
-  bool HasFrame();
+  bool HasContext();
+  bool HasFrame(const void* pixels);
   void TellOfContext(const std::string& error);
 
   std::unique_ptr<gnomon::EglContext> Context;

@@ -14,8 +14,21 @@ vtkInformationKeyMacro(vtkGnomonPropKeys, ONE_SIDED, Integer);
 namespace
 {
 
+bool isProp(vtkProp* prop)
+{
+  if (!prop)
+  {
+    vtkErrorWithObjectMacro(prop, "vtkGnomonPropKeys needs a prop, not null.");
+  }
+  return prop != nullptr;
+}
+
 void setKey(vtkProp* prop, vtkInformationIntegerKey* key, bool value)
 {
+  if (!isProp(prop))
+  {
+    return;
+  }
   if (!prop->GetPropertyKeys())
   {
     vtkNew<vtkInformation> keys;
@@ -26,7 +39,7 @@ void setKey(vtkProp* prop, vtkInformationIntegerKey* key, bool value)
 
 bool getKey(vtkProp* prop, vtkInformationIntegerKey* key, bool defaultValue)
 {
-  vtkInformation* keys = prop->GetPropertyKeys();
+  vtkInformation* keys = isProp(prop) ? prop->GetPropertyKeys() : nullptr;
   return keys && keys->Has(key) ? keys->Get(key) != 0 : defaultValue;
 }
 

@@ -16,6 +16,7 @@
 #include "GnomonPluginModule.h" // For export macro
 #include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkInformationIntegerKey;
@@ -47,18 +48,18 @@ public:
   /**
    * Set a key on a prop. Gives the prop property keys if it has none.
    */
-  static void SetCasts(vtkProp* prop, bool casts);
-  static void SetReceives(vtkProp* prop, bool receives);
-  static void SetOneSided(vtkProp* prop, bool oneSided);
+  static void SetCasts(vtkProp* prop, bool casts) VTK_EXPECTS(prop != nullptr);
+  static void SetReceives(vtkProp* prop, bool receives) VTK_EXPECTS(prop != nullptr);
+  static void SetOneSided(vtkProp* prop, bool oneSided) VTK_EXPECTS(prop != nullptr);
   ///@}
 
   ///@{
   /**
    * Return a key's value. If the prop does not have the key, return its default for opaque props.
    */
-  static bool GetCasts(vtkProp* prop);
-  static bool GetReceives(vtkProp* prop);
-  static bool GetOneSided(vtkProp* prop);
+  static bool GetCasts(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
+  static bool GetReceives(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
+  static bool GetOneSided(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
   ///@}
 
 protected:

@@ -877,19 +877,23 @@ std::string vtkGnomonShadowPass::GetReportText() const
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::GetReportTable(vtkTable* lights) const
 {
-  if (lights)
+  if (!lights)
   {
-    gnomon::fillTable(this->GetReport(), lights);
+    vtkErrorMacro("The report needs a table to fill.");
+    return;
   }
+  gnomon::fillTable(this->GetReport(), lights);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::GetVisibilityImage(vtkImageData* image) const
 {
-  if (image)
+  if (!image)
   {
-    gnomon::fillImage(this->GetVisibility(), image);
+    vtkErrorMacro("The visibility needs an image to fill.");
+    return;
   }
+  gnomon::fillImage(this->GetVisibility(), image);
 }
 
 //------------------------------------------------------------------------------
@@ -907,7 +911,8 @@ bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   vtkProp* prop)
 {
   // Where other passes write outputs of their own, this is not the receivers stage.
-  const bool alone = prop->GetPropertyKeys()->Length(vtkOpenGLRenderPass::RenderPasses()) == 1;
+  vtkInformation* const keys = prop->GetPropertyKeys(); // null outside a frame
+  const bool alone = keys && keys->Length(vtkOpenGLRenderPass::RenderPasses()) == 1;
   this->Internal->programs->shaders.fillShader(
     vertexShader, geometryShader, fragmentShader, alone, gnomon::cornersOfPrimitives(mapper, prop));
   return true;

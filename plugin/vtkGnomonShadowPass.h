@@ -37,6 +37,7 @@
 #include "GnomonPluginModule.h" // For export macro
 #include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkOpenGLRenderPass.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 #include <memory> // For std::unique_ptr
 
@@ -343,7 +344,7 @@ public:
    * the caller's own. `lights[i].map_size_texels` of the text is the column `map_size_texels`.
    */
   std::string GetReportText() const;
-  void GetReportTable(vtkTable* lights) const;
+  void GetReportTable(vtkTable* lights) const VTK_EXPECTS(lights != nullptr);
   ///@}
 
   /**
@@ -377,7 +378,7 @@ public:
    * (composite data, other data sets, glyphs, molecules), parts of assemblies, levels of detail,
    * and spheres and tubes in place of points and lines.
    */
-  void GetVisibilityImage(vtkImageData* image) const;
+  void GetVisibilityImage(vtkImageData* image) const VTK_EXPECTS(image != nullptr);
 
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -388,9 +389,11 @@ public:
   bool PreReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
     std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
   bool PostReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
-    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
+    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop)
+    VTK_EXPECTS(mapper != nullptr) VTK_EXPECTS(prop != nullptr) override;
   bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
-    vtkOpenGLVertexArrayObject* vao = nullptr) override;
+    vtkOpenGLVertexArrayObject* vao = nullptr) VTK_EXPECTS(program != nullptr)
+    VTK_EXPECTS(mapper != nullptr) VTK_EXPECTS(prop != nullptr) override;
   vtkMTimeType GetShaderStageMTime() override;
   ///@}
 

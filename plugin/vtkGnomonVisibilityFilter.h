@@ -53,6 +53,7 @@
 #include "GnomonPluginModule.h" // For export macro
 #include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkWrappingHints.h" // For VTK_EXPECTS
 
 #include <memory> // For std::unique_ptr
 
@@ -77,7 +78,8 @@ public:
    */
   void AddDirection(const double towards[3], double hours = 1.0);
   void AddDirection(double x, double y, double z, double hours = 1.0);
-  void AddDirections(vtkDataArray* directions, vtkDataArray* hours = nullptr);
+  void AddDirections(vtkDataArray* directions, vtkDataArray* hours = nullptr)
+    VTK_EXPECTS(directions != nullptr);
   ///@}
 
   ///@{
@@ -85,8 +87,8 @@ public:
    * Add the suns of a day, or of a year, at a place (vtkGnomonSun::MakeDayPath, MakeYearPath). They
    * are found at once. Up becomes the sun's.
    */
-  void AddSunDay(vtkGnomonSun* sun, double stepMinutes);
-  void AddSunYear(vtkGnomonSun* sun, int dayStep, double stepMinutes);
+  void AddSunDay(vtkGnomonSun* sun, double stepMinutes) VTK_EXPECTS(sun != nullptr);
+  void AddSunYear(vtkGnomonSun* sun, int dayStep, double stepMinutes) VTK_EXPECTS(sun != nullptr);
   ///@}
 
   /**
@@ -94,7 +96,7 @@ public:
    * time of the execution. Head and camera lights are taken through their transform matrix. Only
    * the centre of an area light shines; switches, colours and attenuation do not count.
    */
-  void AddLight(vtkLight* light, double hours = 1.0);
+  void AddLight(vtkLight* light, double hours = 1.0) VTK_EXPECTS(light != nullptr);
 
   /**
    * Remove all directions and lights.

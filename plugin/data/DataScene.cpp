@@ -50,7 +50,7 @@ DataScene::DataScene(const std::vector<Input>& inputs)
       {
         glm::dvec3 point;
         input.data->GetPoint(i, &point.x);
-        if (!glm::any(glm::isinf(point)) && !glm::any(glm::isnan(point)))
+        if (isWithin(point, largestOfWorld))
         {
           boundsWorld.add(point);
         }
@@ -108,6 +108,10 @@ void DataScene::add(const Input& input, int number)
         {
           this->occluders_.triangles.push_back(drawn.triangles[i] + surface.firstVertex);
           this->cellOfTriangle_.push_back(cellOf[i]);
+          for (int corner = 0; input.casts && corner < 3; ++corner)
+          {
+            this->occluders_.castersCentred.add(positions[drawn.triangles[i][corner]]);
+          }
         }
       }
       clearNonFinite(positions, drawn.vertexCount);

@@ -17,20 +17,6 @@ namespace
 constexpr std::size_t fewestTrianglesOfSource = 64;
 constexpr std::size_t fewestTriangles = 1u << 18;
 
-template <typename Matrix>
-bool isFinite(const Matrix& matrix)
-{
-  bool finite = true;
-  for (int column = 0; column < Matrix::length(); ++column)
-  {
-    for (int row = 0; row < Matrix::col_type::length(); ++row)
-    {
-      finite = finite && std::isfinite(matrix[column][row]);
-    }
-  }
-  return finite;
-}
-
 bool isAffine(const glm::dmat4& matrix)
 {
   return matrix[0].w == 0.0 && matrix[1].w == 0.0 && matrix[2].w == 0.0 && matrix[3].w == 1.0;
@@ -85,9 +71,9 @@ std::optional<PlacedInstances> placeKeptInstances(const glm::dmat4& worldFromMod
   {
     glm::dmat4 instance = worldFromModel * glm::dmat4(place);
     instance = glm::translate(instance, sourceCentre);
+    const bool finite = isWithin(affinelyTransformed(boundsSource, instance), largestOfWorld);
     instance[3] -= glm::dvec4(centreWorld, 0.0);
     const glm::mat4x3 rounded(instance);
-    const bool finite = isFinite(rounded);
     if (!finite || !isVisible(rounded, extentSource))
     {
       ++(finite ? placed.leftOutVanished : placed.leftOutNonFinite);

@@ -3,7 +3,9 @@
 #include "vtkActor.h"
 #include "vtkMapper.h"
 #include "vtkPolyData.h"
+#include "vtkProp.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace gnomon
@@ -28,6 +30,7 @@ SnapshotChange OccluderCollector::collect(
   if (change.any)
   {
     this->indexProps(wanted);
+    this->noteOnBoxes_ = this->noteOnBoxes(wanted);
   }
   this->noteWhatIsTooLarge(wanted);
   return change;
@@ -72,6 +75,44 @@ void OccluderCollector::noteWhatIsTooLarge(const std::vector<WantedSurface>& wan
         std::to_string(mostGlyphTriangles) + " triangles (they neither cast nor receive)");
     }
   }
+  if (const std::size_t dropped = this->occluders().droppedNonFinite; dropped > 0)
+  {
+    this->notes_.push_back("missing data: " + std::to_string(dropped) +
+      " triangles have a vertex that is not finite, or beyond 2^100 (they neither cast nor "
+      "receive)");
+  }
+  if (!this->noteOnBoxes_.empty())
+  {
+    this->notes_.push_back(this->noteOnBoxes_);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Return a note if a prop is so much larger than others that a fill value explains it. Empty if
+/// none is.
+std::string OccluderCollector::noteOnBoxes(const std::vector<WantedSurface>& wanted) const
+{
+  std::vector<std::pair<double, const vtkProp*>> radii;
+  for (std::size_t i = 0; i < wanted.size();)
+  {
+    const DrawnProp& prop = *wanted[i].prop;
+    Bounds box;
+    for (; i < wanted.size() && wanted[i].prop == &prop; ++i)
+    {
+      box.add(this->occluders().surfaces[i].boundsCentred);
+    }
+    if (box.radius() > 0.0)
+    {
+      radii.emplace_back(box.radius(), prop.viewProp);
+    }
+  }
+  std::sort(radii.begin(), radii.end());
+  if (radii.empty() || !(radii.back().first > 0x1p20 * radii[(radii.size() - 1) / 2].first))
+  {
+    return {};
+  }
+  return std::string(radii.back().second->GetClassName()) +
+    ": its box is more than 2^20 times as large as the median prop's, as a fill value makes it";
 }
 
 //------------------------------------------------------------------------------

@@ -80,6 +80,7 @@ public:
 private:
   void indexProps(const std::vector<WantedSurface>& wanted);
   void noteWhatIsTooLarge(const std::vector<WantedSurface>& wanted);
+  std::string noteOnBoxes(const std::vector<WantedSurface>& wanted) const;
 
   SnapshotSurfaces surfaces_;
   DrawnLookup lookup_;
@@ -87,6 +88,7 @@ private:
   std::size_t translucentReceivers_ = 0;
   std::vector<const vtkProp*> seenThrough_;
   std::vector<std::string> notes_;
+  std::string noteOnBoxes_; ///< as of the last change
   std::vector<std::string> leftOut_;
 };
 

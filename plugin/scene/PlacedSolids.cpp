@@ -142,11 +142,10 @@ bool isKept(const std::vector<glm::dvec4>& clipPlanes, const glm::dvec3& world)
     [&](const glm::dvec4& plane) { return glm::dot(plane, glm::dvec4(world, 1.0)) >= 0.0; });
 }
 
-/// A sum with a non-finite number is not finite.
-bool hasFiniteNumbers(const glm::mat4x3& matrix)
+bool isInWorld(const glm::dmat4x3& solid)
 {
-  const glm::dvec3 sum = glm::dmat4x3(matrix) * glm::dvec4(1.0);
-  return std::isfinite(sum.x + sum.y + sum.z);
+  return isWithin(glm::abs(solid[0]) + glm::abs(solid[1]) + glm::abs(solid[2]) + glm::abs(solid[3]),
+    largestOfWorld);
 }
 
 bool hasSize(const glm::mat4x3& matrix)
@@ -166,9 +165,9 @@ PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
   const auto add = [&](glm::dmat4x3 matrix)
   {
     const bool isInside = isKept(clipPlanes, matrix[3]);
+    const bool finite = isInWorld(matrix);
     matrix[3] -= centreWorld;
     const glm::mat4x3 rounded(matrix);
-    const bool finite = hasFiniteNumbers(rounded);
     const bool kept = finite && isInside && hasSize(rounded);
     result.leftOutNonFinite += finite ? 0 : 1;
     // Solids cut off by a plane or behind the camera are no fault of the data.
@@ -203,10 +202,9 @@ Bounds boundsOfSolids(const DrawnBlock& block, SurfaceCells cells)
   visitPixelSolids(block, cells, glm::dmat4(1.0),
     [&bounds](const glm::dmat4x3& matrix)
     {
-      const glm::dvec3 middle = matrix[3];
-      if (std::isfinite(middle.x + middle.y + middle.z))
+      if (isWithin(matrix[3], largestOfWorld))
       {
-        bounds.add(middle);
+        bounds.add(matrix[3]);
       }
     });
   return bounds;

@@ -46,14 +46,16 @@ SnapshotChange SnapshotSurfaces::update(
     const SurfaceRecord* record =
       surface.old != WantedSurface::none ? &this->records_[surface.old] : nullptr;
     const vtkMTimeType time = changeTime(*surface.prop, surface.block, surface.key.cells);
+    const bool isMoved = !record || !isWhere(*record, *surface.prop, surface.block);
     if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes ||
       !(record->coordinates == coordinatesSource(*surface.prop, surface.block)) ||
-      !(record->normals == normalsSource(*surface.prop, surface.block)))
+      !(record->normals == normalsSource(*surface.prop, surface.block)) ||
+      (isMoved && reachesBeyondWorld(*record, *surface.prop)))
     {
       this->read(surface, time);
       ++change.extracted;
     }
-    moved = moved || !record || !isWhere(*record, *surface.prop, surface.block);
+    moved = moved || isMoved;
   }
 
   change.extracted += this->countInstances(wanted, others);
@@ -153,7 +155,8 @@ bool SnapshotSurfaces::updateCentre(
   {
     const SurfaceRecord& record =
       surface.fresh ? surface.fresh->record : this->records_[surface.old];
-    boundsWorld.add(transformed(record.boundsModel, surface.prop->worldFromModel));
+    const Bounds box = transformed(record.boundsModel, surface.prop->worldFromModel);
+    boundsWorld.add(isWithin(box, largestOfWorld) ? box : Bounds());
   }
   if (others.unite)
   {

@@ -129,6 +129,16 @@ void readVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfVe
   withPoints(data->GetPoints()->GetData(), reader);
 }
 
+/// Return a point's place in the world; NaN if it is missing data.
+glm::dvec3 inWorld(const glm::dmat4& worldFromModel, const glm::dvec3& position)
+{
+  // w differs from 1 only for a projective user matrix. With w = 0 the vertex is not finite.
+  const glm::dvec4 world = worldFromModel * glm::dvec4(position, 1.0);
+  const glm::dvec3 place = glm::dvec3(world) / world.w;
+  return isWithin(place, largestOfWorld) ? place
+                                         : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+}
+
 /// Renumber triangles from points to the vertices that they use. Between calls, all of
 /// vertexOfPoint is missingVertex. Only the entries in use are set and reset.
 void compact(
@@ -246,7 +256,8 @@ vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells)
 
 //------------------------------------------------------------------------------
 DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells,
-  std::vector<std::uint32_t>& vertexOfPoint, std::vector<std::uint32_t>* cellOfTriangle)
+  std::vector<std::uint32_t>& vertexOfPoint, std::vector<std::uint32_t>* cellOfTriangle,
+  const glm::dmat4& worldFromModel)
 {
   DrawnTriangles drawn;
   vtkCellArray* array = cellArray(data, cells);
@@ -257,12 +268,14 @@ DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells,
 
   compact(drawn, static_cast<std::size_t>(data->GetNumberOfPoints()), vertexOfPoint);
   readVertices(data, drawn.pointOfVertex, drawn.vertexCount,
-    [&drawn](std::size_t, const glm::dvec3& position)
+    [&](std::size_t, const glm::dvec3& position)
     {
-      if (std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z))
+      if (!std::isnan(inWorld(worldFromModel, position).x))
       {
         drawn.boundsModel.add(position);
+        return;
       }
+      drawn.hasFar = drawn.hasFar || isWithin(position, std::numeric_limits<double>::max());
     });
   return drawn;
 }
@@ -274,11 +287,7 @@ void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfV
 {
   readVertices(data, pointOfVertex, vertexCount,
     [&](std::size_t vertex, const glm::dvec3& position)
-    {
-      // w differs from 1 only for a projective user matrix. With w = 0 the vertex is not finite.
-      const glm::dvec4 world = worldFromModel * glm::dvec4(position, 1.0);
-      positionsCentred[vertex] = glm::vec3(glm::dvec3(world) / world.w - centreWorld);
-    });
+    { positionsCentred[vertex] = glm::vec3(inWorld(worldFromModel, position) - centreWorld); });
 }
 
 //------------------------------------------------------------------------------

@@ -63,7 +63,8 @@ struct DrawnTriangles
   /// The point of each vertex, in order of first use. Empty if every point is used and vertex n is
   /// point n.
   std::vector<std::uint32_t> pointOfVertex;
-  Bounds boundsModel; ///< box around the finite vertices, in model coordinates
+  Bounds boundsModel;  ///< box around the vertices with data, in model coordinates
+  bool hasFar = false; ///< the matrix takes a finite vertex beyond largestOfWorld
 
   static constexpr std::uint32_t missingVertex = 0xffffffffu;
 };
@@ -72,14 +73,16 @@ struct DrawnTriangles
 /// @param vertexOfPoint scratch memory, the same for many calls: blocks of one data set may share a
 /// large point array, and this saves each of them the cost of all of it
 /// @param cellOfTriangle if not null, receives each triangle's cell, counted among its kind
+/// @param worldFromModel determines which vertices have data
 DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells,
-  std::vector<std::uint32_t>& vertexOfPoint, std::vector<std::uint32_t>* cellOfTriangle = nullptr);
+  std::vector<std::uint32_t>& vertexOfPoint, std::vector<std::uint32_t>* cellOfTriangle = nullptr,
+  const glm::dmat4& worldFromModel = glm::dmat4(1.0));
 
 /// Why the snapshot leaves out a drawn triangle.
 enum class Defect : std::uint8_t
 {
   None,
-  NonFinite, ///< a vertex is not finite, too large for a float, or missing
+  NonFinite, ///< a vertex is missing, or not within largestOfWorld
   ZeroArea   ///< its vertices are collinear
 };
 
@@ -96,7 +99,7 @@ struct DroppedTriangle
 };
 
 /// Write the centred positions of a surface's vertices: worldFromModel * point - centreWorld in
-/// double precision, rounded once to float. Points that are not finite stay so.
+/// double precision, rounded once to float. NaN for points that are not within largestOfWorld.
 void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfVertex,
   std::size_t vertexCount, const glm::dmat4& worldFromModel, const glm::dvec3& centreWorld,
   glm::vec3* positionsCentred);

@@ -199,6 +199,13 @@ vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceC
 }
 
 //------------------------------------------------------------------------------
+bool reachesBeyondWorld(const SurfaceRecord& record, const DrawnProp& prop)
+{
+  const Bounds box = transformed(record.boundsModel, prop.worldFromModel);
+  return record.hasFar || (!record.boundsModel.empty() && !isWithin(box, largestOfWorld));
+}
+
+//------------------------------------------------------------------------------
 bool isWhere(const SurfaceRecord& record, const DrawnProp& prop, const DrawnBlock& block)
 {
   return record.worldFromModel == prop.worldFromModel &&
@@ -229,11 +236,13 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
   {
     return readSolids(block, cells);
   }
-  DrawnTriangles drawn = triangulate(block.data, cells, vertexOfPoint);
+  DrawnTriangles drawn =
+    triangulate(block.data, cells, vertexOfPoint, nullptr, prop.worldFromModel);
   FreshSurface fresh;
   SurfaceRecord& record = fresh.record;
   record.pointOfVertex = std::move(drawn.pointOfVertex);
   record.boundsModel = drawn.boundsModel;
+  record.hasFar = drawn.hasFar;
   if (block.glyphPoints)
   {
     record.modelFromInstance = glyphInstances(
@@ -241,7 +250,10 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
     record.boundsModel = Bounds();
     for (const glm::mat4& instance : record.modelFromInstance)
     {
-      record.boundsModel.add(transformed(drawn.boundsModel, glm::dmat4(instance)));
+      const Bounds box = transformed(drawn.boundsModel, glm::dmat4(instance));
+      const bool isFar = !isWithin(transformed(box, prop.worldFromModel), largestOfWorld);
+      record.hasFar = record.hasFar || isFar;
+      record.boundsModel.add(isFar ? Bounds() : box);
     }
     const std::size_t instances = record.modelFromInstance.size();
     record.tooManyTriangles = drawn.triangles.size() * instances > mostGlyphTriangles;

@@ -129,7 +129,8 @@ struct SurfaceRecord
   std::size_t leftOutNonFinite = 0; ///< instances, as in PlacedInstances
   std::size_t leftOutVanished = 0;
   std::vector<DroppedTriangle> dropped;
-  Bounds boundsModel;
+  Bounds boundsModel;  ///< as in DrawnTriangles, of all instances
+  bool hasFar = false; ///< likewise
   Bounds boundsCentred;
 };
 
@@ -174,6 +175,9 @@ vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceC
 /// @param vertexOfPoint as for triangulate()
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint);
+
+/// True if a surface's box depends on its prop's matrix, as points may lie beyond largestOfWorld.
+bool reachesBeyondWorld(const SurfaceRecord& record, const DrawnProp& prop);
 
 /// True if VTK draws a surface at the place and in the size of its record.
 bool isWhere(const SurfaceRecord& record, const DrawnProp& prop, const DrawnBlock& block);

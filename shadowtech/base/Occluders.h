@@ -129,7 +129,7 @@ struct Occluders
   Bounds castersCentred; ///< box around the casting surfaces
   Bounds allCentred;     ///< box around all surfaces
 
-  std::size_t droppedNonFinite = 0;
+  std::size_t droppedNonFinite = 0; ///< triangles with missing data: largestOfWorld
   std::size_t droppedZeroArea = 0;
 
   /// True if VTK shades a surface with normals of its points.

@@ -144,10 +144,11 @@ struct FrameReport
   int surfacesExtracted = 0;     ///< mapper inputs copied to the snapshot
   int surfacesRetransformed = 0; ///< surfaces with recomputed world positions
 
-  std::size_t triangles = 0;        ///< in the snapshot, those of all instances
-  std::size_t instances = 0;        ///< glyphs that the snapshot keeps as instances
-  std::size_t droppedNonFinite = 0; ///< triangles left out: a vertex is not finite
-  std::size_t droppedZeroArea = 0;  ///< triangles left out: no area
+  std::size_t triangles = 0; ///< in the snapshot, those of all instances
+  std::size_t instances = 0; ///< glyphs that the snapshot keeps as instances
+  /// Triangles left out: a vertex is missing data, not finite or beyond 2^100 in the world.
+  std::size_t droppedNonFinite = 0;
+  std::size_t droppedZeroArea = 0; ///< triangles left out: no area
 
   /// The snapshot on the CPU and the GPU, with all that is cached of its surfaces. It is at most
   /// 120 bytes a triangle and 1,500 a surface. Glyphs kept as instances take 120 a triangle of one

@@ -78,16 +78,13 @@ std::uint32_t append(const TreeNode& node, const std::vector<BvhRecord>& records
 Bvh buildBvh(
   const std::vector<BvhRecord>& records, const std::function<Bounds(const BvhRecord&)>& boundsOf)
 {
-  const EmbreeDevice device(rtcNewDevice(nullptr));
-  if (!device.get())
-  {
-    throw std::runtime_error("Embree cannot be started on this machine");
-  }
+  const EmbreeDevice device = startEmbree();
   std::vector<RTCBuildPrimitive> primitives(records.size());
   tbb::parallel_for(std::size_t(0), records.size(),
     [&](std::size_t i)
     {
       const Bounds bounds = boundsOf(records[i]);
+      checkEmbreeRange(bounds);
       const glm::vec3 lower(bounds.lower);
       const glm::vec3 upper(bounds.upper);
       primitives[i] = { lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z,

@@ -61,7 +61,7 @@ struct Bvh
 /// Build a tree by Embree's builder. The caller computes the boxes from the contents of the leaves.
 /// @param records the contents of the leaves, in any order; at least one
 /// @param boundsOf returns the box of a record; called by several threads at once
-/// @throws std::runtime_error if Embree cannot be started or fails
+/// @throws std::runtime_error if Embree cannot be started or fails, or for boxes beyond its range
 Bvh buildBvh(
   const std::vector<BvhRecord>& records, const std::function<Bounds(const BvhRecord&)>& boundsOf);
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "lights/Bounds.h"
 #include "shadowtech/tracing/Embree.h"
 
+#include <atomic>
+#include <stdexcept>
 #include <utility>
 
 namespace gnomon
@@ -43,5 +46,32 @@ using EmbreeDevice = EmbreeHandle<RTCDevice, rtcReleaseDevice>;
 using EmbreeScene = EmbreeHandle<RTCScene, rtcReleaseScene>;
 using EmbreeGeometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
 using EmbreeBvh = EmbreeHandle<RTCBVH, rtcReleaseBVH>;
+
+/// Return a new device. A start that fails for want of memory leaves Embree locked, and the release
+/// of a later device would wait for ever. So Embree is not asked again after a failure.
+/// @throws std::runtime_error if Embree cannot be started
+inline EmbreeDevice startEmbree()
+{
+  static std::atomic<bool> hasFailed{ false };
+  EmbreeDevice device(hasFailed ? nullptr : rtcNewDevice(nullptr));
+  if (!device.get())
+  {
+    hasFailed = true;
+    throw std::runtime_error("Embree cannot be started in this process");
+  }
+  return device;
+}
+
+/// Let nothing pass that Embree ignores (triangles) or dies of (boxes of its builder).
+/// @param bounds of what casts
+/// @throws std::runtime_error if it is beyond the range of Embree
+inline void checkEmbreeRange(const Bounds& bounds)
+{
+  constexpr double largest = 1.8e18; // its square is a float
+  if (!isWithin(bounds, largest))
+  {
+    throw std::runtime_error("casters lie more than 1.8e18 units off the scene's centre");
+  }
+}
 
 } // namespace gnomon

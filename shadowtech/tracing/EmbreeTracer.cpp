@@ -505,12 +505,8 @@ struct EmbreeTracer::Impl
 };
 
 EmbreeTracer::Impl::Impl()
-  : device(rtcNewDevice(nullptr))
+  : device(startEmbree())
 {
-  if (!this->device.get())
-  {
-    throw std::runtime_error("Embree cannot be started on this machine");
-  }
   rtcSetDeviceMemoryMonitorFunction(
     this->device.get(),
     [](void* user, ssize_t change, bool)
@@ -745,6 +741,10 @@ EmbreeTracer::Update EmbreeTracer::update(const Occluders& occluders)
     impl.positionsVersion == occluders.positionsVersion)
   {
     return {};
+  }
+  if (!occluders.castersCentred.empty())
+  {
+    checkEmbreeRange(occluders.castersCentred);
   }
   Update update;
   std::unordered_map<std::uint64_t, Caster> casters;

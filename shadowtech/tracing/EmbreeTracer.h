@@ -35,7 +35,7 @@ public:
   /// Update the acceleration structure for the snapshot. Does nothing if neither topologyVersion
   /// nor positionsVersion changed. The snapshot's vertex and index arrays and texture coordinates
   /// are shared, not copied: they must stay in place until the next update.
-  /// @throws std::runtime_error if there is no structure
+  /// @throws std::runtime_error if there is no structure, or for casters beyond Embree's range
   Update update(const Occluders& occluders);
 
   /// Trace the visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1

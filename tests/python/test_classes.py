@@ -1,7 +1,10 @@
-"""The wrapped classes: a getter beside each setter, and events."""
+"""The wrapped classes: a getter beside each setter, None for objects, and events."""
 
+import ast
 import inspect
+import os
 import re
+import sys
 import unittest
 
 from vtkmodules.vtkCommonCore import vtkDoubleArray
@@ -23,6 +26,27 @@ GETTERS = {
     "vtkGnomonVisibilityFilter.AddSunDay": ["GetNumberOfLights", "GetDirection", "GetHours"],
     "vtkGnomonVisibilityFilter.AddSunYear": ["GetNumberOfLights", "GetDirection", "GetHours"],
     "vtkGnomonShadowPass.SetShaderParameters": [],  # mappers call it
+}
+
+# Objects that may be None: it resets them, asks for nothing, or has nothing to release.
+MAY_BE_NONE = {
+    "vtkGnomonAreaLight.SetTexture(_arg)",
+    "vtkGnomonEGLRenderWindow.SetInteractor(interactor)",
+    "vtkGnomonLightKeys.SetSettings(settings)",
+    "vtkGnomonLightSamplingPass.SetDelegatePass(pass_)",
+    "vtkGnomonLightSamplingPass.ReleaseGraphicsResources(window)",
+    "vtkGnomonShadowPass.SetSettings(settings)",
+    "vtkGnomonShadowPass.SetDelegatePass(pass_)",
+    "vtkGnomonShadowPass.SetController(controller)",
+    "vtkGnomonShadowPass.ReleaseGraphicsResources(window)",
+    "vtkGnomonSun.MakeDayPath(hours)",
+    "vtkGnomonSun.MakeDayPath(times)",
+    "vtkGnomonSun.MakeYearPath(hours)",
+    "vtkGnomonSun.MakeYearPath(times)",
+    "vtkGnomonVisibilityFilter.AddDirections(hours)",
+    "vtkGnomonShadowPass.PreReplaceShaderValues(mapper)",
+    "vtkGnomonShadowPass.PreReplaceShaderValues(prop)",
+    "vtkGnomonShadowPass.SetShaderParameters(vao)",
 }
 
 
@@ -95,6 +119,73 @@ class Getters(unittest.TestCase):
         for index in (-1, 2):
             self.assertIsNone(shadows.GetLight(index))
             self.assertEqual(shadows.GetHours(index), 0.0)
+
+
+class Nulls(unittest.TestCase):
+    maxDiff = None
+
+    def test_none_for_an_object_is_an_error(self):
+        modules = (gnomon.GnomonLights, gnomon.GnomonPlugin)
+        kinds = {value for module in modules for value in vars(module).values()
+                 if inspect.isclass(value) and value.__name__.startswith("vtk")}
+        ended = {}
+        for kind in kinds:
+            for name in set(own_methods(kind)) - {"SafeDownCast"}:
+                for arguments in self.signatures(getattr(kind, name)):
+                    for argument in [it for it, types in arguments if self.is_object(types)]:
+                        values = [None if it == argument else self.example(types)
+                                  for it, types in arguments]
+                        key = f"{kind.__name__}.{name}({argument})"
+                        ended[key] = self.end_of(kind, name, values)
+        for key in MAY_BE_NONE:
+            self.assertIn(ended.pop(key), ("returns", "TypeError"), key)
+        self.assertGreater(len(ended), 30)
+        self.assertEqual({k: end for k, end in ended.items() if end != "ValueError"}, {})
+
+    @staticmethod
+    def signatures(method):
+        """The arguments of each signature that a docstring begins with: names and types."""
+        text = re.sub(r"\n[ \t]+", " ", (method.__doc__ or "").partition("\n\n")[0])
+        for line in re.findall(rf"^{method.__name__}\(.*", text, re.MULTILINE):
+            found = ast.parse(f"def {line}: ...").body[0].args.args
+            yield [(each.arg, each.annotation) for each in found if each.arg != "self"]
+
+    @staticmethod
+    def is_object(types):
+        return isinstance(types, ast.Name) and types.id.startswith("vtk")
+
+    @classmethod
+    def example(cls, types):
+        """A value of a type."""
+        if not isinstance(types, ast.Name):
+            return [cls.example(each) for each in types.elts]
+        if not cls.is_object(types):
+            return {"str": "x", "int": 1, "float": 1.0, "bool": True}[types.id]
+        return cls.object_of(next(vars(module)[types.id] for module in list(sys.modules.values())
+                                  if types.id in vars(module)))
+
+    @classmethod
+    def object_of(cls, kind):
+        """An object of a class; of an abstract one, of the first class below that is none."""
+        try:
+            return kind()
+        except TypeError:
+            return next(filter(None, map(cls.object_of, kind.__subclasses__())), None)
+
+    @staticmethod
+    def end_of(kind, name, values):
+        """How a call ends, made in a process of its own, as it may crash."""
+        ends = ["returns", "ValueError", "TypeError"]
+        child = os.fork()
+        if child == 0:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # VTK's own errors
+            try:
+                getattr(kind(), name)(*values)
+                os._exit(0)
+            except Exception as error:
+                os._exit(ends.index(type(error).__name__))
+        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        return ends[code] if code >= 0 else f"signal {-code}"
 
 
 class Events(unittest.TestCase):

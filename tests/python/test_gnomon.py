@@ -164,11 +164,6 @@ class Shadows(unittest.TestCase):
             warnings.simplefilter("error")
             gnomon.add_shadows(scene.renderer)
 
-    def test_none_is_no_crash(self):
-        shadows = gnomon.vtkGnomonShadowPass()
-        shadows.GetReportTable(None)
-        shadows.GetVisibilityImage(None)
-
     def test_a_plotter_is_its_active_renderer(self):
         scene = Scene()
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import datetime
+import signal
+import threading
 from typing import TYPE_CHECKING
 
 import numpy
@@ -100,6 +103,8 @@ def hours_lit(
     ValueError
         For arrays of other shapes, numbers of points that do not exist, and what the filter
         refuses.
+    KeyboardInterrupt
+        After Ctrl-C on the main thread.
     """
     shadows = vtkGnomonVisibilityFilter()
     shadows.SetInputData(0, _polydata("receivers", receivers))
@@ -114,11 +119,45 @@ def hours_lit(
     shadows.SetAngularDiameter(angular_diameter)
     shadows.ComputeReasonsOff()
     if not errors:
-        shadows.Update()
+        with _interruptible(shadows):
+            shadows.Update()
     if errors:
         raise ValueError(errors[0])
     data = shadows.GetOutput().GetCellData()
     return vtk_to_numpy(data.GetArray(shadows.GetHoursName()))
+
+
+@contextlib.contextmanager
+def _interruptible(algorithm):
+    """Let Ctrl-C end an algorithm's execution by its exception.
+
+    Python runs the handler of a signal in its own code only, here in the observer of the progress.
+    VTK's wrappers end the program if an observer raises KeyboardInterrupt, so it waits for the end.
+    """
+    handler = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(handler):
+        yield
+        return
+    raised = []
+
+    def handle(*signal_and_frame):
+        try:
+            handler(*signal_and_frame)
+        except BaseException as error:  # KeyboardInterrupt is no Exception
+            raised.append(error)
+
+    def abort(*_):
+        if raised:
+            algorithm.AbortExecuteOn()
+
+    algorithm.AddObserver("ProgressEvent", abort)
+    signal.signal(signal.SIGINT, handle)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
+    if raised:
+        raise raised[0]
 
 
 def _array(name, values, shape, kind):

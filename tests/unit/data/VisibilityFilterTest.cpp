@@ -519,14 +519,16 @@ TEST_F(VisibilityFilter, ScenesMayBeFarAwayAndOfAnySize)
 TEST_F(VisibilityFilter, BrokenGeometryIsLeftOut)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto data =
-    polyData({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { nan, 1, 0 }, { 1e300, 0, 0 } },
-      { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 4, 2 } } });
-  this->filter->SetInputData(data);
   this->filter->AddDirection(0.0, 0.0, 1.0);
-  this->filter->Update();
-  EXPECT_THAT(this->why(), ElementsAre(Filter::LIT, Filter::NO_SURFACE, Filter::NO_SURFACE));
-  EXPECT_THAT(this->fraction(), ElementsAre(1, 0, 0));
+  for (const double far : { 1.3e30, -3.4028235e38, 1e300 })
+  {
+    this->filter->SetInputData(
+      polyData({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { nan, 1, 0 }, { far, 0, 0 } },
+        { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 4, 2 } } }));
+    this->filter->Update();
+    EXPECT_THAT(this->why(), ElementsAre(Filter::LIT, Filter::NO_SURFACE, Filter::NO_SURFACE));
+    EXPECT_THAT(this->fraction(), ElementsAre(1, 0, 0));
+  }
   this->filter->SetElementsToPoints();
   this->filter->Update();
   EXPECT_THAT(this->fraction(), ElementsAre(1, 1, 1, 0, 0));
@@ -551,6 +553,10 @@ TEST_F(VisibilityFilter, BrokenGeometryIsLeftOut)
   this->filter->SetUp(0.0, 0.0, -1.0);
   this->filter->Update();
   EXPECT_THAT(this->why(), ElementsAre(Filter::BELOW_HORIZON));
+  // Within the world, and beyond Embree's floats.
+  this->filter->AddInputData(1, floorOf({ 0, 0 }, { 1e25, 1e25 }, 1));
+  this->filter->Update();
+  this->expectError("off the scene's centre");
 }
 
 TEST_F(VisibilityFilter, WhatMakesNoSenseIsAnErrorAndChangesNothing)

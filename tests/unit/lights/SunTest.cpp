@@ -110,6 +110,7 @@ TEST_F(Sun, AgreesWithAnotherEphemeris)
     { 1975, 1, 9, 18, 19, -89.521, -38.061, 45.5, 304.9154, 22.3858 },
     { 2050, 11, 19, 3, 2, -45.516, -87.02, 109.8, 217.1044, -16.4909 },
   };
+  const double defaultDeltaT = this->sun->GetDeltaT();
   for (const Row& row : rows)
   {
     this->sun->SetDate(row.year, row.month, row.day);
@@ -122,7 +123,21 @@ TEST_F(Sun, AgreesWithAnotherEphemeris)
       std::cos(elevation) * std::cos(azimuth), std::sin(elevation));
     EXPECT_LT(glm::degrees(glm::distance(this->direction(), expected)), 0.001)
       << row.year << "-" << row.month << "-" << row.day;
+    this->sun->SetDeltaT(defaultDeltaT);
+    EXPECT_LT(glm::degrees(glm::distance(this->direction(), expected)), 0.003)
+      << row.year << "-" << row.month << "-" << row.day;
   }
+}
+
+/// Delta T is expected to grow to 226 seconds until then, when the sun moves fastest.
+TEST_F(Sun, ServesWithTheDefaultDeltaTToTheEndOf2100)
+{
+  this->sun->SetDate(2100, 12, 31);
+  const glm::dvec3 usual = this->direction();
+  this->sun->SetDeltaT(226.0);
+  const double off = glm::degrees(glm::distance(this->direction(), usual));
+  EXPECT_GT(off, 0.0018);
+  EXPECT_LT(off + 0.001, 0.003) << "with the distance from another ephemeris";
 }
 
 /// Refraction by the report's equation 42. At the horizon it is 28.98 minutes of arc (Saemundsson

@@ -17,6 +17,7 @@
 #include "vtkImageData.h"
 #include "vtkImageSlice.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkOpenGLSphereMapper.h"
 #include "vtkPlane.h"
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
@@ -38,6 +39,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace gnomon;
 using namespace gnomon::test;
@@ -189,6 +193,129 @@ TEST(OccluderTriangles, DropsWhatAMatrixFlattensOrBlowsUp)
     EXPECT_EQ(scene.surface(0).triangleCount, 2 - zeroArea - nonFinite);
     EXPECT_EQ(scene.surface(0).triangleOfDrawn.empty(), zeroArea + nonFinite == 0);
     expectNothingDone(scene);
+  }
+}
+
+// ---- missing data ----------------------------------------------------------
+
+/// Kinds of props with good points around the unit square and a last point of any value.
+using MakeProp = std::function<vtkSmartPointer<vtkActor>(const glm::dvec3& last)>;
+const std::vector<std::pair<std::string, MakeProp>>& propsWithLastPoint()
+{
+  const auto points = [](const glm::dvec3& last) {
+    return std::vector<glm::dvec3>{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, last };
+  };
+  const auto glyphs = [=](const glm::dvec3& last, int resolution, vtkIdType count)
+  {
+    const auto places = makePolyData(points(last), {}, VTK_DOUBLE);
+    while (places->GetNumberOfPoints() < count)
+    {
+      places->GetPoints()->InsertNextPoint(0.5, 0.5, 0.0);
+    }
+    vtkNew<vtkPlaneSource> source;
+    source->SetResolution(resolution, resolution);
+    source->Update();
+    return vtkSmartPointer<vtkActor>(PlacedGlyphs(places, source->GetOutput()).actor.Get());
+  };
+  static const std::vector<std::pair<std::string, MakeProp>> props{
+    { "polygons",
+      [=](const glm::dvec3& last) {
+        return makeActor(makePolyData(points(last), { { 0, 1, 3, 2 }, { 0, 1, 4 } }, VTK_DOUBLE));
+      } },
+    { "strips",
+      [=](const glm::dvec3& last)
+      {
+        const auto data = makePolyData(points(last), {}, VTK_DOUBLE);
+        data->SetStrips(makeCells({ { 0, 1, 2, 3, 4 } }));
+        return makeActor(data);
+      } },
+    { "expanded glyphs", [=](const glm::dvec3& last) { return glyphs(last, 1, 5); } },
+    { "kept glyphs", [=](const glm::dvec3& last) { return glyphs(last, 8, 2048); } },
+    { "balls",
+      [=](const glm::dvec3& last)
+      {
+        vtkNew<vtkOpenGLSphereMapper> mapper;
+        const auto data = makePolyData(points(last), {}, VTK_DOUBLE);
+        data->SetVerts(makeCells({ { 0 }, { 1 }, { 2 }, { 3 }, { 4 } }));
+        mapper->SetInputData(data);
+        mapper->SetRadius(0.5);
+        const auto actor = vtkSmartPointer<vtkActor>::New();
+        actor->SetMapper(mapper);
+        return actor;
+      } },
+  };
+  return props;
+}
+
+/// The box is that of the other points, and a matrix makes data missing and brings it back. Nothing
+/// depends on the places before.
+TEST(MissingData, IsLeftOutBeforeTheBoxIsMade)
+{
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  constexpr double largestFloat = std::numeric_limits<float>::max();
+  struct Case
+  {
+    double value;
+    double scale;
+    bool isMissing;
+  };
+  const auto boxOf = [](const Scene& scene)
+  {
+    const Bounds& box = scene.occluders().allCentred;
+    return Bounds{ box.lower + scene.occluders().centreWorld,
+      box.upper + scene.occluders().centreWorld };
+  };
+  for (const auto& [kind, make] : propsWithLastPoint())
+  {
+    for (const Case& given : { Case{ notANumber, 1.0, true }, { inf, 1.0, true },
+           { -largestFloat, 1.0, true }, { 1.3e30, 1.0, true }, { 1e300, 1.0, true },
+           { 1e20, 1e11, true }, { 1.2e30, 1.0, false }, { 1e35, 1e-35, false } })
+    {
+      SCOPED_TRACE(kind + ", " + std::to_string(given.value) + ", " + std::to_string(given.scale));
+      Scene scene;
+      const auto actor = make({ given.value, 0.5, 0.0 });
+      actor->SetScale(given.scale);
+      scene.renderer->AddActor(actor);
+      scene.collect();
+      EXPECT_EQ(scene.occluders().droppedNonFinite > 0, given.isMissing);
+      if (given.isMissing)
+      {
+        EXPECT_LE(largestCoordinate(boxOf(scene)), 1.6 * given.scale);
+        EXPECT_EQ(scene.occluders().centreWorld, glm::dvec3(0.0));
+      }
+      EXPECT_EQ(scene.collector.notes().empty(), !given.isMissing);
+
+      for (const double scale : { 1e-10, 1e11, 1.0, given.scale })
+      {
+        actor->SetScale(scale);
+        scene.collect();
+        Scene fresh;
+        const auto other = make({ given.value, 0.5, 0.0 });
+        other->SetScale(scale);
+        fresh.renderer->AddActor(other);
+        fresh.collect();
+        EXPECT_EQ(scene.occluders().centreWorld, fresh.occluders().centreWorld) << scale;
+        EXPECT_EQ(scene.occluders().droppedNonFinite, fresh.occluders().droppedNonFinite) << scale;
+      }
+    }
+  }
+}
+
+TEST(MissingData, ABoxFarLargerThanTheMedianPropsIsNoted)
+{
+  Scene scene;
+  for (int i = 0; i < 3; ++i)
+  {
+    scene.add(makeSquare());
+  }
+  vtkActor* const large = scene.add(makeSquare());
+  for (const double scale : { 1e6, 1.1e6, 1e20, 1.0 })
+  {
+    large->SetScale(scale);
+    scene.collect();
+    EXPECT_EQ(scene.collector.notes().size(), scale > 0x1p20 ? 1u : 0u) << scale;
+    scene.collect(); // at rest
+    EXPECT_EQ(scene.collector.notes().size(), scale > 0x1p20 ? 1u : 0u) << scale;
   }
 }
 

@@ -6,6 +6,13 @@
 
 #include "lights/vtkGnomonLightKeys.h"
 
+#include <gmock/gmock.h>
+#include <vtkActor.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+
 #include <functional>
 #include <utility>
 #include <vector>
@@ -133,6 +140,31 @@ TEST_BY_VARIANTS(DegenerateScenes, UnderLightsOfAnySize, isSoft)
   scene.renderer->RemoveAllLights();
   scene.addSun({ 1.0, 0.4, -0.1 });
   drawSizes({ "1e-6", "20", "170" });
+}
+
+//------------------------------------------------------------------------------
+/// As the least float marks it in rasters.
+TEST_BY_VARIANTS(DegenerateScenes, WithMissingData, isForAll)
+{
+  PassScene scene(64, 48);
+  this->fill(scene);
+  GetParam().choose(scene);
+  if (isSoft(GetParam()))
+  {
+    GetParam().set(scene.pass, "light_samples", "8");
+    scene.pass->SetSetting("light_radius", "0.5");
+  }
+  vtkActor* const ball = scene.addSphere({ 1.0, -1.0, 1.5 }, 0.5);
+  auto* const mapper = vtkPolyDataMapper::SafeDownCast(ball->GetMapper());
+  mapper->Update();
+  vtkNew<vtkPolyData> holed;
+  holed->DeepCopy(mapper->GetInput());
+  holed->GetPoints()->SetPoint(7, 0.1, 0.2, -3.4028235e38);
+  mapper->SetInputDataObject(holed);
+  scene.addSpot({ 1.0, -2.0, 5.0 }, glm::dvec3(0.0), 45.0);
+  drawKept(scene);
+  EXPECT_GT(scene.report().droppedNonFinite, 0u);
+  EXPECT_THAT(scene.report().notes, testing::Contains(testing::HasSubstr("missing data")));
 }
 
 //------------------------------------------------------------------------------

@@ -3,12 +3,14 @@
 #include "SyntheticScene.h"
 
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/penumbra/Bvh.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace gnomon::test
@@ -572,6 +574,30 @@ TEST(EmbreeTracer, CutoutsComeChangeAndGo)
   surface.oneSided = false;
   surface.cutout = roof.cutout;
   EXPECT_EQ(darkAfter(1), perforated);
+}
+
+//------------------------------------------------------------------------------
+// Embree's triangles ignore such casters, and its builder ends the process.
+TEST(EmbreeRange, CastersBeyondItAreAnErrorOfEachStructure)
+{
+  for (const double far : { 1.0, 1e18, 4e18, 1e25, 1e30 })
+  {
+    SCOPED_TRACE(far);
+    const Occluders scene = makeOccluders({ { makePlane(far) } });
+    const std::vector<BvhRecord> records(6);
+    const auto box = [far](const BvhRecord&) {
+      return Bounds{ glm::dvec3(-1.0), glm::dvec3(far) };
+    };
+    EmbreeTracer tracer;
+    if (far < 1.8e18)
+    {
+      EXPECT_NO_THROW(tracer.update(scene));
+      EXPECT_NO_THROW(buildBvh(records, box));
+      continue;
+    }
+    EXPECT_THROW(tracer.update(scene), std::runtime_error);
+    EXPECT_THROW(buildBvh(records, box), std::runtime_error);
+  }
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
+#include <vtkRenderWindowInteractor.h>
 #include <vtkRendererCollection.h>
 #include <vtkWindowToImageFilter.h>
 
@@ -17,10 +18,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdlib>
+#include <functional>
+#include <initializer_list>
 #include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 
 using gnomon::test::makeSphereScene;
@@ -88,6 +93,17 @@ std::array<int, 3> pixelAt(const std::vector<unsigned char>& picture, int width,
   const std::size_t first = 3 *
     (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   return { picture[first], picture[first + 1], picture[first + 2] };
+}
+
+std::ptrdiff_t countErrors(const std::string& text)
+{
+  const std::string begin = "ERROR: In ";
+  std::ptrdiff_t count = 0;
+  for (auto at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1))
+  {
+    ++count;
+  }
+  return count;
 }
 
 const std::array<int, 3> background{ 51, 102, 153 };
@@ -335,6 +351,84 @@ TEST_F(EGLRenderWindow, pixelsBeforeTheFirstFrameAreAnError)
   expectError(window->SetRGBAPixelData(0, 0, 7, 7, floats.data(), 1));
   expectError(window->GetZbufferData(0, 0, 7, 7, floats.data()));
   expectError(window->SetZbufferData(0, 0, 7, 7, floats.data()));
+}
+
+//------------------------------------------------------------------------------
+// X's interactor is the one that VTK's factory makes here, with and without an X server.
+TEST_F(EGLRenderWindow, interactorsDrawAndOnlyXsIsAnError)
+{
+  for (const bool isDrawn : { false, true })
+  {
+    for (const char* kind : { "vtkXRenderWindowInteractor", "vtkGenericRenderWindowInteractor" })
+    {
+      SCOPED_TRACE(std::string(kind) + (isDrawn ? ", drawn before" : ""));
+      const auto window = makeWindow(64, 48);
+      if (isDrawn)
+      {
+        window->Render();
+      }
+      const bool isX = kind[3] == 'X';
+      const auto interactor = isX ? vtkSmartPointer<vtkRenderWindowInteractor>::New()
+                                  : vtkSmartPointer(window->MakeRenderWindowInteractor());
+      ASSERT_STREQ(interactor->GetClassName(), kind);
+      interactor->SetRenderWindow(window);
+      EXPECT_EQ(window->GetInteractor(), interactor);
+      const std::string errors = this->takeErrors();
+      EXPECT_EQ(countErrors(errors), isX ? 1 : 0);
+      EXPECT_EQ(errors.find("Use a vtkGenericRenderWindowInteractor.") != std::string::npos, isX);
+      interactor->Initialize();
+      interactor->Start();
+      interactor->Render();
+      EXPECT_GT(countColours(readPicture(window)), 50u);
+      interactor->TerminateApp();
+      interactor->Disable();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, callsOnASecondThreadAreOneErrorUntilTheFirstReleasesTheContext)
+{
+  const auto window = makeWindow(64, 48);
+  window->Render();
+  const auto picture = readPicture(window);
+  vtkNew<vtkFloatArray> depths;
+  int bits[4];
+  vtkNew<vtkWindowToImageFilter> filter;
+  filter->SetInput(window);
+  for (const std::function<void()>& call :
+    std::initializer_list<std::function<void()>>{
+      [&] { window->Render(); },
+      [&] { window->Start(); },
+      [&] { filter->Update(); },
+      [&] { readPicture(window); },
+      [&] { window->GetZbufferData(0, 0, 3, 3, depths); },
+      [&] { window->SetZbufferData(0, 0, 63, 47, std::vector<float>(64 * 48).data()); },
+      [&] { window->GetColorBufferSizes(bits); },
+      [&] { window->GetDepthBufferSize(); },
+      [&] { EXPECT_STREQ(window->ReportCapabilities(), ""); },
+      [&] { window->Finalize(); },
+    })
+  {
+    std::thread(call).join();
+    const std::string errors = this->takeErrors();
+    EXPECT_EQ(countErrors(errors), 1) << errors;
+    EXPECT_THAT(errors, HasSubstr("call ReleaseCurrent() there first"));
+    window->Render();
+    EXPECT_EQ(readPicture(window), picture);
+  }
+
+  window->ReleaseCurrent();
+  std::thread(
+    [&]
+    {
+      window->Render();
+      EXPECT_EQ(readPicture(window), picture);
+      window->ReleaseCurrent();
+    })
+    .join();
+  window->Render();
+  EXPECT_EQ(readPicture(window), picture);
 }
 
 //------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
 
 #include <gtest/gtest.h>
 
@@ -40,6 +41,18 @@ TEST(GlxWindow, showsTheSameBytesAsTheWindowWithoutADisplay)
 
   vtkNew<vtkGnomonEGLRenderWindow> withoutDisplay;
   EXPECT_TRUE(draw(withoutDisplay) == expected);
+}
+
+//------------------------------------------------------------------------------
+TEST(GlxWindow, itsInteractorIsHarmlessAtTheWindowWithoutADisplay)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkNew<vtkRenderWindowInteractor> interactor;
+  ASSERT_STREQ(interactor->GetClassName(), "vtkXRenderWindowInteractor");
+  interactor->SetRenderWindow(window);
+  interactor->Initialize();
+  interactor->Start();
+  EXPECT_FALSE(draw(window).empty());
 }
 
 //------------------------------------------------------------------------------
