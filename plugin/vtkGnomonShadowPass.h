@@ -378,6 +378,11 @@ public:
    */
   void GetVisibilityImage(vtkImageData* image) const;
 
+  /**
+   * Includes the time of the settings.
+   */
+  vtkMTimeType GetMTime() override;
+
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
   ///@{
