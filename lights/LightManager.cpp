@@ -14,6 +14,7 @@
 #include <vtkInformationIntegerKey.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
+#include <vtkMatrix4x4.h>
 #include <vtkRenderer.h>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -459,6 +460,20 @@ std::shared_ptr<const LightTexture> LightManager::textureOf(
   }
   reason = reason.empty() ? read.reason : reason;
   return read.texture;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType changeTime(vtkLight* light)
+{
+  auto* const area = vtkGnomonAreaLight::SafeDownCast(light);
+  vtkMTimeType time = light->GetMTime();
+  for (vtkObject* const part :
+    std::initializer_list<vtkObject*>{ light->GetTransformMatrix(), light->GetInformation(),
+      vtkGnomonLightKeys::GetSettings(light), area ? area->GetTexture() : nullptr })
+  {
+    time = std::max(time, part ? part->GetMTime() : 0);
+  }
+  return time;
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,8 @@
 #include "lights/ShadowLight.h"
 #include "lights/vtkGnomonVersions.h"
 
+#include <vtkType.h>
+
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -86,6 +88,10 @@ private:
 
   ReadTextures textures_; ///< of the previous frame
 };
+
+/// Return when a light, or anything that it hands on, last changed: its transform, its keys, their
+/// object of settings, its texture.
+vtkMTimeType changeTime(vtkLight* light);
 
 /// Read one light's place and reach, without a renderer. Its area, texture and settings are left
 /// out.

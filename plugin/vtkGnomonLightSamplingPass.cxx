@@ -98,7 +98,6 @@ struct vtkGnomonLightSamplingPass::Internals
   gnomon::LightManager lightManager;
   std::vector<gnomon::PointedLight> lights; ///< of this frame
   std::optional<std::size_t> shown;         ///< a hash of what the mean was begun for
-  gnomon::ShownScene scene;
   gnomon::ViewCount viewCount;
   double progress = 1.0; ///< of the last frame that was no selection's
   gnomon::Complaints complaints;
@@ -280,7 +279,7 @@ double vtkGnomonLightSamplingPass::GammaOf(const vtkRenderState* s) const
 std::size_t vtkGnomonLightSamplingPass::HashOfShown(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();
-  std::size_t seed = this->Internal->scene.hash(renderer);
+  std::size_t seed = gnomon::hashOfShownScene(renderer);
   gnomon::hashView(seed, gnomon::cameraOf(renderer, glm::dvec3(0.0)), gnomon::sizeOf(s));
   gnomon::hashCombine(seed, gnomon::samplesOfBoundFramebuffer());
   gnomon::hashCombine(seed, this->GetMTime());

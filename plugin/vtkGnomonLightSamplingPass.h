@@ -90,8 +90,8 @@ public:
    * renderers), and renderers that are transparent (a layer), since what is below them is a part of
    * each picture, and may change without notice.
    *
-   * What counts as a change is what VTK and Gnomon have times for: the camera, lights, props with
-   * their inputs, this pass and its delegate. Call this pass's Modified() where something else
+   * Changes of the camera, of lights, of all that VTK draws props from, and of this pass, its
+   * delegate and their settings restart the mean. Call this pass's Modified() where something else
    * changed, as a pass inside of the delegate.
    */
   vtkSetClampMacro(SamplesPerFrame, int, 0, 65536);

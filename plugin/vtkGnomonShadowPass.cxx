@@ -382,7 +382,7 @@ gnomon::ShownPicture vtkGnomonShadowPass::RenderPicture(const vtkRenderState* s)
     {
       this->TellOfResolution(s, manager.endShading());
     }
-    manager.endFrame();
+    manager.endFrame(s);
     this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Frame, "");
     this->Internal->shadowed = true;
     this->Internal->progress = leastProgress(manager.report());
@@ -772,15 +772,10 @@ vtkGnomonShadowSettings* vtkGnomonShadowPass::GetSettings()
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
 {
-  const vtkMTimeType before = this->Internal->settings->GetMTime();
   const std::string why = this->Internal->settings->TrySetting(name, value);
   if (!why.empty())
   {
     vtkErrorMacro(<< why << ".");
-  }
-  else if (this->Internal->settings->GetMTime() != before)
-  {
-    this->Modified();
   }
 }
 
@@ -793,12 +788,7 @@ std::string vtkGnomonShadowPass::GetSetting(const char* name) const
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetMapSize(int mapSizeTexels)
 {
-  const vtkMTimeType before = this->Internal->settings->GetMTime();
   this->Internal->settings->SetMapSize(mapSizeTexels);
-  if (this->Internal->settings->GetMTime() != before)
-  {
-    this->Modified();
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -927,6 +917,12 @@ bool vtkGnomonShadowPass::SetShaderParameters(vtkShaderProgram* program, vtkAbst
     this->Internal->manager().setShaderParameters(program, mapper, prop);
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkGnomonShadowPass::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Internal->settings->GetMTime());
 }
 
 //------------------------------------------------------------------------------

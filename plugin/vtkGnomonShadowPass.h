@@ -380,6 +380,11 @@ public:
    */
   void GetVisibilityImage(vtkImageData* image) const VTK_EXPECTS(image != nullptr);
 
+  /**
+   * Includes the time of the settings.
+   */
+  vtkMTimeType GetMTime() override;
+
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
   ///@{

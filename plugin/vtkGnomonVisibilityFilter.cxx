@@ -210,7 +210,7 @@ vtkMTimeType vtkGnomonVisibilityFilter::GetMTime()
   vtkMTimeType time = std::max(this->Superclass::GetMTime(), internal.unfinishedTime.GetMTime());
   for (const AddedLight& added : internal.lights)
   {
-    time = std::max(time, added.light ? added.light->GetMTime() : 0);
+    time = std::max(time, added.light ? gnomon::changeTime(added.light) : 0);
   }
   return time;
 }
@@ -506,7 +506,7 @@ int vtkGnomonVisibilityFilter::RequestData(
     {
       if (added.light)
       {
-        runKey.objects.emplace_back(added.light, added.light->GetMTime());
+        runKey.objects.emplace_back(added.light, gnomon::changeTime(added.light));
       }
     }
     runKey.settings.insert(runKey.settings.end(),

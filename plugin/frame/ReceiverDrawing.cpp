@@ -1,31 +1,26 @@
 #include "plugin/frame/ReceiverDrawing.h"
 
 #include "plugin/scene/Hash.h"
-#include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/scene/PropStamps.h"
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
-#include <vtkAlgorithm.h>
 #include <vtkAssemblyNode.h>
 #include <vtkAssemblyPath.h>
 #include <vtkCommand.h>
-#include <vtkDataSet.h>
 #include <vtkInformation.h>
 #include <vtkInformationObjectBaseVectorKey.h>
 #include <vtkMapper.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderPass.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtkProp.h>
 #include <vtkPropCollection.h>
-#include <vtkProperty.h>
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 #include <vtkShaderProperty.h>
 #include <vtkSmartPointer.h>
-#include <vtkTexture.h>
 #include <vtkVolume.h>
 
 #include <algorithm>
@@ -110,60 +105,6 @@ bool mayHaveOwnShaders(vtkMapper* mapper)
     [mapper](const char* name) { return std::strcmp(name, mapper->GetClassName()) == 0; });
 }
 
-/// Hash an actor's look and shape, without its own time.
-void hashActor(std::size_t& seed, vtkActor* actor)
-{
-  const auto hashObject = [&](vtkObject* object)
-  {
-    hashCombine(seed, object);
-    hashCombine(seed, object ? object->GetMTime() : 0);
-  };
-  hashObject(actor->GetProperty());
-  hashObject(actor->GetBackfaceProperty());
-  hashObject(actor->GetTexture());
-  hashCombine(seed, actor->GetForceOpaque());
-  hashCombine(seed, actor->GetForceTranslucent());
-  vtkMapper* const mapper = actor->GetMapper();
-  hashObject(mapper);
-  if (mapper && mapper->GetNumberOfInputPorts() > 0 && mapper->GetInput())
-  {
-    mapper->GetInputAlgorithm()->Update();
-    hashObject(mapper->GetInput());
-  }
-}
-
-/// Hash the parts of an assembly. It gives each part a matrix while it draws it, which sets the
-/// part's time, and so its own, in every frame.
-void hashParts(std::size_t& seed, vtkProp* assembly)
-{
-  assembly->InitPathTraversal();
-  while (vtkAssemblyPath* const path = assembly->GetNextPath())
-  {
-    vtkCollectionSimpleIterator iterator;
-    path->InitTraversal(iterator);
-    while (vtkAssemblyNode* const node = path->GetNextNode(iterator))
-    {
-      hashCombine(seed, node->GetViewProp());
-      hashCombine(seed, node->GetViewProp()->GetVisibility());
-      hashCombine(seed, vtkGnomonPropKeys::GetReceives(node->GetViewProp()));
-    }
-    vtkAssemblyNode* const last = path->GetLastNode();
-    if (vtkMatrix4x4* const matrix = last->GetMatrix())
-    {
-      std::for_each(matrix->GetData(), matrix->GetData() + 16,
-        [&](double element) { hashCombine(seed, element); });
-    }
-    if (auto* const actor = vtkActor::SafeDownCast(last->GetViewProp()))
-    {
-      hashActor(seed, actor);
-    }
-    else
-    {
-      hashCombine(seed, last->GetViewProp()->GetRedrawMTime());
-    }
-  }
-}
-
 bool isAssembly(vtkProp* prop)
 {
   return prop->IsA("vtkAssembly") || prop->IsA("vtkPropAssembly");
@@ -202,24 +143,17 @@ bool hasOwnShaders(vtkProp* prop)
 }
 
 //------------------------------------------------------------------------------
-std::size_t hashOfShownProps(const vtkRenderState* s)
+std::size_t hashOfShownProps(const vtkRenderState* s, PropStamps& stamps)
 {
   std::size_t seed = 0;
+  stamps.beginFrame();
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* prop = s->GetPropArray()[i];
     // Annotations, such as a text with the frame's time, do not change the receivers.
     if (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop))
     {
-      hashCombine(seed, prop);
-      if (isAssembly(prop))
-      {
-        hashParts(seed, prop);
-      }
-      else
-      {
-        hashCombine(seed, prop->GetRedrawMTime());
-      }
+      hashCombine(seed, stamps.of(prop, s->GetRenderer()));
       if (hasOwnShaders(prop))
       {
         static std::atomic<std::size_t> different{ 0 };

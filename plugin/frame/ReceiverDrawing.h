@@ -17,9 +17,12 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
+class PropStamps;
+
 /// Return a hash of the receivers that props in view show, with one camera and snapshot. Each call
 /// gives another number if a prop has shaders of a user's own.
-std::size_t hashOfShownProps(const vtkRenderState* s);
+/// @param stamps begins a frame
+std::size_t hashOfShownProps(const vtkRenderState* s, PropStamps& stamps);
 
 /// True if a prop has shaders of a user's own, a mapper that may have some, or shaders to which
 /// other render passes add.

@@ -85,6 +85,7 @@ RenderManager::RenderManager(PassPrograms& programs)
 void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
 {
   this->frame_.report = FrameReport{};
+  this->shownProps_.reset();
   this->frame_.report.numbersChecked = std::exchange(this->checkedBefore_, 0);
   this->frame_.wishes = wishes;
   this->frame_.ranks = ranks;
@@ -189,7 +190,7 @@ bool RenderManager::changes(const vtkRenderState* s)
     hashLight(shown, casting.light);
   }
   hashView(shown, this->frame_.camera, this->frame_.size);
-  hashCombine(shown, hashOfShownProps(s));
+  hashCombine(shown, this->shownProps(s));
   const Occluders& occluders = this->collector_.occluders();
   hashCombine(shown, occluders.topologyVersion);
   hashCombine(shown, occluders.positionsVersion);
@@ -363,15 +364,28 @@ bool RenderManager::readsPoints() const
 }
 
 //------------------------------------------------------------------------------
+/// Return a hash of the props in view, from one walk a frame.
+std::size_t RenderManager::shownProps(const vtkRenderState* s)
+{
+  if (!this->shownProps_)
+  {
+    this->shownProps_ = hashOfShownProps(s, this->stamps_);
+    const std::vector<std::string> notes = this->stamps_.notes();
+    this->frame_.report.notes.insert(this->frame_.report.notes.end(), notes.begin(), notes.end());
+  }
+  return *this->shownProps_;
+}
+
+//------------------------------------------------------------------------------
 /// The key of the picture of the receivers.
-ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
+ValueKey RenderManager::receiversKey(const vtkRenderState* s)
 {
   std::size_t view = 0;
   hashView(view, this->frame_.camera, this->frame_.size);
   const Occluders& occluders = this->collector_.occluders();
   ValueKey key;
   key.add("the camera", view);
-  key.add(propsPart, hashOfShownProps(s));
+  key.add(propsPart, this->shownProps(s));
   key.add(snapshotPart, std::pair(occluders.topologyVersion, occluders.positionsVersion));
   key.add("what is read of receivers", this->readsPoints());
   key.add("the processes", this->frame_.ranks ? this->frame_.ranks->serial() : 0);
@@ -651,8 +665,9 @@ void RenderManager::compareSurfaces(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::endFrame()
+void RenderManager::endFrame(const vtkRenderState* s)
 {
+  this->stamps_.endFrame(s->GetRenderer());
   FrameReport& report = this->frame_.report;
   const PassPrograms& programs = this->programs_;
   report.numbersByGeometryShaders = programs.shaders.numbersByGeometryShaders();

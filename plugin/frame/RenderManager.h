@@ -7,6 +7,7 @@
 #include "plugin/frame/TriangleNumbers.h"
 #include "plugin/frame/VisibilityStage.h"
 #include "plugin/scene/OccluderCollector.h"
+#include "plugin/scene/PropStamps.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 
 #include "shadowtech/base/OccluderBuffers.h"
@@ -117,8 +118,8 @@ public:
   /// collective frame of its own (Ranks), after the picture was drawn and the report completed.
   void compareSurfaces(const vtkRenderState* s);
 
-  /// Completes the report.
-  void endFrame();
+  /// Completes the report, after VTK has drawn the props.
+  void endFrame(const vtkRenderState* s);
 
   /// Gives back what a stage holds that an error has ended early.
   void abandonFrame();
@@ -131,7 +132,8 @@ public:
 private:
   MapStage mapStage(const CastingLight& casting);
   bool readsPoints() const;
-  ValueKey receiversKey(const vtkRenderState* s) const;
+  std::size_t shownProps(const vtkRenderState* s);
+  ValueKey receiversKey(const vtkRenderState* s);
   std::string whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const;
   void makeRoomForLayers();
   bool namesTriangles();
@@ -143,7 +145,9 @@ private:
 
   Frame frame_;
   OccluderCollector collector_;
-  std::vector<SurfaceName> names_; ///< of the snapshot's surfaces, if they are needed
+  PropStamps stamps_;
+  std::optional<std::size_t> shownProps_; ///< this frame's hash of them, once it is asked for
+  std::vector<SurfaceName> names_;        ///< of the snapshot's surfaces, if they are needed
   OccluderBuffers buffers_;
   PassPrograms& programs_;
   VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, programs_.library };

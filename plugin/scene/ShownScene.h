@@ -1,7 +1,5 @@
 #pragma once
 
-#include "plugin/scene/PropMemory.h"
-
 #include "lights/vtkGnomonVersions.h"
 
 #include <cstddef>
@@ -13,16 +11,8 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// Hashes a renderer's scene: its props, in the camera's view or not, its lights and its
-/// background.
-class ShownScene
-{
-public:
-  /// Return the scene's hash. The same number means the same scene.
-  std::size_t hash(vtkRenderer* renderer);
-
-private:
-  PropMemory propMemory_;
-};
+/// Return a hash of a renderer's scene: its props, in the camera's view or not, its lights and its
+/// background. The same number means the same scene.
+std::size_t hashOfShownScene(vtkRenderer* renderer);
 
 } // namespace gnomon

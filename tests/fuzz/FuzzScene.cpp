@@ -62,6 +62,10 @@ FuzzScene::FuzzScene(Random random, Purpose purpose)
   this->sizeWindow(random);
   this->placeWorld(random);
   this->addProps(random);
+  if (this->purpose_ == Purpose::Changes)
+  {
+    this->addChangingProps(random);
+  }
   for (vtkRenderer* renderer : this->renderers_)
   {
     this->placeCamera(renderer, random);
@@ -141,6 +145,28 @@ void FuzzScene::addProps(Random& random)
     }
   }
   this->description_ += "props: " + kinds + "\n";
+}
+
+//------------------------------------------------------------------------------
+/// Add props that hide others and mostly have no surface that casts or receives.
+void FuzzScene::addChangingProps(Random& random)
+{
+  for (unsigned left = random() % 3; left > 0; --left)
+  {
+    const test::PropKind& kind = pick(test::changingProps(), random);
+    if (!kind.isRepeatable)
+    {
+      continue;
+    }
+    const test::ChangingProp drawn = kind.make(this->renderers_.front());
+    this->description_ += std::string("changing prop: ") + kind.name + "\n";
+    drawn.leaf->GetUserMatrix()->DeepCopy(this->world_);
+    this->changingProps_.push_back(drawn);
+    for (vtkRenderer* renderer : this->renderers_)
+    {
+      renderer->AddViewProp(drawn.prop);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

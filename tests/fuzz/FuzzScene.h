@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Cases.h"
+#include "ChangingProps.h"
 #include "Picture.h"
 #include "RandomProps.h"
 #include "RandomSettings.h"
@@ -74,6 +75,7 @@ private:
 
   void placeWorld(Random& random);
   void addProps(Random& random);
+  void addChangingProps(Random& random);
   void addLight(Random& random);
   void placeLight(vtkLight* light, Random& random);
   void shapeLight(vtkLight* light, Random& random);
@@ -89,6 +91,7 @@ private:
   void moveLight(Random& random);
   void changeLight(Random& random);
   void moveProp(Random& random);
+  void changeProp(Random& random);
   void editPoints(Random& random);
   void replaceData(Random& random);
   void clip(Random& random);
@@ -118,6 +121,7 @@ private:
   vtkNew<vtkMatrix4x4> world_; ///< from where the scene is a few units large
   double unit_ = 1.0;          ///< of the scene, in world units
   std::vector<vtkSmartPointer<vtkProp3D>> props_;
+  std::vector<test::ChangingProp> changingProps_;
   std::vector<vtkSmartPointer<vtkLight>> lights_;
   NamedSettings settings_;                      ///< of the pass
   std::vector<NamedSettings> settingsOfLights_; ///< beside the pass's

@@ -45,7 +45,8 @@ const std::vector<FuzzScene::Kind>& FuzzScene::kinds()
     { "window's size", &FuzzScene::sizeWindow }, { "stereo eye", &FuzzScene::chooseStereo },
     { "pass's renderers", &FuzzScene::chooseRenderer },
     { "technique", &FuzzScene::chooseTechnique }, { "setting", &FuzzScene::changeSetting },
-    { "prop key", &FuzzScene::setPropKey }, { "far prop", &FuzzScene::sendFarProp } };
+    { "prop key", &FuzzScene::setPropKey }, { "far prop", &FuzzScene::sendFarProp },
+    { "changing prop", &FuzzScene::changeProp }, { "changing prop", &FuzzScene::changeProp } };
   return all;
 }
 
@@ -164,6 +165,17 @@ void FuzzScene::moveProp(Random& random)
     default:
       prop->GetUserMatrix()->SetElement(
         2, 3, prop->GetUserMatrix()->GetElement(2, 3) + 0.2 * this->unit_);
+  }
+}
+
+//------------------------------------------------------------------------------
+void FuzzScene::changeProp(Random& random)
+{
+  const test::PropChange& change = pick(test::propChanges(), random);
+  if (!this->changingProps_.empty())
+  {
+    change.apply(pick(this->changingProps_, random));
+    this->description_ += std::string("  ") + change.name + "\n";
   }
 }
 

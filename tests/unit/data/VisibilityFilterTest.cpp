@@ -17,6 +17,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkLight.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -478,6 +479,44 @@ TEST_F(VisibilityFilter, OnlyWhatChangedIsTracedAgain)
   EXPECT_THAT(this->fraction(), testing::Each(1.0));
   // The input receivers get no new arrays.
   EXPECT_EQ(data->GetCellData()->GetNumberOfArrays(), 1);
+}
+
+TEST_F(VisibilityFilter, ChangesOfLightsAreTraced)
+{
+  vtkNew<vtkLight> light;
+  light->SetPosition(0.0, 0.0, 5.0);
+  vtkNew<vtkMatrix4x4> matrix;
+  light->SetTransformMatrix(matrix);
+  const vtkSmartPointer<vtkPolyData> floor = floorOf({ -2, -2 }, { 2, 2 }, 8);
+  this->filter->SetInputData(floor);
+  this->filter->AddInputData(1, quad({ 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 }));
+  this->filter->AddLight(light);
+  const double up[3] = { 0.0, 1.0, 0.0 };
+  const std::pair<const char*, std::function<void()>> changes[] = {
+    { "box", [&] { vtkGnomonLightKeys::SetBox(light, 3.0, 2.0, 9.0, up); } },
+    { "another box", [&] { vtkGnomonLightKeys::SetBox(light, 2.0, 3.0, 9.0, up); } },
+    { "matrix in place", [&] { matrix->SetElement(0, 3, 1.0); } },
+    { "no box", [&] { vtkGnomonLightKeys::RemoveBox(light); } },
+    { "place", [&] { light->SetPosition(1.0, 1.0, 4.0); } },
+    { "kind", [&] { light->PositionalOn(); } },
+    { "cone", [&] { light->SetConeAngle(12.0); } },
+    { "no matrix", [&] { light->SetTransformMatrix(nullptr); } },
+  };
+  this->filter->Update();
+  Doubles before = this->fraction();
+  for (const auto& [what, change] : changes)
+  {
+    change();
+    this->filter->Update();
+    vtkNew<Filter> fresh;
+    fresh->SetInputData(floor);
+    fresh->AddInputData(1, this->filter->GetInputDataObject(1, 0));
+    fresh->AddLight(light);
+    fresh->Update();
+    const Doubles now = this->fraction();
+    EXPECT_EQ(now, arrayOf(fresh, Filter::GetLitFractionName())) << what;
+    EXPECT_NE(now, std::exchange(before, now)) << what;
+  }
 }
 
 TEST_F(VisibilityFilter, ScenesMayBeFarAwayAndOfAnySize)

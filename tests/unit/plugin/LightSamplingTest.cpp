@@ -6,6 +6,7 @@
 #include "lights/LightSamples.h"
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
+#include "lights/vtkGnomonShadowSettings.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "shadowtech/base/TextureMemory.h"
@@ -18,6 +19,7 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkLightCollection.h>
+#include <vtkLookupTable.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLFXAAPass.h>
 #include <vtkOpenGLRenderer.h>
@@ -28,8 +30,11 @@
 #include <vtkRenderStepsPass.h>
 #include <vtkSSAAPass.h>
 #include <vtkSSAOPass.h>
+#include <vtkScalarBarActor.h>
 #include <vtkSelection.h>
 #include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkTexture.h>
 #include <vtkToneMappingPass.h>
 #include <vtkTransform.h>
 #include <vtkTranslucentPass.h>
@@ -562,6 +567,13 @@ TEST_F(LightSampling, refinesAnewWhenSomethingChanges)
   point->SetTexture(colour);
   this->scene.pass->ObeyUseShadowsOn();
   this->scene.renderer->UseShadowsOn();
+  vtkNew<vtkGnomonShadowSettings> settings;
+  vtkNew<vtkTexture> sky;
+  sky->SetInputData(colour);
+  vtkNew<vtkLookupTable> table;
+  vtkNew<vtkScalarBarActor> bar;
+  bar->SetLookupTable(table);
+  this->scene.renderer->AddViewProp(bar);
   const std::pair<const char*, std::function<void()>> changes[] = {
     { "camera",
       [&] {
@@ -595,6 +607,24 @@ TEST_F(LightSampling, refinesAnewWhenSomethingChanges)
       {
         colour->SetScalarComponentFromDouble(0, 0, 0, 0, 200.0);
         colour->GetPointData()->GetScalars()->Modified();
+      } },
+    { "no point", [&] { this->scene.renderer->RemoveLight(point); } },
+    { "pass's settings", [&] { this->scene.pass->GetSettings()->SetMapSize(200); } },
+    { "light's settings", [&] { vtkGnomonLightKeys::SetSettings(lamp, settings); } },
+    { "one of them", [&] { settings->SetMapSize(300); } },
+    { "scalar bar's table", [&] { table->SetHueRange(0.2, 0.4); } },
+    { "scalar bar's text", [&] { bar->GetLabelTextProperty()->SetOpacity(0.5); } },
+    { "background's texture",
+      [&]
+      {
+        this->scene.renderer->SetBackgroundTexture(sky);
+        this->scene.renderer->TexturedBackgroundOn();
+      } },
+    { "its pixels",
+      [&]
+      {
+        colour->SetScalarComponentFromDouble(0, 0, 0, 0, 100.0);
+        colour->Modified();
       } },
   };
   for (const auto& [what, change] : changes)

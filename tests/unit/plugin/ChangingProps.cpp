@@ -1,0 +1,586 @@
+#include "ChangingProps.h"
+
+#include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtk_versions/SharedBlocksMapper.h"
+
+#include <vtkAssembly.h>
+#include <vtkAxesActor.h>
+#include <vtkCellArray.h>
+#include <vtkCompositePolyDataMapper.h>
+#include <vtkDataSetMapper.h>
+#include <vtkFloatArray.h>
+#include <vtkFollower.h>
+#include <vtkGenericRenderWindowInteractor.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkImageProperty.h>
+#include <vtkImageResliceMapper.h>
+#include <vtkImageSlice.h>
+#include <vtkImageSliceMapper.h>
+#include <vtkImageStack.h>
+#include <vtkLODActor.h>
+#include <vtkLODProp3D.h>
+#include <vtkLookupTable.h>
+#include <vtkMapper.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLActor.h>
+#include <vtkPlaneCollection.h>
+#include <vtkPointData.h>
+#include <vtkPointGaussianMapper.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProp3DFollower.h>
+#include <vtkPropAssembly.h>
+#include <vtkProperty.h>
+#include <vtkQuadricLODActor.h>
+#include <vtkRenderWindow.h>
+#include <vtkTextActor3D.h>
+#include <vtkTextProperty.h>
+#include <vtkTexture.h>
+
+#include <algorithm>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr double half = 2.0; ///< of a grid's side
+
+vtkSmartPointer<vtkPlaneSource> gridSource(double halfSide = half, int cells = 12)
+{
+  auto source = vtkSmartPointer<vtkPlaneSource>::New();
+  source->SetOrigin(-halfSide, -halfSide, 0.0);
+  source->SetPoint1(halfSide, -halfSide, 0.0);
+  source->SetPoint2(-halfSide, halfSide, 0.0);
+  source->SetResolution(cells, cells);
+  return source;
+}
+
+/// A grid whose points have a number each.
+vtkSmartPointer<vtkPolyData> grid(double halfSide = half, int cells = 12)
+{
+  const auto source = gridSource(halfSide, cells);
+  source->Update();
+  vtkSmartPointer<vtkPolyData> data = source->GetOutput();
+  vtkNew<vtkFloatArray> numbers;
+  numbers->SetName("numbers");
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    numbers->InsertNextValue(static_cast<float>(i) / data->GetNumberOfPoints());
+  }
+  data->GetPointData()->SetScalars(numbers);
+  return data;
+}
+
+vtkSmartPointer<vtkImageData> picture()
+{
+  constexpr int side = 8;
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(side, side, 1);
+  image->SetOrigin(-half, -half, 0.0);
+  image->SetSpacing(2.0 * half / (side - 1), 2.0 * half / (side - 1), 1.0);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  std::fill_n(
+    static_cast<unsigned char*>(image->GetScalarPointer()), 4 * side * side, std::uint8_t(255));
+  return image;
+}
+
+/// Finish a prop above the ground: it is drawn from lines, and a plane cuts off a part.
+ChangingProp finished(ChangingProp prop)
+{
+  prop.leaf->SetPosition(0.0, 0.0, 1.0);
+  vtkNew<vtkMatrix4x4> matrix;
+  prop.leaf->SetUserMatrix(matrix);
+  if (prop.actor)
+  {
+    prop.actor->GetProperty()->SetRepresentationToWireframe();
+    prop.actor->GetProperty()->SetLineWidth(3.0);
+    prop.actor->GetProperty()->SetPointSize(5.0);
+  }
+  if (prop.mapper)
+  {
+    vtkNew<vtkPlane> plane;
+    plane->SetOrigin(1.5, 0.0, 0.0);
+    plane->SetNormal(-1.0, 0.0, 0.0);
+    prop.mapper->AddClippingPlane(plane);
+  }
+  if (!prop.prop)
+  {
+    prop.prop = prop.leaf;
+  }
+  return prop;
+}
+
+ChangingProp propOf(vtkSmartPointer<vtkActor> actor, vtkMapper* mapper)
+{
+  ChangingProp prop;
+  prop.leaf = prop.actor = std::move(actor);
+  prop.mapper = mapper;
+  prop.actor->SetMapper(mapper);
+  return finished(std::move(prop));
+}
+
+/// @tparam Mapper of a polydata
+template <typename Mapper>
+ChangingProp ofData(vtkSmartPointer<vtkActor> actor = vtkSmartPointer<vtkActor>::New())
+{
+  vtkNew<Mapper> mapper;
+  const vtkSmartPointer<vtkPolyData> data = grid();
+  mapper->SetInputData(data);
+  ChangingProp prop = propOf(std::move(actor), mapper);
+  prop.data = data;
+  return prop;
+}
+
+ChangingProp makeWireframe(vtkRenderer*)
+{
+  return ofData<vtkPolyDataMapper>();
+}
+
+ChangingProp makePipeline(vtkRenderer*)
+{
+  const auto source = gridSource();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  ChangingProp prop = propOf(vtkSmartPointer<vtkActor>::New(), mapper);
+  prop.source = source;
+  return prop;
+}
+
+ChangingProp makePoints(vtkRenderer*)
+{
+  ChangingProp prop = ofData<vtkPolyDataMapper>();
+  prop.actor->GetProperty()->SetRepresentationToPoints();
+  return prop;
+}
+
+ChangingProp makeLines(vtkRenderer*)
+{
+  ChangingProp prop = ofData<vtkPolyDataMapper>();
+  prop.data->SetLines(prop.data->GetPolys());
+  prop.data->SetPolys(nullptr);
+  prop.actor->GetProperty()->SetRepresentationToSurface();
+  return prop;
+}
+
+ChangingProp makeDataSet(vtkRenderer*)
+{
+  return ofData<vtkDataSetMapper>();
+}
+
+template <typename Mapper>
+ChangingProp makeBlocks(vtkRenderer*)
+{
+  const vtkSmartPointer<vtkPolyData> data = grid();
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, data);
+  vtkNew<Mapper> mapper;
+  mapper->SetInputDataObject(blocks);
+  ChangingProp prop = propOf(vtkSmartPointer<vtkActor>::New(), mapper);
+  prop.data = data;
+  prop.changePart = [blocks = vtkSmartPointer<vtkMultiBlockDataSet>(blocks)]
+  { blocks->SetBlock(0, grid(0.5 * half)); };
+  return prop;
+}
+
+ChangingProp makeGlyphs(vtkRenderer*)
+{
+  const auto source = gridSource(0.3 * half, 3);
+  const vtkSmartPointer<vtkPolyData> data = grid(0.7 * half, 2);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetSourceConnection(source->GetOutputPort());
+  mapper->ScalingOff();
+  ChangingProp prop = propOf(vtkSmartPointer<vtkActor>::New(), mapper);
+  prop.data = data;
+  prop.source = source;
+  prop.changePart = [mapper = mapper.Get()] { mapper->SetSourceData(grid(0.1 * half, 1)); };
+  return prop;
+}
+
+ChangingProp makeCulledGlyphs(vtkRenderer* renderer)
+{
+  ChangingProp prop = makeGlyphs(renderer);
+  prop.actor->GetProperty()->SetRepresentationToSurface();
+  vtkGlyph3DMapper::SafeDownCast(prop.mapper)->SetCullingAndLOD(true);
+  return prop;
+}
+
+ChangingProp makeSplats(vtkRenderer*)
+{
+  ChangingProp prop = ofData<vtkPointGaussianMapper>();
+  auto* const mapper = vtkPointGaussianMapper::SafeDownCast(prop.mapper);
+  mapper->SetScaleFactor(0.05);
+  prop.changePart = [mapper] { mapper->SetScaleFactor(0.2); };
+  return prop;
+}
+
+ChangingProp makeSurface(vtkRenderer*)
+{
+  ChangingProp prop = ofData<vtkPolyDataMapper>();
+  prop.actor->GetProperty()->SetRepresentationToSurface();
+  return prop;
+}
+
+ChangingProp makeFence(vtkRenderer*)
+{
+  ChangingProp prop = ofData<vtkPolyDataMapper>();
+  prop.actor->GetProperty()->SetRepresentationToSurface();
+  prop.data->GetPointData()->SetScalars(nullptr);
+  prop.image = picture();
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(prop.image);
+  prop.actor->SetTexture(texture);
+  prop.actor->ForceOpaqueOn();
+  return prop;
+}
+
+/// @tparam Mapper of an image
+template <typename Mapper>
+ChangingProp makeSlice(vtkRenderer*)
+{
+  ChangingProp prop;
+  prop.image = picture();
+  vtkNew<Mapper> mapper;
+  mapper->SetInputData(prop.image);
+  vtkNew<vtkImageSlice> slice;
+  slice->SetMapper(mapper);
+  prop.leaf = slice;
+  prop.mapper = mapper;
+  prop.changePart = [slice = slice.Get()] { slice->GetProperty()->SetOpacity(0.5); };
+  return finished(std::move(prop));
+}
+
+ChangingProp makeStack(vtkRenderer* renderer)
+{
+  ChangingProp prop = makeSlice<vtkImageSliceMapper>(renderer);
+  vtkNew<vtkImageStack> stack;
+  stack->AddImage(vtkImageSlice::SafeDownCast(prop.leaf));
+  prop.prop = stack;
+  return prop;
+}
+
+ChangingProp makeFollower(vtkRenderer* renderer)
+{
+  vtkNew<vtkFollower> follower;
+  follower->SetCamera(renderer->GetActiveCamera());
+  return ofData<vtkPolyDataMapper>(vtkSmartPointer<vtkActor>(follower));
+}
+
+ChangingProp makePropFollower(vtkRenderer* renderer)
+{
+  ChangingProp prop = makeWireframe(renderer);
+  vtkNew<vtkProp3DFollower> follower;
+  follower->SetProp3D(prop.leaf);
+  follower->SetCamera(renderer->GetActiveCamera());
+  prop.prop = follower;
+  prop.changePart = [follower = follower.Get(), renderer]
+  { follower->SetProp3D(makePipeline(renderer).leaf); };
+  return prop;
+}
+
+ChangingProp makeLevels(vtkRenderer*)
+{
+  ChangingProp prop;
+  prop.data = grid();
+  vtkNew<vtkPolyDataMapper> fine;
+  fine->SetInputData(prop.data);
+  vtkNew<vtkPolyDataMapper> coarse;
+  coarse->SetInputData(grid(half, 3));
+  vtkNew<vtkProperty> look;
+  look->SetRepresentationToWireframe();
+  look->SetLineWidth(3.0);
+  vtkNew<vtkLODProp3D> levels;
+  levels->AutomaticLODSelectionOff();
+  const int other = levels->AddLOD(coarse, look, 0.0);
+  levels->SetSelectedLODID(levels->AddLOD(fine, look, 0.0));
+  prop.leaf = levels;
+  prop.mapper = fine;
+  prop.changePart = [levels = levels.Get(), other, look = vtkSmartPointer<vtkProperty>(look)]
+  {
+    look->SetLineWidth(1.0);
+    levels->SetSelectedLODID(other);
+  };
+  return finished(std::move(prop));
+}
+
+ChangingProp makeLodActor(vtkRenderer*)
+{
+  return ofData<vtkPolyDataMapper>(vtkSmartPointer<vtkLODActor>::New());
+}
+
+ChangingProp makeQuadricActor(vtkRenderer* renderer)
+{
+  vtkNew<vtkGenericRenderWindowInteractor> interactor; // without one, VTK does not draw it
+  renderer->GetRenderWindow()->SetInteractor(interactor);
+  return ofData<vtkPolyDataMapper>(vtkSmartPointer<vtkQuadricLODActor>::New());
+}
+
+ChangingProp makeAssembly(vtkRenderer* renderer)
+{
+  ChangingProp prop = makeWireframe(renderer);
+  vtkNew<vtkAssembly> assembly;
+  assembly->AddPart(prop.leaf);
+  prop.prop = assembly;
+  prop.changePart = [assembly = assembly.Get(), leaf = prop.leaf.Get()]
+  {
+    assembly->SetPosition(0.5, 0.0, 0.0);
+    assembly->RemovePart(leaf);
+  };
+  return prop;
+}
+
+ChangingProp makeNest(vtkRenderer* renderer)
+{
+  ChangingProp prop = makeAssembly(renderer);
+  vtkNew<vtkAssembly> outer;
+  outer->AddPart(vtkAssembly::SafeDownCast(prop.prop));
+  prop.changePart = [inner = vtkAssembly::SafeDownCast(prop.prop)]
+  { inner->SetPosition(0.5, 0.0, 0.0); };
+  prop.prop = outer;
+  return prop;
+}
+
+ChangingProp makePropAssembly(vtkRenderer* renderer)
+{
+  ChangingProp prop = makeWireframe(renderer);
+  vtkNew<vtkPropAssembly> assembly;
+  assembly->AddPart(prop.leaf);
+  prop.prop = assembly;
+  prop.changePart = [assembly = assembly.Get(), renderer]
+  { assembly->AddPart(makeSlice<vtkImageSliceMapper>(renderer).leaf); };
+  return prop;
+}
+
+ChangingProp makeFollowerAssembly(vtkRenderer* renderer)
+{
+  ChangingProp prop = makePropFollower(renderer);
+  vtkNew<vtkPropAssembly> assembly;
+  assembly->AddPart(prop.prop);
+  prop.prop = assembly;
+  return prop;
+}
+
+ChangingProp makeSliceAssembly(vtkRenderer* renderer)
+{
+  ChangingProp prop = makeSlice<vtkImageSliceMapper>(renderer);
+  vtkNew<vtkPropAssembly> assembly;
+  assembly->AddPart(prop.leaf);
+  prop.prop = assembly;
+  return prop;
+}
+
+ChangingProp makeText(vtkRenderer*)
+{
+  ChangingProp prop;
+  vtkNew<vtkTextActor3D> text;
+  text->SetInput("text");
+  text->GetTextProperty()->SetFontSize(1);
+  prop.leaf = text;
+  prop.changePart = [text = text.Get()] { text->GetTextProperty()->SetFontSize(2); };
+  return finished(std::move(prop));
+}
+
+ChangingProp makeAxes(vtkRenderer*)
+{
+  ChangingProp prop;
+  vtkNew<vtkAxesActor> axes;
+  axes->AxisLabelsOff();
+  prop.leaf = axes;
+  prop.changePart = [axes = axes.Get()] { axes->SetTotalLength(2.0, 1.0, 0.5); };
+  return finished(std::move(prop));
+}
+
+/// A prop of a user's class, whose time changes whenever it is drawn.
+class RestlessActor : public vtkOpenGLActor
+{
+public:
+  static RestlessActor* New();
+  vtkTypeMacro(RestlessActor, vtkOpenGLActor);
+  void Render(vtkRenderer* renderer, vtkMapper* mapper) override
+  {
+    this->Superclass::Render(renderer, mapper);
+    this->Modified();
+  }
+};
+vtkStandardNewMacro(RestlessActor);
+
+ChangingProp makeRestless(vtkRenderer*)
+{
+  return ofData<vtkPolyDataMapper>(vtkSmartPointer<RestlessActor>::New());
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const std::vector<PropKind>& changingProps()
+{
+  static const std::vector<PropKind> kinds = { { "wireframe", makeWireframe },
+    { "culled glyphs", makeCulledGlyphs, false }, { "prop assembly", makePropAssembly },
+    { "slice", makeSlice<vtkImageSliceMapper> }, { "levels", makeLevels },
+    { "prop follower", makePropFollower }, { "blocks", makeBlocks<SharedBlocksMapper> },
+    { "pipeline", makePipeline }, { "fence", makeFence }, { "nested assembly", makeNest },
+    { "axes", makeAxes }, { "restless", makeRestless }, { "lines", makeLines },
+    { "points", makePoints }, { "data set", makeDataSet },
+    { "parts", makeBlocks<vtkCompositePolyDataMapper> }, { "glyphs", makeGlyphs },
+    { "splats", makeSplats }, { "surface", makeSurface },
+    { "resliced", makeSlice<vtkImageResliceMapper>, false }, { "stack", makeStack },
+    { "follower", makeFollower }, { "level actor", makeLodActor, false },
+    { "quadric actor", makeQuadricActor, false }, { "assembly", makeAssembly },
+    { "slice assembly", makeSliceAssembly }, { "follower assembly", makeFollowerAssembly },
+    { "text", makeText } };
+  return kinds;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<PropChange>& propChanges()
+{
+  static const std::vector<PropChange> changes = {
+    { "plane in place",
+      [](const ChangingProp& prop)
+      {
+        if (prop.mapper)
+        {
+          prop.mapper->GetClippingPlanes()->GetItem(0)->SetOrigin(0.2, 0.0, 0.0);
+        }
+        return prop.mapper != nullptr;
+      } },
+    { "points in place",
+      [](const ChangingProp& prop)
+      {
+        if (prop.data)
+        {
+          vtkPoints* const points = prop.data->GetPoints();
+          for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+          {
+            double* const point = points->GetPoint(i);
+            points->SetPoint(i, point[0], 0.7 * point[1], point[2]);
+          }
+          points->Modified();
+        }
+        return prop.data != nullptr;
+      } },
+    { "source",
+      [](const ChangingProp& prop)
+      {
+        if (prop.source)
+        {
+          prop.source->SetPoint2(prop.source->GetPoint2()[0], 0.0, 0.0);
+        }
+        return prop.source != nullptr;
+      } },
+    { "pixels in place",
+      [](const ChangingProp& prop)
+      {
+        if (prop.image)
+        {
+          auto* const bytes = static_cast<unsigned char*>(prop.image->GetScalarPointer());
+          std::fill_n(bytes, 4 * prop.image->GetNumberOfPoints() / 2, std::uint8_t(0));
+          prop.image->GetPointData()->GetScalars()->Modified();
+        }
+        return prop.image != nullptr;
+      } },
+    { "place",
+      [](const ChangingProp& prop)
+      {
+        prop.leaf->AddPosition(0.3, 0.2, 0.0);
+        return true;
+      } },
+    { "matrix in place",
+      [](const ChangingProp& prop)
+      {
+        prop.leaf->GetUserMatrix()->SetElement(1, 3, 0.4);
+        return true;
+      } },
+    { "scale",
+      [](const ChangingProp& prop)
+      {
+        prop.leaf->SetScale(0.8, 1.1, 1.0);
+        return true;
+      } },
+    { "thickness",
+      [](const ChangingProp& prop)
+      {
+        if (prop.actor)
+        {
+          prop.actor->GetProperty()->SetLineWidth(1.0);
+          prop.actor->GetProperty()->SetPointSize(2.0);
+        }
+        return prop.actor != nullptr;
+      } },
+    { "second plane",
+      [](const ChangingProp& prop)
+      {
+        if (prop.mapper)
+        {
+          vtkNew<vtkPlane> plane;
+          plane->SetOrigin(0.0, 0.5, 0.0);
+          plane->SetNormal(0.0, -1.0, 0.0);
+          prop.mapper->AddClippingPlane(plane);
+        }
+        return prop.mapper != nullptr;
+      } },
+    { "table",
+      [](const ChangingProp& prop)
+      {
+        auto* const mapper = vtkMapper::SafeDownCast(prop.mapper);
+        auto* const table =
+          mapper ? vtkLookupTable::SafeDownCast(mapper->GetLookupTable()) : nullptr;
+        if (table)
+        {
+          table->SetHueRange(0.3, 0.5);
+          table->Build();
+        }
+        return table != nullptr;
+      } },
+    { "representation",
+      [](const ChangingProp& prop)
+      {
+        const bool any = prop.actor && prop.actor->GetProperty()->GetRepresentation() != VTK_POINTS;
+        if (any)
+        {
+          prop.actor->GetProperty()->SetRepresentationToPoints();
+        }
+        return any;
+      } },
+    { "receiving",
+      [](const ChangingProp& prop)
+      {
+        vtkGnomonPropKeys::SetReceives(prop.prop, false);
+        return true;
+      } },
+    { "invisible leaf",
+      [](const ChangingProp& prop)
+      {
+        prop.leaf->VisibilityOff();
+        return true;
+      } },
+    { "visible leaf",
+      [](const ChangingProp& prop)
+      {
+        prop.leaf->VisibilityOn();
+        return true;
+      } },
+    { "own part",
+      [](const ChangingProp& prop)
+      {
+        if (prop.changePart)
+        {
+          prop.changePart();
+        }
+        return prop.changePart != nullptr;
+      } },
+    { "invisible",
+      [](const ChangingProp& prop)
+      {
+        prop.prop->VisibilityOff();
+        return true;
+      } },
+  };
+  return changes;
+}
+
+} // namespace gnomon::test

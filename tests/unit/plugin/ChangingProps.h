@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vtkAbstractMapper.h>
+#include <vtkActor.h>
+#include <vtkImageData.h>
+#include <vtkPlane.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyData.h>
+#include <vtkProp3D.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+
+/// A prop with all that it is drawn from. What a kind has none of is null.
+struct ChangingProp
+{
+  vtkSmartPointer<vtkProp> prop;   ///< the renderer's
+  vtkSmartPointer<vtkProp3D> leaf; ///< that is drawn: the prop itself, a part or a level
+  vtkSmartPointer<vtkActor> actor; ///< the leaf, if it is one
+  vtkSmartPointer<vtkAbstractMapper> mapper;
+  vtkSmartPointer<vtkPlaneSource>
+    source;                          ///< of a grid in the plane z = 0, to the data or the glyph
+  vtkSmartPointer<vtkPolyData> data; ///< such a grid, set by hand
+  vtkSmartPointer<vtkImageData> image;
+  std::function<void()> changePart; ///< changes what only this kind has
+};
+
+/// A kind of prop. Most hide what lies below them, and have no surface that casts or receives.
+struct PropKind
+{
+  const char* name;
+  /// @param renderer is in a window
+  ChangingProp (*make)(vtkRenderer* renderer);
+  /// False if VTK chooses what it draws by the time that drawing takes, or reports errors with
+  /// several renderers or without a light.
+  bool isRepeatable = true;
+};
+const std::vector<PropKind>& changingProps();
+
+/// A kind of change.
+struct PropChange
+{
+  const char* name;
+  /// @return false if the prop has nothing to change
+  bool (*apply)(const ChangingProp& prop);
+};
+const std::vector<PropChange>& propChanges();
+
+} // namespace gnomon::test
