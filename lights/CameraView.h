@@ -32,6 +32,19 @@ struct CameraView
     return -glm::dvec3(
       this->viewFromCentred[0][2], this->viewFromCentred[1][2], this->viewFromCentred[2][2]);
   }
+  /// Return where the lines of sight meet, as a homogeneous point (e, w) of view space: from a
+  /// point p, the camera is in the direction e - w p. w is 1, or 0 for a parallel projection. It
+  /// holds for all projections, also sheared ones.
+  glm::dvec4 eyeView() const
+  {
+    // In clip coordinates they meet at the infinite end of the z axis.
+    const glm::dvec4 far = glm::inverse(this->clipFromView)[2];
+    const double length = glm::length(glm::dvec3(far));
+    constexpr double parallelBelow = 1e-12; // rounding leaves this much of a zero
+    return std::abs(far.w) > parallelBelow * length
+      ? -far / std::abs(far.w)
+      : glm::dvec4(-glm::dvec3(far) / length, 0.0);
+  }
   /// True for a parallel projection: w does not depend on distance.
   bool isParallel() const { return this->clipFromView[2][3] == 0.0; }
 

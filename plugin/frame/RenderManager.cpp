@@ -171,6 +171,8 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
   this->frame_.space = { centredFromView(s->GetRenderer(), occluders.centreWorld),
     this->frame_.camera.pixelSide(this->frame_.size) };
   this->stageValues_.space = this->frame_.space;
+  this->stageValues_.viewFromVtkView = viewFromVtkView(s->GetRenderer());
+  this->stageValues_.eyeView = this->frame_.camera.eyeView();
   this->stageValues_.reductionFactor = this->frame_.wishes.reductionFactor;
   if (this->frame_.ranks)
   {

@@ -98,11 +98,12 @@ std::string moveToSolid(const std::string& fragmentShader, const std::string& un
   }
   if (uniformFlow.find("gnomonNormal") != std::string::npos)
   {
-    moves += "  gnomonNormal = normalize(normalVCVSOutput);\n";
+    moves += "  gnomonNormal = normalize(gnomonNormalFromVtkView * normalVCVSOutput);\n";
     // vertexVC of points and lines is at their middle. ZCalcR is the radius at depth 1.
     moves += isImpostor
-      ? "  gnomonPoint = vertexVC.xyz;\n"
-      : "  gnomonPoint += gnomonNormal * ZCalcR * (cameraParallel == 1 ? 1.0 : -vertexVC.z);\n";
+      ? "  gnomonPoint = gnomonInView(vertexVC.xyz);\n"
+      : "  gnomonPoint = gnomonInView(vertexVC.xyz + normalize(normalVCVSOutput) * ZCalcR *\n"
+        "    (cameraParallel == 1 ? 1.0 : -vertexVC.z));\n";
   }
   if (isSizedInPixels && uniformFlow.find("gnomonAtCentroid") != std::string::npos)
   {
@@ -122,11 +123,12 @@ std::string curveNormal(const std::string& fragmentShader, std::string& declarat
 {
   if (fragmentShader.find("in vec3 normalVCVSOutput;") == std::string::npos)
   {
-    return "gnomonTranslucent == 1 ? normalVCVSOutput : gnomonNormal";
+    return "gnomonTranslucent == 1 ? gnomonNormalFromVtkView * normalVCVSOutput : gnomonNormal";
   }
   // VTK's main hides this input by a variable of the same name.
   declarations += "vec3 gnomonInterpolatedNormal()\n{\n"
-                  "  return (gl_FrontFacing ? 1.0 : -1.0) * normalize(normalVCVSOutput);\n}\n";
+                  "  return (gl_FrontFacing ? 1.0 : -1.0) *\n"
+                  "    normalize(gnomonNormalFromVtkView * normalVCVSOutput);\n}\n";
   return "gnomonInterpolatedNormal()";
 }
 
@@ -190,8 +192,8 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   std::string uniformFlow;
   if (asksAtPoints || variant.receiverPoints)
   {
-    uniformFlow = "vec3 gnomonPoint = vertexVC.xyz;\n"
-                  "vec3 gnomonNormal = gnomonFaceNormal(gnomonPoint, cameraParallel == 1);\n";
+    uniformFlow = "vec3 gnomonPoint = gnomonInView(vertexVC.xyz);\n"
+                  "vec3 gnomonNormal = gnomonFaceNormal(gnomonPoint);\n";
   }
   std::string multiplications;
   std::string darkenings;
@@ -234,8 +236,8 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   if (asksAtPoints && variant.multisampled)
   {
     declarations += hookShaders().at("plugin/frame/hook_multisample.glsl");
-    uniformFlow += "vec3 gnomonAtCentroid = interpolateAtCentroid(vertexVCVSOutput).xyz;\n";
-    position = "gnomonCentroid(gnomonAtCentroid, gnomonPoint, gnomonNormal, cameraParallel == 1)";
+    uniformFlow += "vec3 gnomonAtCentroid = gnomonInView(interpolateAtCentroid(vertexVCVSOutput).xyz);\n";
+    position = "gnomonCentroid(gnomonAtCentroid, gnomonPoint, gnomonNormal)";
     extensions = "#extension GL_ARB_gpu_shader5 : require\n"; // for interpolateAtCentroid
   }
   if (asksAtPoints)
@@ -468,6 +470,12 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   {
     this->stageUniforms_.push_back({ "gnomonStage", values.receiversStage ? 1 : 0 });
   }
+  const glm::dmat3 turn(values.viewFromVtkView);
+  this->stageUniforms_.push_back(
+    { "gnomonViewFromVtkView", glm::mat4(values.viewFromVtkView) });
+  this->stageUniforms_.push_back(
+    { "gnomonNormalFromVtkView", glm::mat3(glm::transpose(glm::inverse(turn))) });
+  this->stageUniforms_.push_back({ "gnomonEye", glm::vec4(values.eyeView) });
   for (std::size_t i = 0; i < this->lights_.size(); ++i)
   {
     const ShadowLight& light = this->lights_[i].light;

@@ -86,6 +86,8 @@ public:
   {
     bool receiversStage = false; ///< receivers are drawn, alone or with the picture
     ReceiverSpace space;
+    glm::dmat4 viewFromVtkView{ 1.0 };          ///< ShownView.h
+    glm::dvec4 eyeView{ 0.0, 0.0, 0.0, 1.0 }; ///< CameraView::eyeView()
     TextureBinding layers;      ///< image route: the visibility layers
     TextureBinding bits;        ///< image route: the image of bits
     glm::ivec2 layersSize{ 0 }; ///< size of both in pixels

@@ -6,12 +6,26 @@ uniform int gnomonReceives;    // 0: this prop shows no shadows
 uniform int gnomonTranslucent; // 1: in no layer: translucent, or (image route) seen through
 uniform float gnomonFacetHeight; // most height of curved surfaces above the prop's facets
 
+uniform mat4 gnomonViewFromVtkView; // to rigid coordinates
+uniform mat3 gnomonNormalFromVtkView;
+uniform vec4 gnomonEye; // where the lines of sight meet (CameraView::eyeView())
+
+vec3 gnomonInView(vec3 positionVtkView)
+{
+  return (gnomonViewFromVtkView * vec4(positionVtkView, 1.0)).xyz;
+}
+
+vec3 gnomonToCamera(vec3 positionView)
+{
+  return gnomonEye.xyz - gnomonEye.w * positionView;
+}
+
 // Return the geometric normal of the triangle under this fragment, on the side that the camera
 // sees. Must be called in uniform control flow. If the position is constant over the quad (a
 // triangle seen exactly edge-on) there is no plane, and the result is the direction to the camera.
-vec3 gnomonFaceNormal(vec3 positionView, bool parallelProjection)
+vec3 gnomonFaceNormal(vec3 positionView)
 {
-  vec3 toCamera = parallelProjection ? vec3(0.0, 0.0, 1.0) : -positionView;
+  vec3 toCamera = gnomonToCamera(positionView);
   vec3 normal = cross(dFdx(positionView), dFdy(positionView));
   normal = dot(normal, normal) > 0.0 ? normal : toCamera;
   normal *= inversesqrt(dot(normal, normal));

@@ -7,10 +7,9 @@
 // drivers return the centroid. llvmpipe divides it by the centre's depth, which moves it along the
 // ray. Also, a mapper may have moved the centre (impostors). If the plane contains the ray (a
 // triangle seen exactly edge-on), return the centre.
-vec3 gnomonCentroid(
-  vec3 centroidView, vec3 centreView, vec3 normalView, bool parallelProjection)
+vec3 gnomonCentroid(vec3 centroidView, vec3 centreView, vec3 normalView)
 {
-  vec3 ray = parallelProjection ? vec3(0.0, 0.0, 1.0) : centroidView;
+  vec3 ray = gnomonToCamera(centroidView);
   float along = dot(normalView, ray);
   return along != 0.0
     ? centroidView + ray * (dot(normalView, centreView - centroidView) / along)

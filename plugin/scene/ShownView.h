@@ -23,10 +23,15 @@ glm::ivec2 sizeOf(const vtkRenderState* s);
 glm::ivec2 originOf(const vtkRenderState* s);
 
 ///@{
-/// Return a renderer's camera. Positions are relative to a point before they become floats.
+/// Return a renderer's camera. Its view space is VTK's if that is rigid, and if depth and distance
+/// do not change across the picture. Else it is another one, in which that is so for all usual
+/// projections (vtkCamera's model, user view and explicit matrices, off-axis screens). Positions
+/// are relative to a point before they become floats.
 /// @param centreWorld the origin of centred coordinates
 glm::dmat4 centredFromView(vtkRenderer* renderer, const glm::dvec3& centreWorld); ///< rigid
 CameraView cameraOf(vtkRenderer* renderer, const glm::dvec3& centreWorld);
+/// @return what leads from the coordinates that VTK's vertex shaders compute to view space
+glm::dmat4 viewFromVtkView(vtkRenderer* renderer);
 ///@}
 
 /// Add a camera and the size of its picture to a hash.

@@ -29,8 +29,7 @@ constexpr int firstPlane = 2;
 /// Return a plane, oriented to the side that the camera sees.
 glm::dvec4 turnedTo(const CameraView& camera, const glm::dvec4& plane)
 {
-  const glm::dvec4 eye = camera.isParallel() ? glm::dvec4(-camera.directionCentred(), 0.0)
-                                             : glm::dvec4(camera.eyeCentred(), 1.0);
+  const glm::dvec4 eye = glm::inverse(camera.viewFromCentred) * camera.eyeView();
   return glm::dot(plane, eye) < 0.0 ? -plane : plane;
 }
 
