@@ -33,8 +33,11 @@ struct EmbreeContext
 
   RTCRayQueryContext context;
   RTCRayQueryFlags flags;
-  const OwnSurface* own = nullptr; ///< of a single ray; null: every hit counts
+  RTCFilterFunctionN filter = nullptr; ///< of this query alone, in scenes with `queriesFilter`
+  const OwnSurface* own = nullptr;     ///< what the filter asks for
 };
+
+inline constexpr RTCSceneFlags queriesFilter = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 
 inline void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
 {
@@ -49,7 +52,10 @@ inline RTCOccludedArguments occludedArguments(EmbreeContext& context)
 {
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
-  arguments.flags = context.flags;
+  arguments.flags = context.filter
+    ? static_cast<RTCRayQueryFlags>(context.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER)
+    : context.flags;
+  arguments.filter = context.filter;
   arguments.context = &context.context;
   return arguments;
 }
@@ -85,8 +91,11 @@ struct EmbreeContext
   }
 
   RTCIntersectContext context;
-  const OwnSurface* own = nullptr; ///< of a single ray; null: every hit counts
+  RTCFilterFunctionN filter = nullptr; ///< of this query alone, in scenes with `queriesFilter`
+  const OwnSurface* own = nullptr;     ///< what the filter asks for
 };
+
+inline constexpr RTCSceneFlags queriesFilter = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 
 inline void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
 {
@@ -95,6 +104,7 @@ inline void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
 
 inline void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray)
 {
+  context.context.filter = context.filter;
   rtcOccluded1(scene, &context.context, &ray);
 }
 

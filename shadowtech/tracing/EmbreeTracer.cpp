@@ -105,7 +105,7 @@ void rejectOwn(const RTCFilterFunctionNArguments* arguments)
   // The context is the first member.
   const OwnSurface* const own = reinterpret_cast<const EmbreeContext*>(arguments->context)->own;
   // The ray's end is the hit's place.
-  if (own && arguments->valid[0] && RTCRayN_tfar(arguments->ray, 1, 0) <= own->until &&
+  if (arguments->valid[0] && RTCRayN_tfar(arguments->ray, 1, 0) <= own->until &&
     own->has(RTCHitN_instID(arguments->hit, 1, 0, 0), RTCHitN_geomID(arguments->hit, 1, 0),
       RTCHitN_primID(arguments->hit, 1, 0)))
   {
@@ -113,10 +113,11 @@ void rejectOwn(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
-template <RTCFilterFunctionN... filters>
-void rejectBy(const RTCFilterFunctionNArguments* arguments)
+template <bool mirrored>
+void rejectBackFacesAndHoles(const RTCFilterFunctionNArguments* arguments)
 {
-  (filters(arguments), ...);
+  rejectBackFaces<mirrored>(arguments);
+  rejectHoles(arguments);
 }
 
 /// Return the filter of hits on a surface; null if every hit counts.
@@ -124,17 +125,13 @@ RTCFilterFunctionN filterOf(const Surface& surface)
 {
   if (!surface.oneSided)
   {
-    return surface.cutout            ? rejectBy<rejectHoles, rejectOwn>
-      : surface.pointNormals.empty() ? nullptr
-                                     : rejectOwn;
+    return surface.cutout ? rejectHoles : nullptr;
   }
   if (surface.cutout)
   {
-    return surface.mirrored ? rejectBy<rejectBackFaces<true>, rejectHoles, rejectOwn>
-                            : rejectBy<rejectBackFaces<false>, rejectHoles, rejectOwn>;
+    return surface.mirrored ? rejectBackFacesAndHoles<true> : rejectBackFacesAndHoles<false>;
   }
-  return surface.mirrored ? rejectBy<rejectBackFaces<true>, rejectOwn>
-                          : rejectBy<rejectBackFaces<false>, rejectOwn>;
+  return surface.mirrored ? rejectBackFaces<true> : rejectBackFaces<false>;
 }
 
 /// The solids of a surface that are not left out, for Embree's callbacks.
@@ -522,8 +519,8 @@ EmbreeTracer::Impl::Impl()
   // surface then costs only its own refit. Tracing takes 2 % longer than in one level (with 400
   // surfaces 7 %). The lower structures keep their full quality, because surfaces set the quality
   // REFIT, not LOW.
-  rtcSetSceneFlags(
-    this->scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
+  rtcSetSceneFlags(this->scene.get(),
+    static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC | queriesFilter));
   rtcSetSceneBuildQuality(this->scene.get(), RTC_BUILD_QUALITY_LOW);
 }
 
@@ -627,7 +624,8 @@ void EmbreeTracer::Impl::attachInstances(Caster& caster, const Surface& surface)
   rtcCommitGeometry(caster.geometry.get());
   caster.attached.reserve(surface.centredFromSource.size());
   caster.source = Scene(rtcNewScene(this->device.get()));
-  rtcSetSceneFlags(caster.source.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(
+    caster.source.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | queriesFilter));
   rtcAttachGeometry(caster.source.get(), caster.geometry.get());
   rtcCommitScene(caster.source.get());
   for (const glm::mat4x3& instance : surface.centredFromSource)
@@ -855,6 +853,7 @@ std::size_t EmbreeTracer::Impl::traceTurned(const TracedPicture& picture, Traced
       this->ownSurface(picture.occluders(), receivers.surface[i], curve, lifted.leaves);
     EmbreeContext context;
     context.own = &own;
+    context.filter = rejectOwn;
     RTCRay ray{ origin.x, origin.y, origin.z, shadowRayNear, direction.x, direction.y, direction.z,
       0.0f, picture.rayFar(), 0xffffffffu, 0, 0 };
     occlude(this->scene.get(), context, ray);
