@@ -337,6 +337,7 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
   }
   this->programs_.shaders.configure(
     { this->frame_.route, this->readsPoints(), samples > 1, namesTriangles,
+      this->stageValues_.viewFromVtkView == glm::dmat4(1.0),
       !this->collector_.seenThrough().empty() },
     shaded);
   return (this->frame_.wishes.route != RouteWish::Inline || screenTechnique.empty()) &&

@@ -98,7 +98,7 @@ std::string moveToSolid(const std::string& fragmentShader, const std::string& un
   }
   if (uniformFlow.find("gnomonNormal") != std::string::npos)
   {
-    moves += "  gnomonNormal = normalize(gnomonNormalFromVtkView * normalVCVSOutput);\n";
+    moves += "  gnomonNormal = normalize(gnomonNormalInView(normalVCVSOutput));\n";
     // vertexVC of points and lines is at their middle. ZCalcR is the radius at depth 1.
     moves += isImpostor
       ? "  gnomonPoint = gnomonInView(vertexVC.xyz);\n"
@@ -123,12 +123,12 @@ std::string curveNormal(const std::string& fragmentShader, std::string& declarat
 {
   if (fragmentShader.find("in vec3 normalVCVSOutput;") == std::string::npos)
   {
-    return "gnomonTranslucent == 1 ? gnomonNormalFromVtkView * normalVCVSOutput : gnomonNormal";
+    return "gnomonTranslucent == 1 ? gnomonNormalInView(normalVCVSOutput) : gnomonNormal";
   }
   // VTK's main hides this input by a variable of the same name.
   declarations += "vec3 gnomonInterpolatedNormal()\n{\n"
                   "  return (gl_FrontFacing ? 1.0 : -1.0) *\n"
-                  "    normalize(gnomonNormalFromVtkView * normalVCVSOutput);\n}\n";
+                  "    normalize(gnomonNormalInView(normalVCVSOutput));\n}\n";
   return "gnomonInterpolatedNormal()";
 }
 
@@ -186,7 +186,8 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
 {
   const bool asksAtPoints = std::any_of(lights.begin(), lights.end(),
     [](const ShadedLight& shaded) { return shaded.pointwise != nullptr; });
-  std::string declarations = hookShaders().at("plugin/frame/hook.glsl");
+  std::string declarations = std::string("#define VTK_VIEW_IS_RIGID ") +
+    (variant.vtkViewIsRigid ? "1\n" : "0\n") + hookShaders().at("plugin/frame/hook.glsl");
   std::string position = "gnomonPoint";
   std::string extensions;
   std::string uniformFlow;

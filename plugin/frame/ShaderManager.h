@@ -30,6 +30,7 @@ struct HookVariant
   bool multisampled = false;   ///< pixels have several samples, and a surface may cover some of
                                ///< them
   bool namesTriangles = true;  ///< not on the inline route: triangle numbers may be written
+  bool vtkViewIsRigid = true;  ///< viewFromVtkView() is the identity
   bool anySeenThrough = false; ///< true if DrawnProps::seenThrough has some
 };
 

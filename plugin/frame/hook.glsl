@@ -6,14 +6,24 @@ uniform int gnomonReceives;    // 0: this prop shows no shadows
 uniform int gnomonTranslucent; // 1: in no layer: translucent, or (image route) seen through
 uniform float gnomonFacetHeight; // most height of curved surfaces above the prop's facets
 
+uniform vec4 gnomonEye; // where the lines of sight meet (CameraView::eyeView())
+#if VTK_VIEW_IS_RIGID
+vec3 gnomonInView(vec3 positionVtkView) { return positionVtkView; }
+vec3 gnomonNormalInView(vec3 normalVtkView) { return normalVtkView; }
+#else
 uniform mat4 gnomonViewFromVtkView; // to rigid coordinates
 uniform mat3 gnomonNormalFromVtkView;
-uniform vec4 gnomonEye; // where the lines of sight meet (CameraView::eyeView())
 
 vec3 gnomonInView(vec3 positionVtkView)
 {
   return (gnomonViewFromVtkView * vec4(positionVtkView, 1.0)).xyz;
 }
+
+vec3 gnomonNormalInView(vec3 normalVtkView)
+{
+  return gnomonNormalFromVtkView * normalVtkView;
+}
+#endif
 
 vec3 gnomonToCamera(vec3 positionView)
 {
