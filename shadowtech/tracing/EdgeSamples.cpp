@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/ReceiverSpans.h"
 #include "shadowtech/base/SeenTriangle.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 #include "shadowtech/tracing/TracedPicture.h"
 
 #include <tbb/blocked_range.h>
