@@ -41,9 +41,8 @@ struct CameraView
     const glm::dvec4 far = glm::inverse(this->clipFromView)[2];
     const double length = glm::length(glm::dvec3(far));
     constexpr double parallelBelow = 1e-12; // rounding leaves this much of a zero
-    return std::abs(far.w) > parallelBelow * length
-      ? -far / std::abs(far.w)
-      : glm::dvec4(-glm::dvec3(far) / length, 0.0);
+    return std::abs(far.w) > parallelBelow * length ? -far / std::abs(far.w)
+                                                    : glm::dvec4(-glm::dvec3(far) / length, 0.0);
   }
   /// True for a parallel projection: w does not depend on distance.
   bool isParallel() const { return this->clipFromView[2][3] == 0.0; }

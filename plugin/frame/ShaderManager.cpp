@@ -237,7 +237,8 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   if (asksAtPoints && variant.multisampled)
   {
     declarations += hookShaders().at("plugin/frame/hook_multisample.glsl");
-    uniformFlow += "vec3 gnomonAtCentroid = gnomonInView(interpolateAtCentroid(vertexVCVSOutput).xyz);\n";
+    uniformFlow +=
+      "vec3 gnomonAtCentroid = gnomonInView(interpolateAtCentroid(vertexVCVSOutput).xyz);\n";
     position = "gnomonCentroid(gnomonAtCentroid, gnomonPoint, gnomonNormal)";
     extensions = "#extension GL_ARB_gpu_shader5 : require\n"; // for interpolateAtCentroid
   }
@@ -472,8 +473,7 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
     this->stageUniforms_.push_back({ "gnomonStage", values.receiversStage ? 1 : 0 });
   }
   const glm::dmat3 turn(values.viewFromVtkView);
-  this->stageUniforms_.push_back(
-    { "gnomonViewFromVtkView", glm::mat4(values.viewFromVtkView) });
+  this->stageUniforms_.push_back({ "gnomonViewFromVtkView", glm::mat4(values.viewFromVtkView) });
   this->stageUniforms_.push_back(
     { "gnomonNormalFromVtkView", glm::mat3(glm::transpose(glm::inverse(turn))) });
   this->stageUniforms_.push_back({ "gnomonEye", glm::vec4(values.eyeView) });

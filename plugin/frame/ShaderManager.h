@@ -87,13 +87,13 @@ public:
   {
     bool receiversStage = false; ///< receivers are drawn, alone or with the picture
     ReceiverSpace space;
-    glm::dmat4 viewFromVtkView{ 1.0 };          ///< ShownView.h
+    glm::dmat4 viewFromVtkView{ 1.0 };        ///< ShownView.h
     glm::dvec4 eyeView{ 0.0, 0.0, 0.0, 1.0 }; ///< CameraView::eyeView()
-    TextureBinding layers;      ///< image route: the visibility layers
-    TextureBinding bits;        ///< image route: the image of bits
-    glm::ivec2 layersSize{ 0 }; ///< size of both in pixels
-    int reductionFactor = 1;    ///< FrameWishes::reductionFactor
-    TextureBinding depths;      ///< of the layers' receivers
+    TextureBinding layers;                    ///< image route: the visibility layers
+    TextureBinding bits;                      ///< image route: the image of bits
+    glm::ivec2 layersSize{ 0 };               ///< size of both in pixels
+    int reductionFactor = 1;                  ///< FrameWishes::reductionFactor
+    TextureBinding depths;                    ///< of the layers' receivers
   };
   /// Bind textures to units of their own while VTK draws between beginStage and endStage. endStage
   /// also ends a stage that has failed half way. It has no effect without a stage.

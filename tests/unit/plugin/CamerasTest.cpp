@@ -130,11 +130,14 @@ const CameraKind cameraKinds[] = {
       transform->RotateZ(20.0);
       camera->SetUserTransform(transform);
     } },
-  { "userTurn", [](vtkCamera* camera)
+  { "userTurn",
+    [](vtkCamera* camera)
     { setUserView(camera, [](vtkTransform* change) { change->RotateZ(30.0); }); } },
-  { "userScale", [](vtkCamera* camera)
+  { "userScale",
+    [](vtkCamera* camera)
     { setUserView(camera, [](vtkTransform* change) { change->Scale(1.3, 0.7, 1.0); }); } },
-  { "userMirror", [](vtkCamera* camera)
+  { "userMirror",
+    [](vtkCamera* camera)
     { setUserView(camera, [](vtkTransform* change) { change->Scale(-1.0, 1.0, 1.0); }); } },
   { "heightsExaggerated", [](vtkCamera* camera) { setModel(camera, 1.0, 1.0, 2.5); } },
   { "modelFlattened", [](vtkCamera* camera) { setModel(camera, 0.6, 1.4, 0.5); } },
@@ -242,7 +245,8 @@ TEST_P(Cameras, mapsAgreeWithRays)
   this->scene.pass->KeepVisibilityOff();
   for (const MapWay& map : mapWays)
   {
-    SCOPED_TRACE(std::string(map.technique) + " " + std::to_string(map.route) + " " + (map.fit ? map.fit : ""));
+    SCOPED_TRACE(std::string(map.technique) + " " + std::to_string(map.route) + " " +
+      (map.fit ? map.fit : ""));
     this->scene.choose({ map.technique, map.route });
     if (map.fit)
     {
