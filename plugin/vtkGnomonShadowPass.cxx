@@ -772,10 +772,15 @@ vtkGnomonShadowSettings* vtkGnomonShadowPass::GetSettings()
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
 {
+  const vtkMTimeType before = this->Internal->settings->GetMTime();
   const std::string why = this->Internal->settings->TrySetting(name, value);
   if (!why.empty())
   {
     vtkErrorMacro(<< why << ".");
+  }
+  else if (this->Internal->settings->GetMTime() != before)
+  {
+    this->Modified();
   }
 }
 
@@ -788,7 +793,12 @@ std::string vtkGnomonShadowPass::GetSetting(const char* name) const
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetMapSize(int mapSizeTexels)
 {
+  const vtkMTimeType before = this->Internal->settings->GetMTime();
   this->Internal->settings->SetMapSize(mapSizeTexels);
+  if (this->Internal->settings->GetMTime() != before)
+  {
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------

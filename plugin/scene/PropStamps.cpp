@@ -416,6 +416,11 @@ void PropStamps::endFrame(vtkRenderer* renderer)
     Known& known = this->known_[prop];
     const PropStamp after = stampOf(prop, renderer);
     known.mayChangeInDrawing = after.hash != known.last.hash;
+    if (!known.wasDrawn)
+    {
+      known.stamp = after.hash; // it was placed, and looks as it does only from now on
+    }
+    known.wasDrawn = true;
     known.last = after;
   }
   this->due_.clear();

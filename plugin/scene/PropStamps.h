@@ -35,8 +35,8 @@ PropStamp stampOf(vtkProp* prop, vtkRenderer* renderer);
 /// @param texture may be null
 void hashTexture(std::size_t& seed, vtkTexture* texture);
 
-/// Stamps props from frame to frame. What changes while VTK draws a prop, as the matrix of a text
-/// that faces the camera, is no change of the prop: else nothing that refines would finish.
+/// Stamps props from frame to frame. What changes whenever VTK draws a prop, as the matrix of a
+/// text that faces the camera, is no change of the prop: else nothing that refines would finish.
 class PropStamps
 {
 public:
@@ -56,8 +56,9 @@ private:
   struct Known
   {
     PropStamp last;                 ///< the last one found
-    std::size_t stamp = 0;          ///< the last one whose change no drawing made
+    std::size_t stamp = 0;          ///< the last one whose change no drawing made but the first
     bool mayChangeInDrawing = true; ///< new, or changed by the last drawing
+    bool wasDrawn = false;          ///< since it is new, or last changed
     bool asked = false;
   };
   std::unordered_map<const vtkProp*, Known> known_;

@@ -346,6 +346,7 @@ TEST_F(Deferred, DrawsOnceAndComputesWhatChanged)
     const gnomon::FrameReport& report = this->scene.report();
     return std::tuple(report.receiversDrawn, report.visibilityComputed, report.programCompiles);
   };
+  counts();
   EXPECT_EQ(counts(), std::tuple(0, 0, 0)) << "nothing changed";
   this->sun->SetPosition(-1.0, -0.6, 1.5);
   EXPECT_EQ(counts(), std::tuple(0, 1, 0)) << "the light moved";
