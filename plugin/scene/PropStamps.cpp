@@ -418,7 +418,7 @@ void PropStamps::endFrame(vtkRenderer* renderer)
     known.mayChangeInDrawing = after.hash != known.last.hash;
     if (!known.wasDrawn)
     {
-      known.stamp = after.hash; // it was placed, and looks as it does only from now on
+      known.stamp = after.hash; // VTK places some props only while it first draws them
     }
     known.wasDrawn = true;
     known.last = after;

@@ -17,7 +17,7 @@
 namespace gnomon::test
 {
 
-/// A prop with all that it is drawn from. What a kind has none of is null.
+/// A prop and the objects that it is drawn from; null where its kind has none.
 struct ChangingProp
 {
   vtkSmartPointer<vtkProp> prop;   ///< the renderer's
