@@ -8,9 +8,6 @@
 namespace gnomon
 {
 
-/// The largest distance of a light's area from its centre, in world units.
-constexpr double largestAreaRadius = 1e12;
-
 /// The emitting shape of an area light, around the light's centre. All its points emit alike unless
 /// the light has a texture (LightTexture.h). The shape is symmetric: each point has an opposite
 /// point.

@@ -29,9 +29,6 @@ namespace gnomon
 namespace
 {
 
-/// The largest coordinate of a lamp. Squares of larger ones overflow floats.
-constexpr double farthestPosition = 1e18;
-
 /// Return the light's kind. As in VTK, a positional light is a spot light only if its cone's half
 /// angle is below 90 degrees.
 LightKind kindOf(vtkLight* light)
@@ -150,10 +147,6 @@ LitArea readArea(vtkLight* light, const ShadowSettings& settings,
   if (!light->GetPositional() && longest >= 180.0)
   {
     return skip("it fills 180 degrees or more");
-  }
-  if (longest > 2.0 * largestAreaRadius)
-  {
-    return skip("its area is too large");
   }
   const glm::dvec2 half = light->GetPositional() ? 0.5 * size : glm::tan(glm::radians(0.5 * size));
   if (wished.shape == LightArea::Shape::Ball)
@@ -291,10 +284,7 @@ std::string whyWithoutPlace(vtkLight* light)
   const glm::dvec3 focalPoint = glm::make_vec3(light->GetTransformedFocalPoint());
   if (kindOf(light) == LightKind::Point)
   {
-    return !isFinite(position) ? "its position is not finite"
-      : glm::any(glm::greaterThan(glm::abs(position), glm::dvec3(farthestPosition)))
-      ? "its position is too far away"
-      : "";
+    return isFinite(position) ? "" : "its position is not finite";
   }
   const glm::dvec3 travel = focalPoint - position;
   const double distance2 = glm::dot(travel, travel);

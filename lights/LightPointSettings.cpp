@@ -40,7 +40,7 @@ const SettingsTable& lightAreaSettings()
     { real("light_radius",
       "above 0: makes the light a disc of that radius (a point light a ball); a directional one a "
       "disc that fills so many degrees",
-      "world units", &S::lightRadius, { 0.0, 1e12 }) } };
+      "world units", &S::lightRadius, anyLength) } };
   return table;
 }
 

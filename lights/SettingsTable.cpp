@@ -66,7 +66,9 @@ struct Expected
   }
   std::string operator()(const RealSetting& values) const
   {
-    return "a number in [" + shortest(values.smallest) + ", " + shortest(values.largest) + "]";
+    return values.largest == anyLength.largest
+      ? "a number of at least " + shortest(values.smallest)
+      : "a number in [" + shortest(values.smallest) + ", " + shortest(values.largest) + "]";
   }
   std::string operator()(const ChoiceSetting& values) const
   {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
@@ -26,6 +27,8 @@ struct RealSetting
   double smallest;
   double largest;
 };
+/// Values of lengths, which depend on the world's unit: all that are finite.
+inline constexpr RealSetting anyLength{ 0.0, std::numeric_limits<double>::max() };
 struct ChoiceSetting
 {
   std::vector<std::string> names;

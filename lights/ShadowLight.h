@@ -20,7 +20,7 @@ enum class LightKind
 };
 
 /// The box that limits a directional light. Its near face is centred on the light's positionWorld,
-/// across directionWorld. The light starts there and ends after `depth`. Sizes are in world units.
+/// across directionWorld. The light starts there and ends after `depth`.
 struct LightBox
 {
   double width = 0.0;  ///< across the light and across `up`
@@ -34,6 +34,10 @@ struct LightBox
 /// settings.
 struct ShadowLight : ShadowSettings
 {
+  /// The world's length of a unit, in which lengths of this struct are, except those that are
+  /// settings (enterFrame()).
+  double unitWorld = 1.0;
+
   LightKind kind = LightKind::Directional;
 
   /// The position of a spot or point light, or the middle of a box's near face; else unused.
@@ -63,7 +67,8 @@ struct ShadowLight : ShadowSettings
 
   /// The largest channel of the light's colours times its intensity, without attenuation.
   double intensity = 1.0;
-  /// The attenuation of a positional light: at distance d, light is divided by x + y d + z d^2.
+  /// The attenuation of a positional light: at distance d in the world, light is divided by x + y d
+  /// + z d^2.
   glm::dvec3 attenuation{ 1.0, 0.0, 0.0 };
 
   /// True for a headlight, which stands at the camera and shines along the view.

@@ -1,6 +1,5 @@
 #include "vtkGnomonAreaLight.h"
 
-#include "lights/LightArea.h"
 #include "lights/OSPRayRadius.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleKey.h"
@@ -54,8 +53,7 @@ void vtkGnomonAreaLight::TellOSPRay()
   {
     return;
   }
-  // NaN, or a radius too large to cast shadows here, is no radius for OSPRay.
-  if (this->Shape == DISK && this->Radius <= gnomon::largestAreaRadius)
+  if (this->Shape == DISK && this->Radius < VTK_DOUBLE_MAX)
   {
     this->GetInformation()->Set(key, this->Radius);
   }

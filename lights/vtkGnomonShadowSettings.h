@@ -60,7 +60,7 @@ public:
   ///@{
   /**
    * Above 0: makes the light a disc of that radius (a point light a ball); a directional one a disc
-   * that fills so many degrees, in world units: a number in [0, 1e+12]. Default 0. The setting
+   * that fills so many degrees, in world units: a number of at least 0. Default 0. The setting
    * `light_radius`.
    */
   void SetLightRadius(double value) { this->SetReal("light_radius", value); }
@@ -198,8 +198,8 @@ public:
 
   ///@{
   /**
-   * How far the map is pushed back on top of what acne needs, in world units: a number in [0,
-   * 1e+12]. Default 0. The setting `bias_constant`.
+   * How far the map is pushed back on top of what acne needs, in world units: a number of at least
+   * 0. Default 0. The setting `bias_constant`.
    */
   void SetBiasConstant(double value) { this->SetReal("bias_constant", value); }
   double GetBiasConstant() const { return this->GetReal("bias_constant"); }
@@ -227,7 +227,7 @@ public:
   ///@{
   /**
    * Above 0: the kernel's width across the light (from a position: at distance 1), over which as
-   * many taps are spread as kernel_size says, in world units: a number in [0, 1e+12]. Default 0.
+   * many taps are spread as kernel_size says, in world units: a number of at least 0. Default 0.
    * The setting `kernel_width`.
    */
   void SetKernelWidth(double value) { this->SetReal("kernel_width", value); }

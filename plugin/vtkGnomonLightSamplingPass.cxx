@@ -280,7 +280,7 @@ std::size_t vtkGnomonLightSamplingPass::HashOfShown(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();
   std::size_t seed = gnomon::hashOfShownScene(renderer);
-  gnomon::hashView(seed, gnomon::cameraOf(renderer, glm::dvec3(0.0)), gnomon::sizeOf(s));
+  gnomon::hashView(seed, gnomon::shownView(renderer, {}).camera, gnomon::sizeOf(s));
   gnomon::hashCombine(seed, gnomon::samplesOfBoundFramebuffer());
   gnomon::hashCombine(seed, this->GetMTime());
   gnomon::hashCombine(seed, this->Delegate()->GetMTime());

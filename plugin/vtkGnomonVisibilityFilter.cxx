@@ -418,7 +418,7 @@ Key sceneKeyOf(const std::vector<gnomon::DataScene::Input>& inputs)
 /// Return the lights as rays see them.
 /// @param reason receives why one of them cannot shine
 std::vector<gnomon::WeightedLight> weightedLights(const std::vector<AddedLight>& added,
-  const glm::dvec3& centreWorld, double diameterDegrees, std::string& reason)
+  const gnomon::SceneFrame& frame, double diameterDegrees, std::string& reason)
 {
   const double radius = std::tan(glm::radians(0.5 * diameterDegrees));
   std::vector<gnomon::WeightedLight> lights;
@@ -430,15 +430,16 @@ std::vector<gnomon::WeightedLight> weightedLights(const std::vector<AddedLight>&
     if (added[i].light)
     {
       std::string why;
-      const std::optional<gnomon::ShadowLight> place = gnomon::readPlace(added[i].light, why);
-      if (!place)
+      std::optional<gnomon::ShadowLight> place = gnomon::readPlace(added[i].light, why);
+      why = place ? gnomon::enterFrame(*place, frame) : why;
+      if (!why.empty())
       {
         reason = "light " + std::to_string(i) + ": " + why;
         return {};
       }
       light = *place;
     }
-    gnomon::WeightedLight weighted{ { light, centreWorld }, added[i].hours };
+    gnomon::WeightedLight weighted{ { light, frame.centre }, added[i].hours };
     if (light.kind == gnomon::LightKind::Directional && !light.box)
     {
       const auto [x, y] = across(-light.directionWorld);
@@ -523,7 +524,7 @@ int vtkGnomonVisibilityFilter::RequestData(
       std::string reason;
       gnomon::VisibilityRun::Plan plan;
       plan.lights = weightedLights(
-        internal.lights, internal.scene->occluders().centreWorld, this->AngularDiameter, reason);
+        internal.lights, internal.scene->occluders().frame, this->AngularDiameter, reason);
       if (!reason.empty())
       {
         vtkErrorMacro("Shadows of " << reason << ".");

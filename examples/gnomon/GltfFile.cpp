@@ -231,7 +231,7 @@ private:
     }
     else if (type == "orthographic")
     {
-      camera.parallelScale = value.member("orthographic").member("ymag").number({ 1e-6, 1e12 });
+      camera.parallelScale = value.member("orthographic").member("ymag").number({ 1e-30, 1e30 });
     }
     else
     {

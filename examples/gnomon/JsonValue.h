@@ -18,7 +18,7 @@ struct NumberRange
 
 /// The range of coordinates and matrix elements: far beyond any real scene, far below float's
 /// maximum.
-inline constexpr NumberRange anyCoordinate{ -1e12, 1e12 };
+inline constexpr NumberRange anyCoordinate{ -1e30, 1e30 };
 inline constexpr NumberRange colorChannel{ 0.0, 1.0 };
 
 /// A place in a JSON document. It has a source and a key path ("lights[1].cone_angle"), so every

@@ -14,7 +14,7 @@ namespace
 constexpr NumberRange lightIntensity{ 0.0, 1e6 };
 constexpr NumberRange coneAngleDegrees{ 0.01, 89.9 };
 constexpr NumberRange fieldOfViewDegrees{ 0.01, 179.0 };
-constexpr NumberRange extent{ 1e-6, 1e12 };
+constexpr NumberRange extent{ 1e-30, 1e30 };
 
 Vec3 readPoint(const JsonValue& value)
 {

@@ -57,7 +57,7 @@ DataScene::DataScene(const std::vector<Input>& inputs)
       }
     }
   }
-  this->occluders_.centreWorld = snapshotCentre(boundsWorld);
+  this->occluders_.frame = sceneFrameOf(boundsWorld);
   this->occluders_.topologyVersion = this->occluders_.positionsVersion = onlyVersion;
   this->cellCount_ = static_cast<std::size_t>(inputs.front().data->GetNumberOfCells());
   this->pointCount_ = static_cast<std::size_t>(inputs.front().data->GetNumberOfPoints());
@@ -101,7 +101,7 @@ void DataScene::add(const Input& input, int number)
       this->occluders_.positionsCentred.resize(vertices);
       glm::vec3* const positions = &this->occluders_.positionsCentred[surface.firstVertex];
       placeVertices(input.data, drawn.pointOfVertex, drawn.vertexCount, glm::dmat4(1.0),
-        this->occluders_.centreWorld, positions);
+        this->occluders_.frame, positions);
       for (std::size_t i = 0; i < drawn.triangles.size(); ++i)
       {
         if (defectOf(drawn.triangles[i], positions) == Defect::None)

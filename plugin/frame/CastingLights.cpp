@@ -9,6 +9,7 @@
 
 #include <vtkRenderer.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -379,6 +380,27 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   // The techniques left over belong to lights that are gone or changed their technique.
   this->ofAllViews_.clear();
   ofView.clear();
+}
+
+//------------------------------------------------------------------------------
+void CastingLights::enter(const SceneFrame& frame, FrameReport& report)
+{
+  const auto isSkipped = [&](CastingLight& casting)
+  {
+    const std::string reason = enterFrame(casting.light, frame);
+    if (casting.asked)
+    {
+      enterFrame(*casting.asked, frame);
+    }
+    if (!reason.empty())
+    {
+      reportOf(report, casting.light) = reportOfSkipped({ casting.light.sceneIndex, reason });
+    }
+    return !reason.empty();
+  };
+  this->lights_.erase(
+    std::remove_if(this->lights_.begin(), this->lights_.end(), isSkipped), this->lights_.end());
+  this->placeVisibility();
 }
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/LightManager.h"
+#include "lights/SceneFrame.h"
 #include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/LightTechnique.h"
 #include "shadowtech/base/VisibilityLayers.h"
@@ -82,6 +83,9 @@ public:
   /// @param ofView the view's cached techniques of lights whose maps are fitted to a camera
   void collect(vtkRenderer* renderer, const ShadowSettings& defaults, const FrameWishes& wishes,
     TechniquesOfLights& ofView, FrameReport& report);
+
+  /// Bring the lights into the scene's frame. Those that cannot shine there are skipped.
+  void enter(const SceneFrame& frame, FrameReport& report);
 
   ///@{
   /// Shade a light that leaves its technique to the pass by a plain map in this frame, by exact

@@ -28,17 +28,25 @@ std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int h
 }
 
 /// What the camera sees.
-VisibilityImages imagesOf(const ReceiverPixels& receivers, const glm::dvec3& centreWorld)
+VisibilityImages imagesOf(const ReceiverPixels& receivers, const SceneFrame& frame)
 {
   VisibilityImages images;
   images.width = receivers.width;
   images.height = receivers.height;
-  images.origin = { { centreWorld.x, centreWorld.y, centreWorld.z } };
+  const glm::dvec3 origin = frame.toWorld(glm::dvec3(0.0));
+  images.origin = { { origin.x, origin.y, origin.z } };
   const auto flip = [&](const std::vector<float>& plane)
   { return topRowFirst(plane, images.width, images.height); };
-  images.positionX = flip(receivers.positionX);
-  images.positionY = flip(receivers.positionY);
-  images.positionZ = flip(receivers.positionZ);
+  const auto inWorld = [&](const std::vector<float>& plane)
+  {
+    std::vector<float> image = flip(plane);
+    const auto unit = static_cast<float>(frame.unitWorld());
+    std::transform(image.begin(), image.end(), image.begin(), [=](float at) { return at * unit; });
+    return image;
+  };
+  images.positionX = inWorld(receivers.positionX);
+  images.positionY = inWorld(receivers.positionY);
+  images.positionZ = inWorld(receivers.positionZ);
   images.normalX = flip(receivers.normalX);
   images.normalY = flip(receivers.normalY);
   images.normalZ = flip(receivers.normalZ);
@@ -123,7 +131,7 @@ VisibilityImages keepVisibility(const CastingLights& lights, const ViewValues& v
   const ReceiverPixels& receivers, const Occluders& occluders,
   const std::vector<SurfaceName>& names)
 {
-  VisibilityImages images = imagesOf(receivers, occluders.centreWorld);
+  VisibilityImages images = imagesOf(receivers, occluders.frame);
   addNames(images, view.receivers, receivers, occluders, names);
   auto value = view.visibility.begin();
   for (const CastingLight& casting : lights)

@@ -135,7 +135,7 @@ LightViews LightTechnique::layOut(
   const ShadowLight& light, const MapStage& stage, const MapReach& reach)
 {
   ViewFitting& fitting = this->fitting_ = ViewFitting();
-  fitting.centreWorld = stage.occluders.centreWorld;
+  fitting.centreWorld = stage.occluders.frame.centre;
   fitting.castersCentred = stage.occluders.castersCentred;
   fitting.receiversCentred = stage.occluders.allCentred;
   fitting.texels = { light.mapSizeTexels, reach.borderTexels() };

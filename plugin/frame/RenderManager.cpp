@@ -148,6 +148,7 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
     this->collector_.collect(s->GetRenderer(), this->frame_.wishes.smoothTerminators, others);
   const Occluders& occluders = this->collector_.occluders();
   FrameReport& report = this->frame_.report;
+  this->frame_.lights.enter(occluders.frame, report);
   report.surfacesExtracted = change.extracted;
   report.surfacesRetransformed = change.retransformed;
   report.notes.insert(
@@ -167,12 +168,12 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
   report.droppedNonFinite = occluders.droppedNonFinite;
   report.droppedZeroArea = occluders.droppedZeroArea;
   this->frame_.size = sizeOf(s);
-  this->frame_.camera = cameraOf(s->GetRenderer(), occluders.centreWorld);
-  this->frame_.space = { centredFromView(s->GetRenderer(), occluders.centreWorld),
-    this->frame_.camera.pixelSide(this->frame_.size) };
+  const ShownView shown = shownView(s->GetRenderer(), occluders.frame);
+  this->frame_.camera = shown.camera;
+  this->frame_.space = { shown.centredFromView, shown.camera.pixelSide(this->frame_.size) };
   this->stageValues_.space = this->frame_.space;
-  this->stageValues_.viewFromVtkView = viewFromVtkView(s->GetRenderer());
-  this->stageValues_.eyeView = this->frame_.camera.eyeView();
+  this->stageValues_.viewFromVtkView = shown.viewFromVtkView;
+  this->stageValues_.eyeView = shown.camera.eyeView();
   this->stageValues_.reductionFactor = this->frame_.wishes.reductionFactor;
   if (this->frame_.ranks)
   {
@@ -487,7 +488,7 @@ NumberCheck RenderManager::checkNumbers(const vtkRenderState* s)
   truth.clipFromCentred = this->frame_.camera.clipFromCentred();
   // VTK multiplies vertices in float. It shifts those that are farther off than 1,000 extents.
   const double extent = 2.0 * occluders.allCentred.radius();
-  const double farthest = glm::length(occluders.centreWorld) + extent;
+  const double farthest = glm::length(occluders.frame.centre) + extent;
   truth.vertexNoise = 8.0 / 16777216.0 *
     (std::min(farthest, 1000.0 * extent) + glm::length(this->frame_.camera.eyeCentred()));
   return this->programs_.numbers.check(images, truth, this->collector_.drawnSurfaces(), occluders);

@@ -473,9 +473,10 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
     this->stageUniforms_.push_back({ "gnomonStage", values.receiversStage ? 1 : 0 });
   }
   const glm::dmat3 turn(values.viewFromVtkView);
+  const double stretch = std::cbrt(std::abs(glm::determinant(turn))); // of no use to normals
   this->stageUniforms_.push_back({ "gnomonViewFromVtkView", glm::mat4(values.viewFromVtkView) });
   this->stageUniforms_.push_back(
-    { "gnomonNormalFromVtkView", glm::mat3(glm::transpose(glm::inverse(turn))) });
+    { "gnomonNormalFromVtkView", glm::mat3(stretch * glm::transpose(glm::inverse(turn))) });
   this->stageUniforms_.push_back({ "gnomonEye", glm::vec4(values.eyeView) });
   for (std::size_t i = 0; i < this->lights_.size(); ++i)
   {

@@ -30,7 +30,7 @@ struct HookVariant
   bool multisampled = false;   ///< pixels have several samples, and a surface may cover some of
                                ///< them
   bool namesTriangles = true;  ///< not on the inline route: triangle numbers may be written
-  bool vtkViewIsRigid = true;  ///< viewFromVtkView() is the identity
+  bool vtkViewIsRigid = true;  ///< ShownView::viewFromVtkView is the identity
   bool anySeenThrough = false; ///< true if DrawnProps::seenThrough has some
 };
 
@@ -87,7 +87,7 @@ public:
   {
     bool receiversStage = false; ///< receivers are drawn, alone or with the picture
     ReceiverSpace space;
-    glm::dmat4 viewFromVtkView{ 1.0 };        ///< ShownView.h
+    glm::dmat4 viewFromVtkView{ 1.0 };        ///< ShownView
     glm::dvec4 eyeView{ 0.0, 0.0, 0.0, 1.0 }; ///< CameraView::eyeView()
     TextureBinding layers;                    ///< image route: the visibility layers
     TextureBinding bits;                      ///< image route: the image of bits

@@ -11,7 +11,7 @@ uniform vec4 gnomonEye; // where the lines of sight meet (CameraView::eyeView())
 vec3 gnomonInView(vec3 positionVtkView) { return positionVtkView; }
 vec3 gnomonNormalInView(vec3 normalVtkView) { return normalVtkView; }
 #else
-uniform mat4 gnomonViewFromVtkView; // to rigid coordinates
+uniform mat4 gnomonViewFromVtkView; // to rigid coordinates in the scene's unit
 uniform mat3 gnomonNormalFromVtkView;
 
 vec3 gnomonInView(vec3 positionVtkView)

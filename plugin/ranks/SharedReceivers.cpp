@@ -44,7 +44,7 @@ void keepNearest(
 void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot)
 {
   this->clear();
-  this->surfaces_.centreWorld = snapshot.centreWorld;
+  this->surfaces_.frame = snapshot.frame;
   this->surfaces_.surfaces.assign(1, receivingSurface());
 
   const std::size_t pixels = own.size();

@@ -55,8 +55,8 @@ bool PlacedInstances::areMoved(const Surface& before) const
 
 //------------------------------------------------------------------------------
 std::optional<PlacedInstances> placeKeptInstances(const glm::dmat4& worldFromModel,
-  const std::vector<glm::mat4>& modelFromInstance, const glm::dvec3& sourceCentre,
-  const Bounds& boundsSource, const glm::dvec3& centreWorld)
+  const std::vector<glm::mat4>& modelFromInstance, const SceneFrame& source,
+  const Bounds& boundsSource, const SceneFrame& frame)
 {
   if (!isAffine(worldFromModel))
   {
@@ -70,10 +70,10 @@ std::optional<PlacedInstances> placeKeptInstances(const glm::dmat4& worldFromMod
   for (const glm::mat4& place : modelFromInstance)
   {
     glm::dmat4 instance = worldFromModel * glm::dmat4(place);
-    instance = glm::translate(instance, sourceCentre);
+    instance = glm::scale(instance, glm::dvec3(source.unitWorld()));
+    instance = glm::translate(instance, source.centre);
     const bool finite = isWithin(affinelyTransformed(boundsSource, instance), largestOfWorld);
-    instance[3] -= glm::dvec4(centreWorld, 0.0);
-    const glm::mat4x3 rounded(instance);
+    const glm::mat4x3 rounded(frame.centredFrom(instance));
     if (!finite || !isVisible(rounded, extentSource))
     {
       ++(finite ? placed.leftOutVanished : placed.leftOutNonFinite);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lights/Bounds.h"
+#include "lights/SceneFrame.h"
 
 #include <glm/glm.hpp>
 
@@ -46,10 +46,10 @@ struct PlacedInstances
 ///
 /// @return nothing if rays and maps cannot use them. They must be affine and regular (Instances.h),
 /// and all or none must mirror. Instances that are left out do not count.
-/// @param sourceCentre the origin of source coordinates, in those of the polydata
+/// @param source the frame of source coordinates in the polydata's
 /// @param boundsSource box around the drawn cells, in source coordinates
 std::optional<PlacedInstances> placeKeptInstances(const glm::dmat4& worldFromModel,
-  const std::vector<glm::mat4>& modelFromInstance, const glm::dvec3& sourceCentre,
-  const Bounds& boundsSource, const glm::dvec3& centreWorld);
+  const std::vector<glm::mat4>& modelFromInstance, const SceneFrame& source,
+  const Bounds& boundsSource, const SceneFrame& frame);
 
 } // namespace gnomon

@@ -158,16 +158,15 @@ bool hasSize(const glm::mat4x3& matrix)
 //------------------------------------------------------------------------------
 PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
   const glm::dmat4& worldFromModel, const std::vector<glm::dvec4>& clipPlanes,
-  const glm::dvec3& centreWorld)
+  const SceneFrame& frame)
 {
   PlacedInstances result;
   result.centredFromSource.reserve(static_cast<std::size_t>(cellCount(block.data, cells)));
-  const auto add = [&](glm::dmat4x3 matrix)
+  const auto add = [&](const glm::dmat4x3& matrix)
   {
     const bool isInside = isKept(clipPlanes, matrix[3]);
     const bool finite = isInWorld(matrix);
-    matrix[3] -= centreWorld;
-    const glm::mat4x3 rounded(matrix);
+    const glm::mat4x3 rounded(frame.centredFrom(glm::dmat4(matrix)));
     const bool kept = finite && isInside && hasSize(rounded);
     result.leftOutNonFinite += finite ? 0 : 1;
     // Solids cut off by a plane or behind the camera are no fault of the data.
@@ -196,7 +195,7 @@ Bounds boundsOfSolids(const DrawnBlock& block, SurfaceCells cells)
   if (!areSizedInPixels(cells))
   {
     return solidsBounds(solidOf(cells),
-      placeSolids(block, cells, glm::dmat4(1.0), {}, glm::dvec3(0.0)).centredFromSource);
+      placeSolids(block, cells, glm::dmat4(1.0), {}, SceneFrame()).centredFromSource);
   }
   Bounds bounds;
   visitPixelSolids(block, cells, glm::dmat4(1.0),

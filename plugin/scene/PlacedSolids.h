@@ -21,7 +21,7 @@ namespace gnomon
 /// @param clipPlanes in world coordinates, as in DrawnProp
 PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
   const glm::dmat4& worldFromModel, const std::vector<glm::dvec4>& clipPlanes,
-  const glm::dvec3& centreWorld);
+  const SceneFrame& frame);
 
 /// Return the box around a block's solids in model coordinates. Solids sized by the camera count by
 /// their middles alone.

@@ -10,6 +10,8 @@
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 namespace gnomon
 {
 namespace
@@ -32,17 +34,6 @@ bool sharesPass(vtkRenderer* renderer)
   return false;
 }
 
-glm::dmat4 vtkViewFromWorld(vtkRenderer* renderer)
-{
-  return toGlm(renderer->GetActiveCamera()->GetModelViewTransformMatrix());
-}
-
-glm::dmat4 clipFromVtkView(vtkRenderer* renderer)
-{
-  return toGlm(renderer->GetActiveCamera()->GetProjectionTransformMatrix(
-    renderer->GetTiledAspectRatio(), -1.0, 1.0));
-}
-
 /// True if a transformation keeps lengths, angles and handedness.
 bool isRigid(const glm::dmat4& matrix)
 {
@@ -61,11 +52,10 @@ bool isUpright(const glm::dmat4& clipFromView)
   return is0(2) && is0(3);
 }
 
-/// Return the rigid matrix of the camera's view space.
-glm::dmat4 viewFromWorld(vtkRenderer* renderer)
+/// Return the rigid matrix of a camera's view space.
+/// @param vtkView, projection VTK's matrices
+glm::dmat4 viewFromWorld(const glm::dmat4& vtkView, const glm::dmat4& projection)
 {
-  const glm::dmat4 vtkView = vtkViewFromWorld(renderer);
-  const glm::dmat4 projection = clipFromVtkView(renderer);
   if (isRigid(vtkView) && isUpright(projection))
   {
     return vtkView;
@@ -116,38 +106,30 @@ glm::ivec2 originOf(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-glm::dmat4 centredFromView(vtkRenderer* renderer, const glm::dvec3& centreWorld)
+ShownView shownView(vtkRenderer* renderer, const SceneFrame& frame)
 {
-  glm::dmat4 matrix = glm::inverse(viewFromWorld(renderer));
-  matrix[3] -= glm::dvec4(centreWorld, 0.0);
-  return matrix;
-}
-
-//------------------------------------------------------------------------------
-CameraView cameraOf(vtkRenderer* renderer, const glm::dvec3& centreWorld)
-{
-  CameraView view;
-  view.viewFromCentred = glm::inverse(centredFromView(renderer, centreWorld));
-  view.clipFromView = clipFromVtkView(renderer);
-  const glm::dmat4 turn = viewFromVtkView(renderer);
-  if (turn != glm::dmat4(1.0))
+  vtkCamera* const vtk = renderer->GetActiveCamera();
+  const glm::dmat4 vtkView = toGlm(vtk->GetModelViewTransformMatrix());
+  const glm::dmat4 projection =
+    toGlm(vtk->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  const glm::dmat4 view = viewFromWorld(vtkView, projection);
+  const glm::dmat4 units = glm::scale(glm::dmat4(1.0), glm::dvec3(frame.unitsPerWorld()));
+  ShownView shown;
+  // The view space counts in units, too. Only its origin has a length.
+  shown.centredFromView = glm::inverse(view);
+  shown.centredFromView[3] = glm::dvec4(frame.fromWorld(glm::dvec3(shown.centredFromView[3])), 1.0);
+  shown.viewFromVtkView = view == vtkView ? units : units * view * glm::inverse(vtkView);
+  shown.camera.viewFromCentred = glm::inverse(shown.centredFromView);
+  glm::dmat4& clip = shown.camera.clipFromView = projection;
+  if (shown.viewFromVtkView != glm::dmat4(1.0))
   {
-    view.clipFromView = view.clipFromView * glm::inverse(turn);
-    if (view.eyeView().w == 0.0)
+    clip = clip * glm::inverse(shown.viewFromVtkView);
+    if (shown.camera.eyeView().w == 0.0)
     {
-      glm::dmat4& clip = view.clipFromView;
       clip[0].w = clip[1].w = clip[2].w = 0.0; // without rounding's rest
     }
   }
-  return view;
-}
-
-//------------------------------------------------------------------------------
-glm::dmat4 viewFromVtkView(vtkRenderer* renderer)
-{
-  const glm::dmat4 vtkView = vtkViewFromWorld(renderer);
-  const glm::dmat4 view = viewFromWorld(renderer);
-  return view == vtkView ? glm::dmat4(1.0) : view * glm::inverse(vtkView);
+  return shown;
 }
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/CameraView.h"
+#include "lights/SceneFrame.h"
 #include "lights/vtkGnomonVersions.h"
 
 #include <glm/glm.hpp>
@@ -22,17 +23,18 @@ glm::ivec2 sizeOf(const vtkRenderState* s);
 /// Return the origin of that picture in the bound framebuffer, in pixels.
 glm::ivec2 originOf(const vtkRenderState* s);
 
-///@{
-/// Return a renderer's camera. Its view space is VTK's if that is rigid, and if depth and distance
-/// do not change across the picture. Else it is another one, in which that is so for all usual
-/// projections (vtkCamera's model, user view and explicit matrices, off-axis screens). Positions
-/// are relative to a point before they become floats.
-/// @param centreWorld the origin of centred coordinates
-glm::dmat4 centredFromView(vtkRenderer* renderer, const glm::dvec3& centreWorld); ///< rigid
-CameraView cameraOf(vtkRenderer* renderer, const glm::dvec3& centreWorld);
-/// @return what leads from the coordinates that VTK's vertex shaders compute to view space
-glm::dmat4 viewFromVtkView(vtkRenderer* renderer);
-///@}
+/// A renderer's camera.
+///
+/// Its view space is VTK's if that is rigid, if depth and distance do not change across the picture,
+/// and if the frame has the world's unit. Else it is another one, in which that is so for all usual
+/// projections (vtkCamera's model, user view and explicit matrices, off-axis screens).
+struct ShownView
+{
+  CameraView camera;
+  glm::dmat4 centredFromView{ 1.0 }; ///< rigid
+  glm::dmat4 viewFromVtkView{ 1.0 }; ///< from the coordinates that VTK's vertex shaders compute
+};
+ShownView shownView(vtkRenderer* renderer, const SceneFrame& frame);
 
 /// Add a camera and the size of its picture to a hash.
 void hashView(std::size_t& seed, const CameraView& camera, const glm::ivec2& size);

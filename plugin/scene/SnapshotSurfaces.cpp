@@ -14,9 +14,9 @@ namespace
 {
 
 /// Set the matrix of a surface's normals and the height of its facets.
-void takeFacets(const SurfaceRecord& record, Surface& surface)
+void takeFacets(const SurfaceRecord& record, const SceneFrame& frame, Surface& surface)
 {
-  surface.centredFromNormals = glm::mat3(record.worldFromModel);
+  surface.centredFromNormals = glm::mat3(frame.centredFrom(record.worldFromModel));
   double scale = 0.0;
   if (record.facetHeight > 0.0f)
   {
@@ -27,7 +27,7 @@ void takeFacets(const SurfaceRecord& record, Surface& surface)
         std::max(scale, largestScale(glm::dmat3(record.worldFromModel * glm::dmat4(instance))));
     }
   }
-  surface.facetHeight = static_cast<float>(scale * record.facetHeight);
+  surface.facetHeight = static_cast<float>(scale * frame.unitsPerWorld() * record.facetHeight);
 }
 
 } // namespace
@@ -62,17 +62,17 @@ SnapshotChange SnapshotSurfaces::update(
   bool positionsChanged = false;
   bool trianglesChanged = otherList;
   change.any = otherList || moved || change.extracted > 0;
-  bool recentred = false;
+  bool reframed = false;
   if (change.any || others.unite)
   {
-    recentred = this->updateCentre(wanted, others);
-    change.any = change.any || recentred;
+    reframed = this->updateFrame(wanted, others);
+    change.any = change.any || reframed;
   }
   if (change.any)
   {
     for (WantedSurface& surface : wanted)
     {
-      const Outcome outcome = this->updateSurface(surface, recentred, change);
+      const Outcome outcome = this->updateSurface(surface, reframed, change);
       positionsChanged = positionsChanged || outcome == Outcome::Moved;
       trianglesChanged = trianglesChanged || outcome == Outcome::OtherTriangles;
     }
@@ -146,8 +146,8 @@ int SnapshotSurfaces::countInstances(
 }
 
 //------------------------------------------------------------------------------
-/// Set the centre to that of the present box; true if it moved.
-bool SnapshotSurfaces::updateCentre(
+/// Set the frame to that of the present box; true if it is another one.
+bool SnapshotSurfaces::updateFrame(
   const std::vector<WantedSurface>& wanted, const OtherProcesses& others)
 {
   Bounds boundsWorld;
@@ -162,8 +162,8 @@ bool SnapshotSurfaces::updateCentre(
   {
     boundsWorld = others.unite(boundsWorld);
   }
-  const glm::dvec3 old = std::exchange(this->occluders_.centreWorld, snapshotCentre(boundsWorld));
-  return this->occluders_.centreWorld != old;
+  const SceneFrame old = std::exchange(this->occluders_.frame, sceneFrameOf(boundsWorld));
+  return this->occluders_.frame != old;
 }
 
 //------------------------------------------------------------------------------
@@ -177,13 +177,13 @@ void SnapshotSurfaces::read(WantedSurface& wanted, vtkMTimeType time)
 
 //------------------------------------------------------------------------------
 SnapshotSurfaces::Outcome SnapshotSurfaces::updateSurface(
-  WantedSurface& wanted, bool recentred, SnapshotChange& change)
+  WantedSurface& wanted, bool reframed, SnapshotChange& change)
 {
   bool maybeSame = wanted.old != WantedSurface::none; // the same triangles
   if (!wanted.fresh)
   {
     const SurfaceRecord& record = this->records_[wanted.old];
-    if (!recentred && isWhere(record, *wanted.prop, wanted.block))
+    if (!reframed && isWhere(record, *wanted.prop, wanted.block))
     {
       return Outcome::Same;
     }
@@ -200,7 +200,7 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::updateSurface(
     ++change.extracted;
     maybeSame = false;
   }
-  placeSurface(*wanted.fresh, *wanted.prop, wanted.block, this->occluders_.centreWorld);
+  placeSurface(*wanted.fresh, *wanted.prop, wanted.block, this->occluders_.frame);
   return maybeSame ? this->overwrite(wanted) : Outcome::OtherTriangles;
 }
 
@@ -216,13 +216,13 @@ bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
     record.worldFromModel = wanted.prop->worldFromModel;
     record.radiusFromWorld = radiusFromWorld(wanted.block, record.key.cells);
     std::optional<PlacedInstances> placed =
-      placeKeptInstances(record, wanted.block, this->occluders_.centreWorld);
+      placeKeptInstances(record, wanted.block, this->occluders_.frame);
     return placed && this->moveInstances(wanted.old, *placed);
   }
   glm::vec3* all = this->occluders_.positionsCentred.data();
   glm::vec3* own = all + surface.firstVertex;
   record.worldFromModel = wanted.prop->worldFromModel;
-  placeInstances(wanted.block, record, surface.vertexCount, this->occluders_.centreWorld, own);
+  placeInstances(wanted.block, record, surface.vertexCount, this->occluders_.frame, own);
 
   const auto first = this->occluders_.triangles.begin() + surface.firstTriangle;
   const auto last = first + surface.triangleCount;
@@ -236,7 +236,7 @@ bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
     return false;
   }
   record.boundsCentred = boundsOf(first, last, all);
-  takeFacets(record, surface);
+  takeFacets(record, this->occluders_.frame, surface);
   clearNonFinite(own, surface.vertexCount);
   surface.positionsVersion = this->newVersion();
   return true;
@@ -255,7 +255,7 @@ bool SnapshotSurfaces::moveInstances(std::size_t index, PlacedInstances& placed)
   recordPlaces(placed, this->occluders_.positionsCentred.data() + surface.firstVertex,
     surface.vertexCount, this->records_[index]);
   surface.centredFromSource = std::move(placed.centredFromSource);
-  takeFacets(this->records_[index], surface);
+  takeFacets(this->records_[index], this->occluders_.frame, surface);
   surface.positionsVersion = this->newVersion();
   return true;
 }
@@ -299,7 +299,7 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
   const bool sameNormals = surface.pointNormals == fresh.pointNormals &&
     surface.centredFromNormals == glm::mat3(fresh.record.worldFromModel);
   surface.pointNormals = std::move(fresh.pointNormals);
-  takeFacets(fresh.record, surface);
+  takeFacets(fresh.record, this->occluders_.frame, surface);
   if (!sameNormals)
   {
     surface.positionsVersion = this->newVersion();
@@ -354,7 +354,7 @@ void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
       entry.pointNormals = std::move(fresh.pointNormals);
       entry.centredFromSource = std::move(fresh.instances.centredFromSource);
       entry.mirrored = fresh.instances.mirrored;
-      takeFacets(fresh.record, entry);
+      takeFacets(fresh.record, this->occluders_.frame, entry);
       entry.solid = solidOf(fresh.record.key.cells);
       entry.topologyVersion = this->newVersion();
       entry.positionsVersion = this->newVersion();

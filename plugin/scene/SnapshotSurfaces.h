@@ -42,7 +42,7 @@ class SnapshotSurfaces
 {
 public:
   /// Make the snapshot hold these surfaces, in this order.
-  /// @param others with whom this process shares the centre, and the number of glyphs
+  /// @param others with whom this process shares the frame, and the number of glyphs
   SnapshotChange update(std::vector<WantedSurface>& wanted, const OtherProcesses& others);
 
   const Occluders& occluders() const { return this->occluders_; }
@@ -60,9 +60,9 @@ private:
   };
 
   int countInstances(std::vector<WantedSurface>& wanted, const OtherProcesses& others);
-  bool updateCentre(const std::vector<WantedSurface>& wanted, const OtherProcesses& others);
+  bool updateFrame(const std::vector<WantedSurface>& wanted, const OtherProcesses& others);
   void read(WantedSurface& wanted, vtkMTimeType time);
-  Outcome updateSurface(WantedSurface& wanted, bool recentred, SnapshotChange& change);
+  Outcome updateSurface(WantedSurface& wanted, bool reframed, SnapshotChange& change);
   bool transformAgain(const WantedSurface& wanted);
   bool moveInstances(std::size_t index, PlacedInstances& placed);
   Outcome overwrite(WantedSurface& wanted);

@@ -282,12 +282,16 @@ DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells,
 
 //------------------------------------------------------------------------------
 void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfVertex,
-  std::size_t vertexCount, const glm::dmat4& worldFromModel, const glm::dvec3& centreWorld,
+  std::size_t vertexCount, const glm::dmat4& worldFromModel, const SceneFrame& frame,
   glm::vec3* positionsCentred)
 {
+  const double unitsPerWorld = frame.unitsPerWorld();
   readVertices(data, pointOfVertex, vertexCount,
     [&](std::size_t vertex, const glm::dvec3& position)
-    { positionsCentred[vertex] = glm::vec3(inWorld(worldFromModel, position) - centreWorld); });
+    {
+      positionsCentred[vertex] =
+        glm::vec3(inWorld(worldFromModel, position) * unitsPerWorld - frame.centre);
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lights/Bounds.h"
+#include "lights/SceneFrame.h"
 #include "lights/vtkGnomonVersions.h"
 #include "shadowtech/base/Solid.h"
 
@@ -98,10 +98,10 @@ struct DroppedTriangle
   }
 };
 
-/// Write the centred positions of a surface's vertices: worldFromModel * point - centreWorld in
-/// double precision, rounded once to float. NaN for points that are not within largestOfWorld.
+/// Write the centred positions of a surface's vertices, computed in double precision and rounded
+/// once to float. NaN for points that are not within largestOfWorld.
 void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfVertex,
-  std::size_t vertexCount, const glm::dmat4& worldFromModel, const glm::dvec3& centreWorld,
+  std::size_t vertexCount, const glm::dmat4& worldFromModel, const SceneFrame& frame,
   glm::vec3* positionsCentred);
 
 /// Return a surface's texture coordinates, one for each of its vertices. As in VTK's vertex shader,

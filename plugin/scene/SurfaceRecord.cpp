@@ -63,7 +63,7 @@ float facetHeight(vtkPolyData* data, const DrawnTriangles& drawn,
   }
   std::vector<glm::vec3> positions(drawn.vertexCount);
   placeVertices(
-    data, pointOfVertex, positions.size(), glm::dmat4(1.0), glm::dvec3(0.0), positions.data());
+    data, pointOfVertex, positions.size(), glm::dmat4(1.0), SceneFrame(), positions.data());
   return largestHeightOf(positions, drawn.triangles, normals);
 }
 
@@ -128,10 +128,10 @@ void dropDefects(FreshSurface& fresh)
 }
 
 /// Compute the source and the instances of a surface; false if it cannot be held as instances.
-bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3& centreWorld)
+bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const SceneFrame& frame)
 {
   SurfaceRecord& record = fresh.record;
-  std::optional<PlacedInstances> placed = placeKeptInstances(record, block, centreWorld);
+  std::optional<PlacedInstances> placed = placeKeptInstances(record, block, frame);
   if (!placed)
   {
     return false;
@@ -139,8 +139,8 @@ bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3&
   fresh.instances = std::move(*placed);
   fresh.positionsCentred.resize(fresh.vertexCount);
   glm::vec3* positions = fresh.positionsCentred.data();
-  placeVertices(block.data, record.pointOfVertex, fresh.vertexCount, glm::dmat4(1.0),
-    record.sourceCentre, positions);
+  placeVertices(
+    block.data, record.pointOfVertex, fresh.vertexCount, glm::dmat4(1.0), record.source, positions);
   dropDefects(fresh);
   clearNonFinite(positions, fresh.vertexCount);
   recordPlaces(fresh.instances, positions, fresh.vertexCount, record);
@@ -261,9 +261,11 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
     if (!record.tooManyTriangles && prop.clipPlanes.empty() && !drawn.boundsModel.empty())
     {
       record.trianglesOfSource = drawn.triangles.size();
-      record.sourceCentre = drawn.boundsModel.centre();
-      record.boundsSource = { drawn.boundsModel.lower - record.sourceCentre,
-        drawn.boundsModel.upper - record.sourceCentre };
+      record.source = sceneFrameOf(drawn.boundsModel);
+      // Of a source, nothing moves: it is centred without a grid.
+      record.source.centre = drawn.boundsModel.centre() * record.source.unitsPerWorld();
+      record.boundsSource = { record.source.fromWorld(drawn.boundsModel.lower),
+        record.source.fromWorld(drawn.boundsModel.upper) };
     }
   }
   record.coordinates = coordinatesSource(prop, block);
@@ -285,15 +287,14 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
 
 //------------------------------------------------------------------------------
 std::optional<PlacedInstances> placeKeptInstances(
-  const SurfaceRecord& record, const DrawnBlock& block, const glm::dvec3& centreWorld)
+  const SurfaceRecord& record, const DrawnBlock& block, const SceneFrame& frame)
 {
   if (solidOf(record.key.cells) != Solid::None)
   {
-    return placeSolids(
-      block, record.key.cells, record.worldFromModel, record.clipPlanes, centreWorld);
+    return placeSolids(block, record.key.cells, record.worldFromModel, record.clipPlanes, frame);
   }
-  return placeKeptInstances(record.worldFromModel, record.modelFromInstance, record.sourceCentre,
-    record.boundsSource, centreWorld);
+  return placeKeptInstances(
+    record.worldFromModel, record.modelFromInstance, record.source, record.boundsSource, frame);
 }
 
 //------------------------------------------------------------------------------
@@ -312,21 +313,21 @@ void recordPlaces(const PlacedInstances& placed, const glm::vec3* positionsSourc
 
 //------------------------------------------------------------------------------
 void placeInstances(const DrawnBlock& block, const SurfaceRecord& record, std::size_t vertexCount,
-  const glm::dvec3& centreWorld, glm::vec3* positionsCentred)
+  const SceneFrame& frame, glm::vec3* positionsCentred)
 {
   const std::size_t instances = record.modelFromInstance.size();
   const std::size_t step = instances > 0 ? vertexCount / instances : 0;
   for (std::size_t i = 0; i < instances; ++i)
   {
     placeVertices(block.data, record.pointOfVertex, step,
-      record.worldFromModel * glm::dmat4(record.modelFromInstance[i]), centreWorld,
+      record.worldFromModel * glm::dmat4(record.modelFromInstance[i]), frame,
       positionsCentred + i * step);
   }
 }
 
 //------------------------------------------------------------------------------
-void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& block,
-  const glm::dvec3& centreWorld)
+void placeSurface(
+  FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& block, const SceneFrame& frame)
 {
   SurfaceRecord& record = fresh.record;
   record.worldFromModel = prop.worldFromModel;
@@ -335,12 +336,12 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
   record.radiusFromWorld = radiusFromWorld(block, record.key.cells);
   if (solidOf(record.key.cells) != Solid::None)
   {
-    fresh.instances = *placeKeptInstances(record, block, centreWorld);
+    fresh.instances = *placeKeptInstances(record, block, frame);
     recordPlaces(fresh.instances, positions.data(), positions.size(), record);
     return;
   }
   if (areInstancesCheaper(record.trianglesOfSource, record.instancesOfAll) &&
-    placeSource(fresh, block, centreWorld))
+    placeSource(fresh, block, frame))
   {
     return;
   }
@@ -349,7 +350,7 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
     expandInstances(fresh);
   }
   positions.resize(fresh.vertexCount * record.modelFromInstance.size());
-  placeInstances(block, record, positions.size(), centreWorld, positions.data());
+  placeInstances(block, record, positions.size(), frame, positions.data());
   dropDefects(fresh);
   clearNonFinite(positions.data(), positions.size());
   if (!record.clipPlanes.empty())
@@ -357,7 +358,7 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
     std::vector<glm::dvec4> planesCentred = record.clipPlanes;
     for (glm::dvec4& plane : planesCentred)
     {
-      plane.w += glm::dot(glm::dvec3(plane), centreWorld);
+      plane.w = plane.w * frame.unitsPerWorld() + glm::dot(glm::dvec3(plane), frame.centre);
     }
     clipTriangles(
       planesCentred, positions, fresh.textureCoordinates, fresh.triangles, fresh.triangleOfDrawn);

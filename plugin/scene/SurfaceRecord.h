@@ -121,10 +121,8 @@ struct SurfaceRecord
   /// in all processes that draw the picture. 0: it may not.
   std::size_t trianglesOfSource = 0;
   std::size_t instancesOfAll = 0;
-  /// True if the snapshot holds it as instances of a source. The origin of source coordinates is
-  /// sourceCentre in the polydata.
-  bool keptAsInstances = false;
-  glm::dvec3 sourceCentre{ 0.0 };
+  bool keptAsInstances = false;     ///< true if the snapshot holds it as instances of a source
+  SceneFrame source;                ///< of source coordinates in the polydata's
   Bounds boundsSource;              ///< in source coordinates
   std::size_t leftOutNonFinite = 0; ///< instances, as in PlacedInstances
   std::size_t leftOutVanished = 0;
@@ -185,13 +183,13 @@ bool isWhere(const SurfaceRecord& record, const DrawnProp& prop, const DrawnBloc
 /// Compute a fresh surface's positions, and remove triangles that the snapshot does not hold.
 /// Glyphs that are not, or cannot be, held as instances are expanded to the triangles of all of
 /// them.
-void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& block,
-  const glm::dvec3& centreWorld);
+void placeSurface(
+  FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& block, const SceneFrame& frame);
 
 /// Compute the matrices of a surface's instances from its record's place. Nothing if rays and maps
 /// cannot use them (KeptInstances.h).
 std::optional<PlacedInstances> placeKeptInstances(
-  const SurfaceRecord& record, const DrawnBlock& block, const glm::dvec3& centreWorld);
+  const SurfaceRecord& record, const DrawnBlock& block, const SceneFrame& frame);
 
 /// Store the places of a surface's instances in its record.
 ///
@@ -201,6 +199,6 @@ void recordPlaces(const PlacedInstances& placed, const glm::vec3* positionsSourc
 
 /// Compute the centred positions of all instances in a surface's record, from the record's place.
 void placeInstances(const DrawnBlock& block, const SurfaceRecord& record, std::size_t vertexCount,
-  const glm::dvec3& centreWorld, glm::vec3* positionsCentred);
+  const SceneFrame& frame, glm::vec3* positionsCentred);
 
 } // namespace gnomon

@@ -4,6 +4,8 @@
 #include "lights/LightViews.h"
 #include "shadowtech/base/GlslText.h"
 
+#include <algorithm>
+
 namespace gnomon
 {
 
@@ -16,7 +18,7 @@ const SettingsTable& kernelSettings()
       real("kernel_width",
         "above 0: the kernel's width across the light (from a position: at distance 1), over which "
         "as many taps are spread as kernel_size says",
-        "world units", &KernelSettings::widthAcross, { 0.0, 1e12 }) } };
+        "world units", &KernelSettings::widthAcross, anyLength) } };
   return table;
 }
 
@@ -45,9 +47,14 @@ MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent)
       reach.largestStretch = largestStretch(light.of<KernelSettings>().sizeTexels);
       break;
     case KernelUnits::Across:
-      reach.unitAcross =
-        light.of<KernelSettings>().widthAcross / light.of<KernelSettings>().sizeTexels;
-      break;
+    {
+      constexpr double widest = 1e12; // as good as infinite
+      // From a position, at distance 1, it is a tangent.
+      const double unit = light.kind == LightKind::Directional ? light.unitWorld : 1.0;
+      reach.unitAcross = std::min(widest,
+        light.of<KernelSettings>().widthAcross / unit / light.of<KernelSettings>().sizeTexels);
+    }
+    break;
   }
   reach.kernelSquare = extent.square;
   reach.kernelDisc = extent.disc;

@@ -13,7 +13,7 @@ namespace gnomon
 struct KernelSettings
 {
   int sizeTexels = 3; ///< side of a square kernel, diameter of a disc
-  /// The width across the light in world units, of a positional light at distance 1; 0: use
+  /// The width across the light in the world's lengths, of a positional light at distance 1; 0: use
   /// sizeTexels.
   double widthAcross = 0.0;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/Bounds.h"
+#include "lights/SceneFrame.h"
 #include "shadowtech/base/CutoutMask.h"
 #include "shadowtech/base/Patches.h"
 #include "shadowtech/base/Solid.h"
@@ -8,7 +9,6 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -89,37 +89,14 @@ struct Surface
   }
 };
 
-/// Return the point that positions of a scene with this box are relative to.
-///
-/// The centre is a function of the box alone, so that no picture depends on earlier frames. It lies
-/// on a grid whose step is 2 to 4 radii of the box, a power of two. Hence
-/// - small changes of the scene nearly always leave the centre;
-/// - centred coordinates are at most three radii large;
-/// - a box around the origin has the origin for its centre.
-///
-/// @param boundsWorld the box around all surfaces; empty: the centre is the origin
-inline glm::dvec3 snapshotCentre(const Bounds& boundsWorld)
-{
-  const double radius = boundsWorld.radius();
-  if (boundsWorld.empty() || !std::isfinite(radius)) // beyond 1e154, its square overflows
-  {
-    return glm::dvec3(0.0);
-  }
-  int exponent = 0; // radius < 2^exponent <= 2 radius
-  std::frexp(radius, &exponent);
-  const double step = std::ldexp(2.0, exponent);
-  return glm::round(boundsWorld.centre() / step) * step;
-}
-
 /// The snapshot: one list of all surface triangles that VTK draws, whether they cast or only
 /// receive.
 ///
-/// Positions are *centred*: world coordinates minus centreWorld, computed in double precision and
-/// then rounded to float, so that scenes far from the origin keep their precision. Surfaces with
-/// instances have source coordinates instead (Surface::centredFromSource).
+/// Positions are *centred* (SceneFrame.h), computed in double precision and then rounded to float.
+/// Surfaces with instances have source coordinates instead (Surface::centredFromSource).
 struct Occluders
 {
-  glm::dvec3 centreWorld{ 0.0 }; ///< snapshotCentre(), in all snapshots of plugin/
+  SceneFrame frame; ///< sceneFrameOf(), in all snapshots of plugin/
   /// The allocation extends at least 4 bytes beyond the last position: Embree reads each position
   /// as 16 bytes.
   std::vector<glm::vec3> positionsCentred;

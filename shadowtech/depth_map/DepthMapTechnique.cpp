@@ -92,11 +92,11 @@ void drawView(std::size_t number, const MapReach& reach, const Layer& layer, con
   {
     defines = writingDefines(reach, layer, light);
   }
-  std::vector<Uniform> uniforms = {
-    { "bias", static_cast<float>(light.of<DepthMapSettings>().biasConstant * view.depthScale) },
+  constexpr double deepest = 2.0; // pushes all out of the map
+  const double bias = light.of<DepthMapSettings>().biasConstant / light.unitWorld * view.depthScale;
+  std::vector<Uniform> uniforms = { { "bias", static_cast<float>(std::min(bias, deepest)) },
     { "rayScale", static_cast<float>(1.0 / longestRay(view)) },
-    { "frontLayer", static_cast<int>(number) }
-  };
+    { "frontLayer", static_cast<int>(number) } };
   if (layer.frontDepths)
   {
     uniforms.push_back({ "frontDepths", TextureBinding{ GL_TEXTURE_2D_ARRAY, layer.frontDepths } });
@@ -133,7 +133,7 @@ const SettingsTable& depthMapSettings()
       bakedInto(choice("metric", "how the map measures: along the view's axis, or along the ray",
         &S::metric, { "linear", "euclidean" })),
       bakedInto(real("bias_constant", "how far the map is pushed back on top of what acne needs",
-        "world units", &S::biasConstant, { 0.0, 1e12 })),
+        "world units", &S::biasConstant, anyLength)),
       bakedInto(
         real("bias_slope", "the same, times what a caster's depth spans within the filter's reach",
           "", &S::biasSlope, { 0.0, 1000.0 })),

@@ -27,7 +27,7 @@ struct DepthMapSettings
 {
   DepthSurface surface = DepthSurface::First;
   DepthMetric metric = DepthMetric::Linear;
-  double biasConstant = 0.0; ///< in world units
+  double biasConstant = 0.0; ///< in the world's lengths
   double biasSlope = 0.0;    ///< in units of the caster's depth span within the reach
 };
 /// Return the settings of techniques with a depth map.

@@ -112,7 +112,7 @@ std::uint8_t packed(Certainty front, Certainty back)
 TriangleDecisions::TriangleDecisions(
   const ShadowLight& light, const Occluders& occluders, const std::vector<ConservativeMap>& maps)
   : positional_(light.kind != LightKind::Directional)
-  , positionCentred_(light.positionWorld - occluders.centreWorld)
+  , positionCentred_(light.positionWorld - occluders.frame.centre)
   , limitAtUnit_(std::numeric_limits<double>::infinity())
 {
   if (maps.empty())
@@ -131,7 +131,7 @@ TriangleDecisions::TriangleDecisions(
     this->limitAtUnit_ =
       std::min(this->limitAtUnit_, scenes.back().largestOffset(this->positional_ ? 0.5 : 1.0));
   }
-  const LightReach reach(light, occluders.centreWorld, lateral);
+  const LightReach reach(light, occluders.frame.centre, lateral);
   const auto decide = [&](const Surface& surface, std::uint32_t triangle)
   {
     const Corners corners = centredCorners(occluders, surface, 0, triangle);

@@ -193,7 +193,7 @@ std::vector<Uniform> MonteCarlo::uniformsOf(const LayerInput& input) const
   const ShadowLight& light = input.light;
   const glm::dmat4& viewFromCentred = input.camera.viewFromCentred;
   const glm::dmat4 centredFromView = glm::inverse(viewFromCentred);
-  const glm::dvec3 centreWorld = input.occluders.centreWorld;
+  const glm::dvec3 centreWorld = input.occluders.frame.centre;
   std::vector<Uniform> uniforms = lightReachUniforms(light, centreWorld, viewFromCentred);
   const std::vector<Uniform> own = {
     { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },

@@ -34,7 +34,7 @@ void Penumbra::computeVisibility(
     return;
   }
   this->tree_.update(input.occluders);
-  const PenumbraChooser chooser(this->tree_, input.light, input.occluders.centreWorld);
+  const PenumbraChooser chooser(this->tree_, input.light, input.occluders.frame.centre);
   report.lightSamples = input.light.lightSamples;
   report.rays = static_cast<std::int64_t>(input.tracer.traceArea(input.light, input.occluders,
     input.receivers, visibility, nullptr, input.classes, &chooser, input.tiles, input.verdicts));

@@ -139,8 +139,8 @@ void Planar::drawVisibility(const LayerInput& input, LightReport& report)
   const GlStateGuard guard;
   this->planes_.update(
     input.occluders, static_cast<std::size_t>(input.light.of<PlanarSettings>().planes));
-  this->centre_ = lightPoint(input.light, input.occluders.centreWorld);
-  this->samples_ = lightSamples(input.light, input.occluders.centreWorld);
+  this->centre_ = lightPoint(input.light, input.occluders.frame.centre);
+  this->samples_ = lightSamples(input.light, input.occluders.frame.centre);
   report.lightSamples = static_cast<int>(this->samples_.size());
   this->allocate(input.receivers.width(), input.receivers.height());
   this->samples_.size() > samplesPerBatch
@@ -255,7 +255,7 @@ void Planar::drawShadows(const LayerInput& input, const Batch& batch)
       CasterPicture picture;
       picture.clipFromCentred = clipFromCentred * planarProjection(plane, sample);
       picture.keptFromCentred =
-        castingPart(input.light, input.occluders.centreWorld, plane, receiver.thickness);
+        castingPart(input.light, input.occluders.frame.centre, plane, receiver.thickness);
       // The camera looks at the same side of the plane as the light.
       picture.selection.mirrored = false;
       picture.selection.maySee = [&](const Bounds& bounds)
@@ -288,7 +288,7 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
     { "sampleCountOfAll", batch.last ? static_cast<int>(this->samples_.size()) : 0 }
   };
   for (const std::vector<Uniform>& more : { this->lit_.before(),
-         lightReachUniforms(input.light, input.occluders.centreWorld, viewFromCentred) })
+         lightReachUniforms(input.light, input.occluders.frame.centre, viewFromCentred) })
   {
     uniforms.insert(uniforms.end(), more.begin(), more.end());
   }

@@ -104,7 +104,7 @@ Chain::Chain(const ChainStages& stages, const TriangleMaps& maps, const RimMaps*
   , rim_(rim)
   , fans_(fans)
   , input_(input)
-  , rayLight_(input.light, input.occluders.centreWorld)
+  , rayLight_(input.light, input.occluders.frame.centre)
 {
   if (this->stages_.contourPixels > 0)
   {

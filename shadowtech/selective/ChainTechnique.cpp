@@ -40,7 +40,7 @@ void ChainTechnique::bake(const MapInput& input)
   this->rim_.clear();
   this->inCaster_.reset();
   this->maps_.bake(input.views, light.mapSizeTexels, input.occluders,
-    light.box ? std::optional(nearFaceCentred(light, input.occluders.centreWorld)) : std::nullopt);
+    light.box ? std::optional(nearFaceCentred(light, input.occluders.frame.centre)) : std::nullopt);
 }
 
 //------------------------------------------------------------------------------
@@ -63,7 +63,7 @@ bool ChainTechnique::lightLiesInCaster(const ScreenInput& input, bool soft)
   if (!this->inCaster_ || this->inCaster_->first != area)
   {
     this->inCaster_.emplace(area,
-      liesInCaster(light.positionWorld - input.occluders.centreWorld, area ? &*area : nullptr,
+      liesInCaster(light.positionWorld - input.occluders.frame.centre, area ? &*area : nullptr,
         input.occluders));
   }
   return this->inCaster_->second;

@@ -98,7 +98,7 @@ public:
     : light_(light)
     , occluders_(occluders)
     , hits_(hits)
-    , rays_(light, occluders.centreWorld)
+    , rays_(light, occluders.frame.centre)
     , ends_(light, occluders)
     , casters_(boxesOfCasters(occluders))
     , noise_(floatNoise * largestCoordinate(occluders.allCentred))
@@ -118,7 +118,7 @@ public:
     {
       return Certainty::Unreached;
     }
-    const SweptBox swept(from, this->light_, this->occluders_.centreWorld);
+    const SweptBox swept(from, this->light_, this->occluders_.frame.centre);
     if (std::none_of(this->casters_.begin(), this->casters_.end(),
           [&](const Bounds& box) { return swept.meets(inflated(box, this->noise_)); }))
     {

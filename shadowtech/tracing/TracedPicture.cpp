@@ -152,7 +152,7 @@ TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluder
   , classes_(classes)
   , tiles_(tiles)
   , verdicts_(verdicts)
-  , light_(light, occluders.centreWorld)
+  , light_(light, occluders.frame.centre)
   , samples_(samples)
   , texture_(samples && light.texture ? &*light.texture : nullptr)
   , chooser_(chooser)

@@ -165,7 +165,7 @@ void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
     this->boxes_.size() == tiles && this->tilesAcross_ == columns &&
     this->lightSamples_ == light.lightSamples &&
     this->topologyVersion_ == occluders.topologyVersion &&
-    this->centreWorld_ == occluders.centreWorld;
+    this->centreWorld_ == occluders.frame.centre;
   this->kept_.assign(tiles, 0);
   this->boxes_.resize(tiles, everything());
   if (isLike)
@@ -181,7 +181,7 @@ void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
             tile / columns * ReceiverTile::mostRows);
           if (isKept && !box.empty())
           {
-            const SweptBox swept(box, light, occluders.centreWorld);
+            const SweptBox swept(box, light, occluders.frame.centre);
             isKept = std::none_of(moved.begin(), moved.end(),
               [&](const Bounds& surface)
               { return haveCommonPoint(box, surface) || swept.meets(surface); });
@@ -200,7 +200,7 @@ void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
   this->tilesAcross_ = columns;
   this->lightSamples_ = light.lightSamples;
   this->topologyVersion_ = occluders.topologyVersion;
-  this->centreWorld_ = occluders.centreWorld;
+  this->centreWorld_ = occluders.frame.centre;
   this->places_.clear();
   for (const Surface& surface : occluders.surfaces)
   {

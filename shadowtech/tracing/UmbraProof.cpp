@@ -43,7 +43,7 @@ RayEnds::RayEnds(const ShadowLight& light, const Occluders& occluders)
   , hasFace(light.box)
   , castersCentred(occluders.castersCentred)
 {
-  const ShadowRayLight rays(light, occluders.centreWorld);
+  const ShadowRayLight rays(light, occluders.frame.centre);
   this->onFace = rays.position;
   this->toLight = rays.toLight;
   this->middle = this->isDirectional ? this->toLight : this->onFace;

@@ -100,7 +100,7 @@ void run(int side, int frames)
   camera.width = camera.height = side;
   CameraView view;
   view.viewFromCentred = glm::lookAt(
-    camera.position - occluders.centreWorld, camera.target - occluders.centreWorld, camera.up);
+    camera.position - occluders.frame.centre, camera.target - occluders.frame.centre, camera.up);
   view.clipFromView = glm::perspective(glm::radians(camera.fovDegrees), 1.0, 0.1, 100.0);
   const Images images(occluders, camera, view.viewFromCentred);
 
@@ -109,7 +109,7 @@ void run(int side, int frames)
   ShaderLibrary shaders;
   Compare technique;
   ViewFitting fitting;
-  fitting.centreWorld = occluders.centreWorld;
+  fitting.centreWorld = occluders.frame.centre;
   fitting.castersCentred = fitting.receiversCentred = occluders.allCentred;
   fitting.texels = { mapSizeTexels, 1 };
   ShadowLight plain = directionalLight({ -1.0, 0.5, -1.2 });

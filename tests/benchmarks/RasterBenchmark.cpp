@@ -51,7 +51,7 @@ public:
   LightView view(int sizeTexels) const
   {
     ViewFitting fitting;
-    fitting.centreWorld = this->occluders().centreWorld;
+    fitting.centreWorld = this->occluders().frame.centre;
     fitting.castersCentred = this->occluders().castersCentred;
     fitting.receiversCentred = this->occluders().allCentred;
     fitting.texels.side = sizeTexels;

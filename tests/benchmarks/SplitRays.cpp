@@ -49,7 +49,7 @@ ShadowLight randomLight(const Occluders& occluders, std::mt19937& random)
   }
   const Bounds& bounds = occluders.allCentred;
   light.kind = LightKind::Point;
-  light.positionWorld = occluders.centreWorld + bounds.centre() +
+  light.positionWorld = occluders.frame.centre + bounds.centre() +
     0.5 * (bounds.upper - bounds.lower) *
       glm::dvec3(
         uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0));
@@ -125,7 +125,7 @@ std::vector<std::uint8_t> RayList::blockedBy(const EmbreeTracer& tracer) const
 RayList randomShadowRays(const Occluders& occluders, std::size_t count, std::mt19937& random)
 {
   const ShadowLight light = randomLight(occluders, random);
-  const ShadowRayLight rayLight(light, occluders.centreWorld);
+  const ShadowRayLight rayLight(light, occluders.frame.centre);
   const std::optional<LightSamples> samples =
     light.area ? std::optional<LightSamples>(light) : std::nullopt;
   return visitShadowRays(rayLight,

@@ -79,7 +79,7 @@ public:
     rtcCommitScene(this->scene_.get());
 
     const ReceiverPixels& receivers = subject.receivers;
-    const ShadowRayLight light(subject.light, occluders.centreWorld);
+    const ShadowRayLight light(subject.light, occluders.frame.centre);
     std::size_t count = 0;
     for (std::size_t k = 0; k < receivers.size(); ++k)
     {

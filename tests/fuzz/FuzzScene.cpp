@@ -406,7 +406,6 @@ void FuzzScene::traceInstead(const std::set<int>& hard)
     if (hard.count(static_cast<int>(i)) > 0 && this->isWide(i))
     {
       vtkGnomonLightKeys::SetSetting(light, "light_radius", "0");
-      vtkGnomonLightKeys::SetSetting(light, "edge_samples", "1"); // Area lights have no edges.
       if (auto* const area = vtkGnomonAreaLight::SafeDownCast(light))
       {
         area->SetShapeToDisk();

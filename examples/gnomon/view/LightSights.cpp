@@ -76,17 +76,21 @@ void LightSights::update(vtkRenderer* renderer, const ShadowSettings& settings)
   this->lights_.clear();
   for (ShadowLight& light : LightManager().collect(renderer, settings).lights)
   {
+    if (!enterFrame(light, occluders.frame).empty())
+    {
+      continue;
+    }
     LightViews views;
     if (bakesMap(light))
     {
       ViewFitting fitting;
-      fitting.centreWorld = occluders.centreWorld;
+      fitting.centreWorld = occluders.frame.centre;
       fitting.castersCentred = occluders.castersCentred;
       fitting.receiversCentred = occluders.allCentred;
       fitting.texels = { light.mapSizeTexels, 1 };
       if (isFittedToCamera(light))
       {
-        fitting.camera = cameraOf(renderer, occluders.centreWorld);
+        fitting.camera = shownView(renderer, occluders.frame).camera;
       }
       views = fitLightViews(light, fitting);
     }
@@ -103,7 +107,7 @@ const LightSight* LightSights::find(int sceneIndex) const
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> frustumLines(const LightViews& views, const glm::dvec3& centreWorld)
+vtkSmartPointer<vtkPolyData> frustumLines(const LightViews& views, const SceneFrame& frame)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -118,9 +122,8 @@ vtkSmartPointer<vtkPolyData> frustumLines(const LightViews& views, const glm::dv
     const vtkIdType first = points->GetNumberOfPoints();
     for (int corner = 0; corner < 8; ++corner)
     {
-      const glm::dvec3 world = centreWorld +
-        cornerOf(
-          view, corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? farthest : nearest);
+      const glm::dvec3 world = frame.toWorld(cornerOf(
+        view, corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? farthest : nearest));
       points->InsertNextPoint(world.x, world.y, world.z);
     }
     const glm::dvec3 colour = 255.0 * colourOfView(i);

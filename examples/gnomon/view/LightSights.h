@@ -42,7 +42,7 @@ private:
 
 /// Return the edges of the view volumes of a light's map, in world coordinates, in a colour for
 /// each view.
-vtkSmartPointer<vtkPolyData> frustumLines(const LightViews& views, const glm::dvec3& centreWorld);
+vtkSmartPointer<vtkPolyData> frustumLines(const LightViews& views, const SceneFrame& frame);
 
 /// Return a texel's side at a point, across the light, in world units.
 /// @param positionCentred of the point

@@ -24,7 +24,7 @@ std::string whyDark(const LightSight& sight, const LightSights& sights, const Em
   const NameOf& nameOf, const glm::vec3& position, const glm::vec3& normal)
 {
   const Occluders& occluders = sights.snapshot().occluders();
-  const ShadowRayLight light(sight.light, occluders.centreWorld);
+  const ShadowRayLight light(sight.light, occluders.frame.centre);
   // The pixel's own triangle, which is unknown here, would allow a nearer start of the ray.
   const float offset = 1e-5f * static_cast<float>(occluders.allCentred.radius());
   return visitShadowRays(light,
@@ -49,7 +49,7 @@ std::string whyDark(const LightSight& sight, const LightSights& sights, const Em
         ? ""
         : "triangle " + std::to_string(hit->triangle - surface.firstTriangle) + ", ";
       return "behind " + nameOf(sights.snapshot().propOf(hit->surface)) + ", " + triangle +
-        fourDigits(hit->at * glm::length(ray.direction)) + " away";
+        fourDigits(hit->at * glm::length(ray.direction) * occluders.frame.unitWorld()) + " away";
     });
 }
 
@@ -79,7 +79,7 @@ std::vector<std::string> PixelProbe::ask(const VisibilityImages& images, const L
   lines.front() +=
     ": at " + fourDigits(world.x) + ", " + fourDigits(world.y) + ", " + fourDigits(world.z);
   this->tracer_.update(sights.snapshot().occluders());
-  const glm::vec3 position(world - sights.snapshot().occluders().centreWorld);
+  const glm::vec3 position(sights.snapshot().occluders().frame.fromWorld(world));
   const glm::vec3 normal(images.normalX[i], images.normalY[i], images.normalZ[i]);
   for (std::size_t k = 0; k < images.visibility.size(); ++k)
   {

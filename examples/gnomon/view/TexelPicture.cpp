@@ -23,12 +23,11 @@ glm::dvec3 colourOf(double steps)
 
 //------------------------------------------------------------------------------
 Picture texelPicture(const Picture& picture, const VisibilityImages& images,
-  const LightSight& sight, const glm::dvec3& centreWorld, const CameraView& camera)
+  const LightSight& sight, const SceneFrame& frame, const CameraView& camera)
 {
   Picture result = picture;
   const glm::dvec2 pixelSide = camera.pixelSide({ images.width, images.height });
-  const glm::dvec3 originCentred =
-    glm::dvec3(images.origin[0], images.origin[1], images.origin[2]) - centreWorld;
+  const glm::dvec3 origin(images.origin[0], images.origin[1], images.origin[2]);
   for (std::size_t i = 0; i < images.coverage.size(); ++i)
   {
     unsigned char* const pixel = &result.rgb[3 * i];
@@ -36,8 +35,8 @@ Picture texelPicture(const Picture& picture, const VisibilityImages& images,
     glm::dvec3 colour(0.5);
     if (images.coverage[i] == 1.0f)
     {
-      const glm::dvec3 position =
-        originCentred + glm::dvec3(images.positionX[i], images.positionY[i], images.positionZ[i]);
+      const glm::dvec3 position = frame.fromWorld(
+        origin + glm::dvec3(images.positionX[i], images.positionY[i], images.positionZ[i]));
       const double side = texelSide(sight.views, sight.light.mapSizeTexels, position);
       const double distance = -(camera.viewFromCentred * glm::dvec4(position, 1.0)).z;
       if (side > 0.0)

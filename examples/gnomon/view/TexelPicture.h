@@ -11,6 +11,6 @@ namespace gnomon::tool
 /// @param images the picture's receivers
 /// @param camera the picture's, for the snapshot's centre
 Picture texelPicture(const Picture& picture, const VisibilityImages& images,
-  const LightSight& sight, const glm::dvec3& centreWorld, const CameraView& camera);
+  const LightSight& sight, const SceneFrame& frame, const CameraView& camera);
 
 } // namespace gnomon::tool

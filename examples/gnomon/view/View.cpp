@@ -198,8 +198,7 @@ void View::beforeLines()
     sights && this->state_.frusta ? sights->find(static_cast<int>(this->state_.light)) : nullptr;
   if (sight)
   {
-    this->frusta_->ShallowCopy(
-      frustumLines(sight->views, sights->snapshot().occluders().centreWorld));
+    this->frusta_->ShallowCopy(frustumLines(sight->views, sights->snapshot().occluders().frame));
   }
 }
 

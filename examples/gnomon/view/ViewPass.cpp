@@ -185,9 +185,9 @@ Picture ViewPass::texels(const Picture& picture, vtkRenderer* renderer)
     this->complaint_ = "this technique has no map here";
     return picture;
   }
-  const glm::dvec3 centre = this->sights_.snapshot().occluders().centreWorld;
+  const SceneFrame& frame = this->sights_.snapshot().occluders().frame;
   return texelPicture(
-    picture, this->technique_->GetVisibility(), *sight, centre, cameraOf(renderer, centre));
+    picture, this->technique_->GetVisibility(), *sight, frame, shownView(renderer, frame).camera);
 }
 
 //------------------------------------------------------------------------------

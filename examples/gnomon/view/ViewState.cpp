@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 5> showNames = { "technique", "truth", "error", "classes",
   "texels" };
-constexpr NumberRange lightSize{ 0.0, 1e12 };
+constexpr NumberRange lightSize{ 0.0, 1e30 };
 constexpr std::size_t largestFileBytes = 1 << 20;
 
 /// Return the value of the setting `light_radius`.

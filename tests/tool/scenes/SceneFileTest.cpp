@@ -218,7 +218,7 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
     { "/camera/target", { 3, 4, 5 }, "camera.target", "not the position" },
     { "/camera/target", null, "camera.target", "missing, expected an array of 3 numbers" },
     { "/camera/position", { 1, 2 }, "camera.position", "expected an array of 3 numbers" },
-    { "/camera/position", { 1, 2, 1e13 }, "camera.position", "between -1e+12 and 1e+12" },
+    { "/camera/position", { 1, 2, 1e31 }, "camera.position", "between -1e+30 and 1e+30" },
     { "/camera/parallel_scale", 2, "camera.fov", "means nothing" },
     { "/ambient", 1.5, "ambient", "found 1.5, expected a number between 0 and 1" },
     { "/ground", "yes", "ground", "true or false" },

@@ -153,8 +153,8 @@ protected:
   {
     this->pass->collector.collect(this->renderer);
     const Occluders& occluders = this->collector().occluders();
-    const glm::dvec3 lower = occluders.allCentred.lower + occluders.centreWorld;
-    const glm::dvec3 upper = occluders.allCentred.upper + occluders.centreWorld;
+    const glm::dvec3 lower = occluders.allCentred.lower + occluders.frame.centre;
+    const glm::dvec3 upper = occluders.allCentred.upper + occluders.frame.centre;
     double bounds[6] = { lower.x, upper.x, lower.y, upper.y, lower.z, upper.z };
     vtkCamera* camera = this->renderer->GetActiveCamera();
     camera->SetPosition(0.2, 0.3, 1.0);
@@ -187,7 +187,7 @@ protected:
     {
       corners[static_cast<std::size_t>(i)] =
         glm::dvec3(occluders.positionsCentred.at(occluders.triangles.at(triangle)[i])) +
-        occluders.centreWorld;
+        occluders.frame.centre;
     }
     return corners;
   }

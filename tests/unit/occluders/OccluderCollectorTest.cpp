@@ -86,7 +86,7 @@ struct Scene
   {
     const Surface& s = this->surface(surface);
     return glm::dvec3(this->occluders().positionsCentred.at(s.firstVertex + vertex)) +
-      this->occluders().centreWorld;
+      this->occluders().frame.centre;
   }
 };
 
@@ -262,8 +262,8 @@ TEST(MissingData, IsLeftOutBeforeTheBoxIsMade)
   const auto boxOf = [](const Scene& scene)
   {
     const Bounds& box = scene.occluders().allCentred;
-    return Bounds{ box.lower + scene.occluders().centreWorld,
-      box.upper + scene.occluders().centreWorld };
+    return Bounds{ box.lower + scene.occluders().frame.centre,
+      box.upper + scene.occluders().frame.centre };
   };
   for (const auto& [kind, make] : propsWithLastPoint())
   {
@@ -281,7 +281,7 @@ TEST(MissingData, IsLeftOutBeforeTheBoxIsMade)
       if (given.isMissing)
       {
         EXPECT_LE(largestCoordinate(boxOf(scene)), 1.6 * given.scale);
-        EXPECT_EQ(scene.occluders().centreWorld, glm::dvec3(0.0));
+        EXPECT_EQ(scene.occluders().frame.centre, glm::dvec3(0.0));
       }
       EXPECT_EQ(scene.collector.notes().empty(), !given.isMissing);
 
@@ -294,7 +294,7 @@ TEST(MissingData, IsLeftOutBeforeTheBoxIsMade)
         other->SetScale(scale);
         fresh.renderer->AddActor(other);
         fresh.collect();
-        EXPECT_EQ(scene.occluders().centreWorld, fresh.occluders().centreWorld) << scale;
+        EXPECT_EQ(scene.occluders().frame.centre, fresh.occluders().frame.centre) << scale;
         EXPECT_EQ(scene.occluders().droppedNonFinite, fresh.occluders().droppedNonFinite) << scale;
       }
     }
@@ -728,7 +728,7 @@ TEST(OccluderProps, ClippingPlanesCutTheirSurfaces)
     return sum;
   };
   EXPECT_NEAR(area(0.5, 0.0), 0.5, 1e-6);
-  expectNear(scene.occluders().allCentred.lower + scene.occluders().centreWorld, { 0.5, 0, 0 });
+  expectNear(scene.occluders().allCentred.lower + scene.occluders().frame.centre, { 0.5, 0, 0 });
   EXPECT_NEAR(area(0.5, 0.25), 0.75, 1e-6);
   EXPECT_NEAR(area(1.0, 0.25), 0.25, 1e-6);
   EXPECT_EQ(area(2.0, 0.25), 0.0);
@@ -812,7 +812,7 @@ TEST(OccluderChanges, AMovedPropOnlyMovesItsVertices)
   EXPECT_NE(scene.surface(1).positionsVersion, before.surfaces[1].positionsVersion);
   EXPECT_EQ(scene.surface(1).topologyVersion, before.surfaces[1].topologyVersion);
   expectNear(scene.positionWorld(1, 2), { 1, 1, 2 });
-  expectNear(scene.occluders().allCentred.upper + scene.occluders().centreWorld, { 1, 1, 2 });
+  expectNear(scene.occluders().allCentred.upper + scene.occluders().frame.centre, { 1, 1, 2 });
   expectNothingDone(scene);
 }
 
@@ -892,7 +892,7 @@ TEST(OccluderChanges, FlagsOnlyChangeFlags)
   EXPECT_NE(scene.occluders().topologyVersion, before.topologyVersion);
   EXPECT_EQ(scene.surface(0).topologyVersion, before.surfaces[0].topologyVersion);
   EXPECT_EQ(scene.surface(0).positionsVersion, before.surfaces[0].positionsVersion);
-  const glm::dvec3 centre = scene.occluders().centreWorld;
+  const glm::dvec3 centre = scene.occluders().frame.centre;
   expectNear(scene.occluders().castersCentred.upper + centre, { 1, 1, 0 });
   expectNear(scene.occluders().allCentred.upper + centre, { 4, 1, 0 });
 }
@@ -967,29 +967,53 @@ TEST(OccluderCentre, LiesOnAGridAsCoarseAsTheScene)
   const auto around = [](const glm::dvec3& middle, double half) {
     return Bounds{ middle - half, middle + half };
   };
+  const auto centreOf = [](const Bounds& box) { return sceneFrameOf(box).toWorld({}); };
   for (const double half : { 1e-9, 0.3, 1.0, 1.7, 4e5, 1e20 })
   {
     const glm::dvec3 touching(half, -half, 0.9 * half);
-    EXPECT_EQ(snapshotCentre(around(touching, half)), glm::dvec3(0.0)) << "holds the origin";
+    EXPECT_EQ(centreOf(around(touching, half)), glm::dvec3(0.0)) << "holds the origin";
     for (const double away : { 3.0, 1e3, 1.234567e9 })
     {
       const Bounds box = around(away * touching, half);
-      const glm::dvec3 centre = snapshotCentre(box);
+      const glm::dvec3 centre = centreOf(box);
       for (const glm::dvec3& corner : box.corners())
       {
         const glm::dvec3 largest = glm::abs(corner - centre);
         EXPECT_LE(std::max({ largest.x, largest.y, largest.z }), 3.0 * box.radius());
       }
       // The bounds are another box around the centre.
-      EXPECT_EQ(snapshotCentre(around(centre + 0.5 * half, half)), centre);
+      EXPECT_EQ(centreOf(around(centre + 0.5 * half, half)), centre);
     }
   }
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(snapshotCentre(Bounds()), glm::dvec3(0.0));
-  EXPECT_EQ(snapshotCentre(around(glm::dvec3(0.0), infinity)), glm::dvec3(0.0));
-  EXPECT_EQ(snapshotCentre(around(glm::dvec3(1.0), 1e200)), glm::dvec3(0.0));
-  EXPECT_EQ(snapshotCentre(around(glm::dvec3(notANumber), 1.0)), glm::dvec3(0.0));
-  expectNear(snapshotCentre(around(glm::dvec3(7.0), 0.0)), glm::dvec3(8.0)); // a point
+  EXPECT_EQ(centreOf(Bounds()), glm::dvec3(0.0));
+  EXPECT_EQ(centreOf(around(glm::dvec3(0.0), infinity)), glm::dvec3(0.0));
+  EXPECT_EQ(centreOf(around(glm::dvec3(1.0), 1e200)), glm::dvec3(0.0));
+  EXPECT_EQ(centreOf(around(glm::dvec3(notANumber), 1.0)), glm::dvec3(0.0));
+  expectNear(centreOf(around(glm::dvec3(7.0), 0.0)), glm::dvec3(8.0)); // a point
+}
+
+TEST(SceneFrame, hasOneUnitForOrdinaryScenesAndAnotherForOthers)
+{
+  int before = -1000;
+  for (int k = -500; k <= 500; ++k)
+  {
+    const double half = std::ldexp(0.7, k);
+    const Bounds box{ glm::dvec3(-half), glm::dvec3(half) };
+    const SceneFrame frame = sceneFrameOf(box);
+    const double radius = box.radius() * frame.unitsPerWorld();
+    EXPECT_GE(radius, std::ldexp(1.0, -10));
+    EXPECT_LT(radius, std::ldexp(1.0, 20));
+    EXPECT_EQ(frame.exponent % 30, 0);
+    EXPECT_GE(frame.exponent, before);
+    before = frame.exponent;
+    if (k >= -9 && k <= 18)
+    {
+      EXPECT_EQ(frame.exponent, 0) << k;
+    }
+    const glm::dvec3 place = half * glm::dvec3(0.1, -0.7, 0.3);
+    EXPECT_EQ(frame.toWorld(frame.fromWorld(place)), place);
+  }
 }
 
 TEST(OccluderCentre, StaysWhileTheSceneChangesLittle)
@@ -998,13 +1022,13 @@ TEST(OccluderCentre, StaysWhileTheSceneChangesLittle)
   vtkActor* const actor = scene.add(makeSquare());
   actor->SetPosition(100, 0, 0);
   scene.collect();
-  const glm::dvec3 centre = scene.occluders().centreWorld;
+  const glm::dvec3 centre = scene.occluders().frame.centre;
   actor->SetPosition(100.2, 0.1, 0);
   EXPECT_EQ(scene.collect().retransformed, 1);
-  EXPECT_EQ(scene.occluders().centreWorld, centre);
+  EXPECT_EQ(scene.occluders().frame.centre, centre);
   actor->SetPosition(112, 0, 0);
   scene.collect();
-  EXPECT_NE(scene.occluders().centreWorld, centre);
+  EXPECT_NE(scene.occluders().frame.centre, centre);
   expectNear(scene.positionWorld(0, 2), { 113, 1, 0 });
 }
 
@@ -1018,7 +1042,7 @@ TEST(OccluderCentre, MovesEverySurfaceWithIt)
   const SnapshotChange change = scene.collect();
   EXPECT_EQ(change.extracted, 0);
   EXPECT_EQ(change.retransformed, 1);
-  expectNear(scene.occluders().centreWorld, { 1000, 0, 0 });
+  expectNear(scene.occluders().frame.centre, { 1000, 0, 0 });
   expectNear(scene.positionWorld(0, 2), { 1001, 1, 0 });
 }
 
@@ -1033,10 +1057,10 @@ TEST(OccluderCentre, DoesNotRememberWhatIsGone)
   const Occluders before = scene.occluders();
   far->SetVisibility(true);
   scene.collect();
-  EXPECT_NE(scene.occluders().centreWorld, before.centreWorld);
+  EXPECT_NE(scene.occluders().frame.centre, before.frame.centre);
   far->SetVisibility(false);
   scene.collect();
-  EXPECT_EQ(scene.occluders().centreWorld, before.centreWorld);
+  EXPECT_EQ(scene.occluders().frame.centre, before.frame.centre);
   EXPECT_EQ(scene.occluders().positionsCentred, before.positionsCentred);
   EXPECT_EQ(scene.occluders().allCentred.lower, before.allCentred.lower);
   EXPECT_EQ(scene.occluders().allCentred.upper, before.allCentred.upper);

@@ -119,7 +119,7 @@ std::string stateOf(const OccluderCollector& collector)
       for (int corner = 0; corner < 3; ++corner)
       {
         const glm::dvec3 position =
-          glm::dvec3(occluders.positionsCentred[triangle[corner]]) + occluders.centreWorld;
+          glm::dvec3(occluders.positionsCentred[triangle[corner]]) + occluders.frame.centre;
         state << " (" << position.x << " " << position.y << " " << position.z << ")";
       }
     }

@@ -47,8 +47,23 @@ const BrokenLight brokenLights[] = {
     "its position is not finite" },
   { "lampAtInfinity", [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, infinity); },
     "its position is not finite" },
-  { "lampFarBeyondFloats", [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, 1e300); },
-    "its position is too far away" },
+  { "lampFarBeyondFloats", [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, 1e300); }, "" },
+  { "spotFarBeyondFloats",
+    [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, 2e18), l->SetConeAngle(30.0); }, "" },
+  { "spotFarBeyondFloatsThatLooksAway",
+    [](vtkLight* l)
+    {
+      makeLamp(l), l->SetPosition(0.0, 0.0, 2e18), l->SetConeAngle(30.0);
+      l->SetFocalPoint(0.0, 0.0, 4e18);
+    },
+    "it is far away, and its cone passes the scene by" },
+  { "boxFarBeyondFloats",
+    [](vtkLight* l)
+    {
+      setBox(l, { 1.0, 1.0, 9.0, 0.0, 1.0, 0.0 });
+      l->SetPosition(0.0, 0.0, 2e18);
+    },
+    "its box begins too far away" },
   { "lampVeryFar", [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, 1e15); }, "" },
   { "lampInTheFloor", [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, 0.0); }, "" },
   { "lampWithoutCone", [](vtkLight* l) { makeLamp(l), l->SetConeAngle(0.0); },
@@ -126,6 +141,16 @@ const BrokenLight brokenLights[] = {
     {
       makeLamp(l);
       setBox(l, { nan, -1.0, 0.0, 0.0, 0.0, 0.0 }); // lamps have no box
+    },
+    "" },
+  { "largestRadius",
+    [](vtkLight* l) { makeLamp(l), vtkGnomonLightKeys::SetSetting(l, "light_radius", "1e300"); },
+    "its area is too large" },
+  { "largestRadiusBeyondFloats",
+    [](vtkLight* l)
+    {
+      makeLamp(l), l->SetPosition(0.0, 0.0, 1e20);
+      vtkGnomonLightKeys::SetSetting(l, "light_radius", "1e19");
     },
     "" },
 };

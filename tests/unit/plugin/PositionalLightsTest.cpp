@@ -71,7 +71,7 @@ public:
         const glm::dvec3 way = glm::transpose(faceFromLight) * slopes;
         const double along = glm::dot(normal, point - light) / glm::dot(normal, way);
         row.push_back(
-          { light + along * way - this->collector_.occluders().centreWorld, normal, 1e-5f });
+          { light + along * way - this->collector_.occluders().frame.centre, normal, 1e-5f });
       }
     }
     std::vector<float> visibility;

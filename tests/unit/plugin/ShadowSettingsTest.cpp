@@ -66,7 +66,7 @@ TEST_F(ShadowSettingsTest, numbersAreClampedToTheirRange)
   this->settings->SetSplitLambda(7.0);
   EXPECT_EQ(this->settings->GetSplitLambda(), 1.0);
   this->settings->SetLightRadius(std::numeric_limits<double>::infinity());
-  EXPECT_EQ(this->settings->GetLightRadius(), 1e12);
+  EXPECT_EQ(this->settings->GetLightRadius(), std::numeric_limits<double>::max());
   this->settings->SetKernel(77);
   EXPECT_EQ(this->settings->GetKernelAsString(),
     std::get<gnomon::ChoiceSetting>(gnomon::findSetting("kernel")->values).names.back());

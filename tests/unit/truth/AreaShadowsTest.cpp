@@ -66,7 +66,7 @@ ReceiverPixels levelReceivers(const Occluders& occluders, const std::vector<doub
   receivers.resize(64, static_cast<int>(x.size() / 64));
   for (std::size_t i = 0; i < x.size(); ++i)
   {
-    const glm::dvec3 position = glm::dvec3(x[i], 0.0, 0.0) - occluders.centreWorld;
+    const glm::dvec3 position = glm::dvec3(x[i], 0.0, 0.0) - occluders.frame.centre;
     receivers.positionX[i] = static_cast<float>(position.x);
     receivers.positionY[i] = static_cast<float>(position.y);
     receivers.positionZ[i] = static_cast<float>(position.z);

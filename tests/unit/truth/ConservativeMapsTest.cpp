@@ -235,7 +235,7 @@ protected:
   void add(const glm::dvec3& world, const glm::dvec3& normal, float offset)
   {
     this->receivers_.push_back(
-      { world - this->occluders_.centreWorld, glm::normalize(normal), offset });
+      { world - this->occluders_.frame.centre, glm::normalize(normal), offset });
   }
   Tally compare(ShadowLight light, int mapSize, double shape)
   {
@@ -323,8 +323,8 @@ TEST(ConservativeMaps, knowNothingOfLinesWhoseRaysMayStartAboveASheet)
   maps.bake(light, viewsOf(light, occluders), occluders, bySilhouette);
   const auto known = [&](float mostOffset)
   {
-    const ReceiverSegment line{ glm::dvec3(-1.3, 0.2, 0.0) - occluders.centreWorld,
-      glm::dvec3(1.2, 0.9, 0.0) - occluders.centreWorld, 1e-6f, mostOffset, 0 };
+    const ReceiverSegment line{ glm::dvec3(-1.3, 0.2, 0.0) - occluders.frame.centre,
+      glm::dvec3(1.2, 0.9, 0.0) - occluders.frame.centre, 1e-6f, mostOffset, 0 };
     return maps.ofSegment(line);
   };
   EXPECT_EQ(known(1e-5f), Certainty::Shadow);
@@ -356,7 +356,7 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
   for (int x = 24; x < 40; x += 8)
   {
     const auto corner = [&](int cornerX, int cornerY)
-    { return centred(cornerX, cornerY, middle - 300.0) + frame.centreWorld; };
+    { return centred(cornerX, cornerY, middle - 300.0) + frame.frame.centre; };
     addQuad(plates, { corner(x, 24), corner(x + 4, 24), corner(x + 4, 40), corner(x, 40) });
   }
   // The receiving surface does not cast, so it may be anywhere.
@@ -406,7 +406,7 @@ TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
     for (int k = 0; k < 4000; ++k)
     {
       const glm::dvec3 place(uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), 0.0);
-      receivers.push_back({ place - occluders.centreWorld, { 0.0f, 0.0f, 1.0f }, 4e-6f });
+      receivers.push_back({ place - occluders.frame.centre, { 0.0f, 0.0f, 1.0f }, 4e-6f });
     }
     const LightViews views = viewsOf(light, occluders);
     sum.add(compareWithTruth(std::to_string(i), light, views, occluders, rowOf(receivers), rule));
@@ -703,7 +703,7 @@ TEST(ConservativeMaps, areNeverWrongInTheLastTexels)
         const Prop floor{ makePlane(6.0, cells), glm::dmat4(1.0), false };
         const Occluders occluders = makeOccluders({ floor, { plates } });
         const LightViews views =
-          fitLightViews(light, { occluders.centreWorld, seen, {}, { size, 1 }, {} });
+          fitLightViews(light, { occluders.frame.centre, seen, {}, { size, 1 }, {} });
         camera.up = up;
         sum.add(compareWithTruth("map " + std::to_string(size) + ", " + std::to_string(texels),
           light, views, occluders, makeView(occluders, camera)));

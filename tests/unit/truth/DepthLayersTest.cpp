@@ -41,7 +41,7 @@ public:
     light.mapSizeTexels = side;
     light.of<MonteCarloSettings>().layers = kind;
     LightViews views = fitLightViews(lightOfMap(light),
-      { this->occluders_.centreWorld, this->occluders_.castersCentred, {}, { side, 1 }, {} });
+      { this->occluders_.frame.centre, this->occluders_.castersCentred, {}, { side, 1 }, {} });
     this->view_ = views.views.at(0);
     if (this->view_.rays.positional)
     {
@@ -375,7 +375,7 @@ TEST_F(DepthLayersTest, ofACubeAreAsThickAsItsChords)
   {
     const Layers layers(light, cube, RayLayers::Peeled, 512);
     const glm::dmat4 centredFromView = glm::inverse(layers.view().rays.viewFromCentred);
-    const glm::dvec3 centreWorld = makeOccluders(cube).centreWorld;
+    const glm::dvec3 centreWorld = makeOccluders(cube).frame.centre;
     int counted = 0;
     for (int y = 0; y < layers.side(); y += 3)
     {

@@ -41,13 +41,13 @@ public:
     this->light.mapSizeTexels = mapSide;
     const Occluders occluders = makeOccluders(props);
     this->views = fitLightViews(this->light,
-      { occluders.centreWorld, occluders.allCentred, {},
+      { occluders.frame.centre, occluders.allCentred, {},
         { mapSide, this->mapReach(this->light).borderTexels() }, {} });
     OccluderBuffers buffers;
     buffers.update(occluders);
     ShaderLibrary shaders;
     this->bake({ this->light, this->views, occluders, buffers, shaders });
-    this->centre = occluders.centreWorld;
+    this->centre = occluders.frame.centre;
     this->depths = readLayer(this->map().name(), GL_DEPTH_COMPONENT, mapSide, 0, 1);
   }
 
@@ -247,7 +247,7 @@ TEST_F(DepthMap, pyramidBoundsEveryBlock)
     light.mapSizeTexels = size;
     OpenAdaptive technique;
     const LightViews views = fitLightViews(light,
-      { occluders.centreWorld, occluders.allCentred, {},
+      { occluders.frame.centre, occluders.allCentred, {},
         { size, technique.mapReach(light).borderTexels() }, {} });
     OccluderBuffers buffers;
     buffers.update(occluders);

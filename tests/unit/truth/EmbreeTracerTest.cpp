@@ -185,7 +185,7 @@ FacingPixels countFacing(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
   const std::vector<float> visibility = trace(light, occluders, receivers);
-  const glm::dvec3 lightCentred = light.positionWorld - occluders.centreWorld;
+  const glm::dvec3 lightCentred = light.positionWorld - occluders.frame.centre;
   const double cosineOfCone = std::cos(glm::radians(light.coneAngleDegrees));
   FacingPixels count;
   for (std::size_t i = 0; i < receivers.size(); ++i)
@@ -372,7 +372,7 @@ TEST(EmbreeTracer, RaysAtCornersSlipThroughOnlyByARounding)
   ASSERT_EQ(origins.size(), 152100u);
   const std::vector<float> visibility =
     trace(sheet.light, sheet.occluders, sheet.receiversAt(origins));
-  const glm::dvec3 direction(ShadowRayLight(sheet.light, sheet.occluders.centreWorld).toLight);
+  const glm::dvec3 direction(ShadowRayLight(sheet.light, sheet.occluders.frame.centre).toLight);
   std::vector<glm::vec3> slipped;
   for (std::size_t i = 0; i < origins.size(); ++i)
   {
@@ -412,7 +412,7 @@ std::size_t countReached(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
   std::size_t reached = 0;
-  visitShadowRays(ShadowRayLight(light, occluders.centreWorld),
+  visitShadowRays(ShadowRayLight(light, occluders.frame.centre),
     [&](const auto& makeRay, float)
     {
       for (std::size_t i = 0; i < receivers.size(); ++i)

@@ -57,7 +57,7 @@ void makeBoth(ShadowLight light, const Occluders& occluders, const CameraView& c
   int borderTexels, BothViews& both)
 {
   ViewFitting fitting;
-  fitting.centreWorld = occluders.centreWorld;
+  fitting.centreWorld = occluders.frame.centre;
   fitting.castersCentred = occluders.allCentred;
   fitting.receiversCentred = occluders.allCentred;
   fitting.texels = { fittedSide, borderTexels };
@@ -156,7 +156,7 @@ protected:
       const double x = -3.0 + 6.0 * std::fmod(0.5 + 0.7548776662466927 * i, 1.0);
       const double y = -3.0 + 6.0 * std::fmod(0.5 + 0.5698402909980532 * i, 1.0);
       const bool above = std::max(std::abs(x), std::abs(y)) < 0.5;
-      const glm::dvec3 centred = glm::dvec3(x, y, above ? 2.0 : 0.0) - occluders.centreWorld;
+      const glm::dvec3 centred = glm::dvec3(x, y, above ? 2.0 : 0.0) - occluders.frame.centre;
       inputs.emplace_back(viewFromCentred * glm::dvec4(centred, 1.0));
     }
     const std::vector<float> outputs = visibilityAt(*technique, light, library, std::move(inputs),

@@ -233,7 +233,7 @@ public:
     ConservativeMaps maps;
     maps.bake(light,
       fitLightViews(light,
-        { this->occluders_.centreWorld, this->occluders_.castersCentred, {}, { size, 1 }, {} }),
+        { this->occluders_.frame.centre, this->occluders_.castersCentred, {}, { size, 1 }, {} }),
       this->occluders_, rule);
     Verdict verdict;
     std::vector<float> visibility;
@@ -426,7 +426,7 @@ std::size_t uncertainUnder(HybridScene& scene, const MapRule& rule, int size, do
   {
     const glm::dvec3 centred = glm::dvec3(0.8 * (static_cast<double>(i % count) / count - 0.5),
                                  0.8 * (static_cast<double>(i / count) / count - 0.5), 0.0) -
-      scene.occluders().centreWorld;
+      scene.occluders().frame.centre;
     receivers.positionX[i] = static_cast<float>(centred.x);
     receivers.positionY[i] = static_cast<float>(centred.y);
     receivers.positionZ[i] = static_cast<float>(centred.z);
@@ -440,8 +440,8 @@ std::size_t uncertainUnder(HybridScene& scene, const MapRule& rule, int size, do
   std::size_t uncertain = 0;
   for (std::size_t i = 0; i < receivers.size(); ++i)
   {
-    const double x = receivers.positionX[i] + scene.occluders().centreWorld.x - 0.013;
-    const double y = receivers.positionY[i] + scene.occluders().centreWorld.y - 0.021;
+    const double x = receivers.positionX[i] + scene.occluders().frame.centre.x - 0.013;
+    const double y = receivers.positionY[i] + scene.occluders().frame.centre.y - 0.021;
     uncertain += std::hypot(x, y) <= within && verdict.is(i, TracedClass::Traced) ? 1 : 0;
   }
   return uncertain;

@@ -206,7 +206,7 @@ TEST(Instances, SoftShadowsByEdgesAreThoseOfAllRays)
     tracer.update(occluders);
     EdgeTree tree;
     tree.update(occluders);
-    const PenumbraChooser chooser(tree, light, occluders.centreWorld);
+    const PenumbraChooser chooser(tree, light, occluders.frame.centre);
     std::vector<float> truth;
     std::vector<float> visibility;
     const std::size_t all = tracer.traceArea(light, occluders, receivers, truth);

@@ -453,7 +453,7 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
   light.area = diskArea(light.directionWorld, 0.5);
   light.mapSizeTexels = side;
   LightViews views = fitLightViews(
-    lightOfMap(light), { occluders.centreWorld, occluders.castersCentred, {}, { side, 1 }, {} });
+    lightOfMap(light), { occluders.frame.centre, occluders.castersCentred, {}, { side, 1 }, {} });
   LightView& view = views.views.at(0);
   view.beginsAt = std::max(view.beginsAt, nearestOfArea(light));
   OccluderBuffers buffers;
@@ -467,7 +467,7 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
   const glm::dmat4 rayFromCentred = gnomon::rayFromCentred(view, side, view.beginsAt);
   const auto inRaySpace = [&](const glm::dvec3& world)
   {
-    const glm::dvec4 place = rayFromCentred * glm::dvec4(world - occluders.centreWorld, 1.0);
+    const glm::dvec4 place = rayFromCentred * glm::dvec4(world - occluders.frame.centre, 1.0);
     return glm::vec4(glm::dvec3(place) / place.w, 0.0);
   };
   std::vector<RayLine> lines;

@@ -35,7 +35,7 @@ Outcome compareWithTruth(
   tracer.update(occluders);
   EdgeTree tree;
   tree.update(occluders);
-  const PenumbraChooser chooser(tree, light, occluders.centreWorld);
+  const PenumbraChooser chooser(tree, light, occluders.frame.centre);
   std::vector<float> truth;
   std::vector<float> visibility;
   Outcome outcome;
@@ -163,8 +163,8 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseGoAlongEdges)
   {
     const Occluders occluders = makeSoupOverFloor(scene);
     const glm::dvec3 place(uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0), 5.0);
-    const glm::dvec3 placeCentred = place - occluders.centreWorld;
-    const double floor = -occluders.centreWorld.z;
+    const glm::dvec3 placeCentred = place - occluders.frame.centre;
+    const double floor = -occluders.frame.centre.z;
     Starts starts;
     std::array<glm::dvec3, 3> triangle{};
     double along = 0.0;
@@ -236,11 +236,11 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseEndOnTriangles)
         square = { uniform(random, -1.5, 1.5), uniform(random, -1.5, 1.5), 1e-5 };
       }
       const glm::dvec3 off(uniform(random, -0.02, 0.02), uniform(random, -0.02, 0.02), 0.0);
-      starts.add(square + off - occluders.centreWorld, upwards, 1e-5);
+      starts.add(square + off - occluders.frame.centre, upwards, 1e-5);
     }
     const std::array<glm::dvec3, 3> triangle = anyTriangle(occluders, random);
     const glm::dvec3 place =
-      occluders.centreWorld + (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+      occluders.frame.centre + (triangle[0] + triangle[1] + triangle[2]) / 3.0;
     for (const double size : { 1e-4, 0.02, 0.2 })
     {
       for (const LightArea& area : { diskArea(-upwards, size), ballArea(size),
@@ -285,7 +285,7 @@ TEST(Penumbra, isThatOfAllRaysWhereEdgesPointAtTheLight)
             (fromSide ? uniform(random, -0.02, 0.02) : uniform(random, 0.3, 2.8));
           const double off = offLine * farthest * uniform(random, 0.2, 1.0);
           starts.add(
-            place - occluders.centreWorld + off * (std::cos(angle) * x + std::sin(angle) * y),
+            place - occluders.frame.centre + off * (std::cos(angle) * x + std::sin(angle) * y),
             along, 1e-7);
         }
         const double side = scene % 2 == 0 ? 1.0 : -1.0;
@@ -336,7 +336,7 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseGoAlongTriangles)
             const double offX = uniform(random, -1e-3, 1e-3);
             const double offY = angle * uniform(random, -1e-3, 1e-3);
             starts.add(
-              place - occluders.centreWorld + off * normal + offX * x + offY * y, towards, 1e-7);
+              place - occluders.frame.centre + off * normal + offX * x + offY * y, towards, 1e-7);
           }
           ShadowLight light = pointLight(place + 10.0 * towards);
           light.area = rectangleArea(-towards, normal, glm::dvec2(10.0 * half));
@@ -382,7 +382,7 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseLeaveTriangles)
           {
             const glm::dvec3 from = start + spread * uniform(random, -1.0, 1.0) * x +
               spread * uniform(random, -0.5, 1.0) * y;
-            starts.add(from - occluders.centreWorld + off * uniform(random, 0.5, 1.0) * normal,
+            starts.add(from - occluders.frame.centre + off * uniform(random, 0.5, 1.0) * normal,
               towards, 1e-9);
           }
           ShadowLight light = pointLight(place + 20.0 * towards);
@@ -407,7 +407,7 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseGoBeyondTheBoxOfTheLight)
   while (!starts.full())
   {
     const glm::dvec3 start(uniform(random, -0.003, 0.003), uniform(random, -0.003, 0.003), 0.506);
-    starts.add(start - occluders.centreWorld, upwards, 0.01);
+    starts.add(start - occluders.frame.centre, upwards, 0.01);
   }
   ShadowLight light = boxLight(-upwards, { 0.0, 0.0, 0.507 }, { 4.0, 4.0, 4.0 });
   light.box = LightBox{ 4.0, 4.0, 4.0, { 0.0, 1.0, 0.0 } };
@@ -483,7 +483,7 @@ TEST(Penumbra, followsCastersThatMove)
     tracer.update(occluders);
     tree.update(occluders);
     const ReceiverPixels receivers = makeReceivers(occluders, camera);
-    const PenumbraChooser chooser(tree, light, occluders.centreWorld);
+    const PenumbraChooser chooser(tree, light, occluders.frame.centre);
     std::vector<float> truth;
     std::vector<float> visibility;
     tracer.traceArea(light, occluders, receivers, truth);

@@ -51,8 +51,8 @@ struct ProbedScene
     this->camera.position = { 3.0, -5.0, 4.0 };
     this->camera.target = { 0.0, 0.0, 0.4 };
     this->camera.width = this->camera.height = sidePixels;
-    this->view.viewFromCentred = glm::lookAt(this->camera.position - this->occluders.centreWorld,
-      this->camera.target - this->occluders.centreWorld, this->camera.up);
+    this->view.viewFromCentred = glm::lookAt(this->camera.position - this->occluders.frame.centre,
+      this->camera.target - this->occluders.frame.centre, this->camera.up);
     this->view.clipFromView =
       glm::perspective(glm::radians(this->camera.fovDegrees), 1.0, 0.1, 100.0);
     this->tracer.update(this->occluders);

@@ -326,7 +326,7 @@ struct Flaps
     }
     this->occluders = makeOccluders({ { mesh } });
     this->view = fitLightViews(this->light,
-      { this->occluders.centreWorld, this->occluders.castersCentred, {}, { width, 1 },
+      { this->occluders.frame.centre, this->occluders.castersCentred, {}, { width, 1 },
         {} }).views.front();
   }
 
@@ -402,7 +402,7 @@ struct Askew
     mesh.triangles = { { 0, 1, 2 } };
     this->occluders = makeOccluders({ { mesh } });
     this->view = fitLightViews(light,
-      { this->occluders.centreWorld, this->occluders.castersCentred, {}, { width, 1 },
+      { this->occluders.frame.centre, this->occluders.castersCentred, {}, { width, 1 },
         {} }).views.front();
     const glm::dmat3 texels = texelFromAcross(this->view, width);
     for (std::size_t k = 0; k < 3; ++k)

@@ -339,13 +339,13 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
   light.mapSizeTexels = sizes[random() % 4];
 
   ViewFitting fitting;
-  fitting.centreWorld = picture.occluders.centreWorld;
+  fitting.centreWorld = picture.occluders.frame.centre;
   fitting.castersCentred = picture.occluders.castersCentred;
   fitting.receiversCentred = picture.occluders.allCentred;
   fitting.texels = { light.mapSizeTexels, 1 };
   if (isFittedToCamera(light))
   {
-    const glm::dvec3 centre = picture.occluders.centreWorld;
+    const glm::dvec3 centre = picture.occluders.frame.centre;
     const glm::dmat4 viewFromCentred =
       glm::lookAt(camera.position - centre, camera.target - centre, camera.up);
     fitting.camera = CameraView{ viewFromCentred,
@@ -362,8 +362,8 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
 //------------------------------------------------------------------------------
 LightViews viewsOf(const ShadowLight& light, const Occluders& occluders)
 {
-  return fitLightViews(
-    light, { occluders.centreWorld, occluders.castersCentred, {}, { light.mapSizeTexels, 1 }, {} });
+  return fitLightViews(light,
+    { occluders.frame.centre, occluders.castersCentred, {}, { light.mapSizeTexels, 1 }, {} });
 }
 
 //------------------------------------------------------------------------------

@@ -33,7 +33,7 @@ namespace
 std::optional<glm::dvec4> keptFromCentred(const RandomPicture& picture)
 {
   return picture.light.box
-    ? std::optional(nearFaceCentred(picture.light, picture.occluders.centreWorld))
+    ? std::optional(nearFaceCentred(picture.light, picture.occluders.frame.centre))
     : std::nullopt;
 }
 
@@ -44,7 +44,7 @@ TEST(LightInCaster, IsOnATriangle)
 {
   const Occluders occluders = makeOccluders({ { makePlane(4.0), at({ 10.1, 20.2, 30.3 }) } });
   const auto liesIn = [&](const glm::dvec3& place, const LightArea* area = nullptr)
-  { return liesInCaster(place - occluders.centreWorld, area, occluders); };
+  { return liesInCaster(place - occluders.frame.centre, area, occluders); };
   EXPECT_TRUE(liesIn({ 10.9, 19.0, 30.3 }));
   EXPECT_TRUE(liesIn({ 12.1, 22.2, 30.3 })) << "a corner";
   EXPECT_FALSE(liesIn({ 12.2, 20.2, 30.3 })) << "in its plane, beside it";

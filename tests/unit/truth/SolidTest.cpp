@@ -415,7 +415,7 @@ TEST(SolidTracing, theTracerAnswersAsTheyDo)
     {
       std::vector<float> together;
       tracer.trace(light, occluders, receivers, together);
-      const ShadowRayLight rayLight(light, occluders.centreWorld);
+      const ShadowRayLight rayLight(light, occluders.frame.centre);
       int dark = 0;
       for (std::size_t i = 0; i < placed.size(); ++i)
       {

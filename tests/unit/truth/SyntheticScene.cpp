@@ -262,12 +262,12 @@ Occluders makeOccluders(const std::vector<Prop>& props)
   }
   if (!bounds.empty())
   {
-    occluders.centreWorld = bounds.centre();
+    occluders.frame.centre = bounds.centre();
   }
   occluders.positionsCentred.reserve(world.size() + 1);
   for (const glm::dvec3& point : world)
   {
-    occluders.positionsCentred.emplace_back(point - occluders.centreWorld);
+    occluders.positionsCentred.emplace_back(point - occluders.frame.centre);
     occluders.allCentred.add(glm::dvec3(occluders.positionsCentred.back()));
   }
   for (Surface& surface : occluders.surfaces)
@@ -379,7 +379,7 @@ View makeView(const Occluders& occluders, const Camera& camera)
     : glm::frustum(
         -0.1 * halfWidth, 0.1 * halfWidth, -0.1 * halfHeight, 0.1 * halfHeight, 0.1, 1e3);
   const glm::dmat4 viewFromCentred = glm::lookAt(camera.position, camera.target, camera.up) *
-    glm::translate(glm::dmat4(1.0), occluders.centreWorld);
+    glm::translate(glm::dmat4(1.0), occluders.frame.centre);
   images.rays = pixelRays(clipFromView, glm::inverse(viewFromCentred), camera.width, camera.height);
   const auto pixels =
     static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
@@ -588,7 +588,7 @@ bool hits(const glm::dvec3& origin, const glm::dvec3& direction, double rayFar,
 std::vector<float> traceBruteForce(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
-  const ShadowRayLight rayLight(light, occluders.centreWorld);
+  const ShadowRayLight rayLight(light, occluders.frame.centre);
   const double rayFar =
     visitShadowRays(rayLight, [](const auto&, float end) { return static_cast<double>(end); });
   const std::vector<CastingTriangle> triangles = castingTriangles(occluders);
@@ -615,7 +615,7 @@ std::vector<float> traceBruteForce(
 double edgeDistance(const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t pixel)
 {
-  const ShadowRayLight rayLight(light, occluders.centreWorld);
+  const ShadowRayLight rayLight(light, occluders.frame.centre);
   const ShadowRay ray = rayOf(rayLight, occluders, receivers, pixel);
   if (!ray.traced)
   {

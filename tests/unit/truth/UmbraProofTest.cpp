@@ -144,7 +144,7 @@ Blocked makeBlocked(Random& random, int corners, double more)
   const std::vector<glm::dvec3> polygon =
     polygonAround(box, RayEnds(blocked.light, Occluders()), corners, more, random);
   blocked.occluders = makeOccluders({ { fanOf(polygon) } });
-  const glm::dvec3 centre = blocked.occluders.centreWorld;
+  const glm::dvec3 centre = blocked.occluders.frame.centre;
   blocked.box = inFloat({ box.lower - centre, box.upper - centre });
   return blocked;
 }
@@ -194,7 +194,7 @@ TEST(UmbraProof, ProvesOnlyWhatIsBlocked)
     }
     ++proved;
     ShadowLight light = blocked.light;
-    const ReceiverPixels receivers = cornersOf(blocked.box, light, blocked.occluders.centreWorld);
+    const ReceiverPixels receivers = cornersOf(blocked.box, light, blocked.occluders.frame.centre);
     std::vector<float> visibility;
     light.lightSamples = 64;
     light.area ? tracer.traceArea(light, blocked.occluders, Receivers(receivers), visibility)
@@ -212,7 +212,7 @@ TEST(UmbraProof, LeavesOutBlockersBehindTheReceiversOrTheLight)
   const auto isHidden = [&](double height, const ShadowLight& light)
   {
     Blocked blocked{ light, makeOccluders({ { makePlane(20.0), at({ 0.0, 0.0, height }) } }), box };
-    blocked.occluders.centreWorld = glm::dvec3(0.0);
+    blocked.occluders.frame.centre = glm::dvec3(0.0);
     moveSurface(blocked.occluders, 0, { 0.0, 0.0, height });
     EmbreeTracer tracer;
     return isProved(blocked, tracer);
