@@ -249,29 +249,88 @@ std::string whyWithoutShadow(vtkLight* light)
   return {};
 }
 
-/// Return the only light that gives light, if it is a headlight that would cast by default
-/// (vtkGnomonLightKeys::CASTS is not set); else null.
-const vtkLight* loneHeadlight(vtkRenderer* renderer)
+/// Call visit(light) for a renderer's lights, in their order.
+template <typename Visit>
+void visitLights(vtkRenderer* renderer, const Visit& visit)
 {
-  vtkLight* only = nullptr;
+  vtkLightCollection* const lights = renderer->GetLights();
   vtkCollectionSimpleIterator iterator;
-  renderer->GetLights()->InitTraversal(iterator);
-  while (vtkLight* light = renderer->GetLights()->GetNextLight(iterator))
+  lights->InitTraversal(iterator);
+  while (vtkLight* light = lights->GetNextLight(iterator))
   {
-    if (!whyDark(light).empty())
-    {
-      continue;
-    }
-    if (only)
-    {
-      return nullptr;
-    }
-    only = light;
+    visit(light);
   }
-  const bool castsByDefault = only && whyWithoutShadow(only).empty() &&
-    !only->GetInformation()->Has(vtkGnomonLightKeys::CASTS());
-  return castsByDefault && only->LightTypeIsHeadlight() ? only : nullptr;
 }
+
+/// Intensity times the luminance of the colour (ITU-R BT.709).
+double brightnessOf(vtkLight* light)
+{
+  const glm::dvec3 colour = glm::make_vec3(light->GetDiffuseColor());
+  return light->GetIntensity() * glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+/// The choice of a renderer's lights (Casting).
+class CastingChoice
+{
+public:
+  CastingChoice(vtkRenderer* renderer, Casting casting)
+    : casting_(casting)
+  {
+    visitLights(renderer,
+      [&](vtkLight* light)
+      {
+        if (!whyDark(light).empty())
+        {
+          return;
+        }
+        const bool isHead = isHeadlight(light) && !hasKey(light);
+        (isHead ? this->headlights_ : this->others_) += 1;
+        if (!isHead && this->isRival(light) && whyWithoutShadow(light).empty() &&
+          (!this->brightest_ || brightnessOf(light) > brightnessOf(this->brightest_)))
+        {
+          this->brightest_ = light;
+        }
+      });
+  }
+
+  bool onlyHeadlights() const { return this->headlights_ > 0 && this->others_ == 0; }
+
+  /// Return why a light that gives light is to cast no shadow; empty if it is to cast one.
+  std::string whyNot(vtkLight* light) const
+  {
+    const std::string own = whyWithoutShadow(light);
+    if (!own.empty() || hasKey(light))
+    {
+      return own;
+    }
+    if (isHeadlight(light))
+    {
+      return this->headlights_ + this->others_ == 1 ? "a headlight, and the only light"
+                                                    : "a headlight";
+    }
+    return !this->isRival(light) || light == this->brightest_ ? ""
+      : this->casting_ == Casting::Auto
+      ? "it follows the camera, as does a brighter light that casts"
+      : "a brighter light casts";
+  }
+
+private:
+  static bool hasKey(vtkLight* light)
+  {
+    return light->GetInformation()->Has(vtkGnomonLightKeys::CASTS()) != 0;
+  }
+  /// True if a light casts only as the brightest one.
+  bool isRival(vtkLight* light) const
+  {
+    return this->casting_ == Casting::Brightest ||
+      (this->casting_ == Casting::Auto && light->LightTypeIsCameraLight());
+  }
+
+  Casting casting_;
+  vtkLight* brightest_ = nullptr;
+  int headlights_ = 0; ///< which give light, and have no key
+  int others_ = 0;     ///< which give light
+};
 
 /// Return why this light has no valid place and direction; empty if it has.
 std::string whyWithoutPlace(vtkLight* light)
@@ -337,25 +396,37 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
   result.intensity = std::abs(light->GetIntensity()) *
     std::max(*std::max_element(colour, colour + 3), *std::max_element(highlight, highlight + 3));
   result.attenuation = glm::make_vec3(light->GetAttenuationValues());
-  result.isHeadlight = light->LightTypeIsHeadlight() != 0;
+  result.isHeadlight = isHeadlight(light);
   return result;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defaults)
+bool isHeadlight(vtkLight* light)
 {
-  const vtkLight* const alone = loneHeadlight(renderer);
+  // In a camera light's coordinates the camera is at (0, 0, 1) and looks along -z.
+  constexpr double rounding = 1e-12;
+  const glm::dvec3 position = glm::make_vec3(light->GetPosition());
+  const glm::dvec3 travel = glm::normalize(glm::make_vec3(light->GetFocalPoint()) - position);
+  const bool isAtCamera = light->GetPositional()
+    ? glm::distance(position, { 0.0, 0.0, 1.0 }) < rounding
+    : travel.z < -1.0 + rounding;
+  return light->LightTypeIsHeadlight() || (light->LightTypeIsCameraLight() && isAtCamera);
+}
+
+//------------------------------------------------------------------------------
+LightSet LightManager::collect(
+  vtkRenderer* renderer, const ShadowSettings& defaults, Casting casting)
+{
+  const CastingChoice choice(renderer, casting);
   LightSet set = this->read(renderer, defaults,
-    [alone](vtkLight* light, bool)
+    [&choice](vtkLight* light, bool)
     {
       const std::string dark = whyDark(light);
-      return std::optional(!dark.empty() ? dark
-          : light == alone               ? "a headlight, and the only light"
-                                         : whyWithoutShadow(light));
+      return std::optional(dark.empty() ? choice.whyNot(light) : dark);
     });
-  set.headlightIsAlone = alone != nullptr;
+  set.headlightIsAlone = choice.onlyHeadlights();
   return set;
 }
 

@@ -34,8 +34,20 @@ struct LightSet
 {
   std::vector<ShadowLight> lights;
   std::vector<SkippedLight> skipped;
-  bool headlightIsAlone = false; ///< a headlight was skipped because it is the only light
+  bool headlightIsAlone = false; ///< nothing casts, as only headlights give light
 };
+
+/// Which lights cast, of those whose own key (vtkGnomonLightKeys::CASTS) does not say. A headlight
+/// does not: the camera hardly sees its shadows.
+enum class Casting
+{
+  Auto,     ///< those of the scene, and the brightest of those that follow the camera
+  All,      ///< all of them
+  Brightest ///< one: by intensity times luminance, then by order
+};
+
+/// True for a headlight, and for a camera light that stands where one does.
+bool isHeadlight(vtkLight* light);
 
 /// Reads the current state of a renderer's vtkLights.
 ///
@@ -44,8 +56,7 @@ struct LightSet
 ///
 /// Lights that cannot show a shadow are skipped with a reason: switched off, black, no intensity,
 /// marked as not casting, strength 0, or invalid numbers (a cone without angle, an empty box, an
-/// infinite area). A headlight that is the only light is skipped unless it is marked as casting,
-/// because casters hide its shadows from the camera.
+/// infinite area), or not chosen (Casting).
 ///
 /// A light's size comes from the setting `light_radius`, else from vtkGnomonAreaLight, else from
 /// OSPRay's key.
@@ -57,7 +68,8 @@ class LightManager
 public:
   /// Return the lights that cast shadows, and the skipped ones.
   /// @param defaults settings for lights without their own (vtkGnomonLightKeys)
-  LightSet collect(vtkRenderer* renderer, const ShadowSettings& defaults);
+  LightSet collect(
+    vtkRenderer* renderer, const ShadowSettings& defaults, Casting casting = Casting::Auto);
 
   /// Return the renderer's area lights that give light, whether or not they cast shadows. Area
   /// lights with invalid numbers are among the skipped ones.

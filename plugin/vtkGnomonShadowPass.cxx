@@ -111,13 +111,16 @@ struct vtkGnomonShadowPass::Internals
   vtkSmartPointer<vtkGnomonShadowSettings> settings =
     vtkSmartPointer<vtkGnomonShadowSettings>::New(); ///< of lights that say nothing
   std::unique_ptr<gnomon::PassPrograms> programs = std::make_unique<gnomon::PassPrograms>();
-  std::list<RendererFrames> renderers;   ///< those drawn so far, the last one first
-  gnomon::VisibilityImages noVisibility; ///< of frames that were drawn without a manager
+  std::list<RendererFrames> renderers; ///< those drawn so far, the last one first
   gnomon::ViewCount viewCount;
   vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
-  gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
-  bool shadowed = false;            ///< whether the last frame was the manager's
-  double progress = 1.0;            ///< of the last frame that was no selection's
+  bool shadowed = false;            ///< whether the last frame was the manager's, which has it
+  ///@{
+  /// Of a frame that was drawn without the manager, or that the manager's resources outlived.
+  gnomon::FrameReport report;
+  gnomon::VisibilityImages visibility;
+  ///@}
+  double progress = 1.0; ///< of the last frame that was no selection's
   gnomon::Complaints complaints;
 
   std::optional<gnomon::CostFactors> factors; ///< none: the default ones
@@ -279,7 +282,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   this->NumberOfRenderedProps = 0;
   if (renderer->GetSelector())
   {
-    this->RenderPlain(s, "a selection is drawn"); // and what refines goes on after it
+    this->DrawPlain(s); // and what refines goes on after it
     return;
   }
   const gnomon::ShownPicture picture = this->RenderPicture(s);
@@ -385,6 +388,7 @@ gnomon::ShownPicture vtkGnomonShadowPass::RenderPicture(const vtkRenderState* s)
     manager.endFrame(s);
     this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Frame, "");
     this->Internal->shadowed = true;
+    this->Internal->visibility = {};
     this->Internal->progress = leastProgress(manager.report());
     picture.progress = this->Internal->progress;
   }
@@ -417,7 +421,7 @@ gnomon::ShownPicture vtkGnomonShadowPass::RenderPicture(const vtkRenderState* s)
   {
     picture = {};
     this->TellPlain("an error was met");
-    this->Internal->plainReport.outOfTextureMemory = outOfTextureMemory;
+    this->Internal->report.outOfTextureMemory = outOfTextureMemory;
     if (!drawn)
     {
       this->DrawPlain(s);
@@ -601,6 +605,7 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
 {
   gnomon::FrameWishes wishes;
   wishes.route = static_cast<gnomon::RouteWish>(this->Route);
+  wishes.casting = static_cast<gnomon::Casting>(this->Casting);
   wishes.keepVisibility = this->KeepVisibility;
   wishes.measureStages = this->MeasureStages;
   wishes.smoothTerminators = this->SmoothTerminators;
@@ -650,9 +655,10 @@ void vtkGnomonShadowPass::DrawScene(const vtkRenderState* s)
 void vtkGnomonShadowPass::TellPlain(const char* reason)
 {
   this->Internal->shadowed = false;
-  this->Internal->plainReport = gnomon::FrameReport{};
-  this->Internal->plainReport.route = "none";
-  this->Internal->plainReport.routeReason = reason;
+  this->Internal->visibility = {};
+  this->Internal->report = gnomon::FrameReport{};
+  this->Internal->report.route = "none";
+  this->Internal->report.routeReason = reason;
 }
 
 //------------------------------------------------------------------------------
@@ -686,6 +692,11 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
           this->DelegatePass->ReleaseGraphicsResources(drawnIn);
         }
         this->Internal->steps->ReleaseGraphicsResources(drawnIn);
+      }
+      if (this->Internal->shadowed)
+      {
+        this->Internal->report = this->Internal->manager().report();
+        this->Internal->visibility = this->Internal->manager().visibility();
       }
       this->Internal->shadowed = false;
       this->Internal->renderers.clear();
@@ -851,8 +862,7 @@ const char* vtkGnomonShadowPass::GetTechniqueSummary(int index)
 //------------------------------------------------------------------------------
 const gnomon::FrameReport& vtkGnomonShadowPass::GetReport() const
 {
-  return this->Internal->shadowed ? this->Internal->manager().report()
-                                  : this->Internal->plainReport;
+  return this->Internal->shadowed ? this->Internal->manager().report() : this->Internal->report;
 }
 
 //------------------------------------------------------------------------------
@@ -865,7 +875,7 @@ double vtkGnomonShadowPass::GetProgress() const
 const gnomon::VisibilityImages& vtkGnomonShadowPass::GetVisibility() const
 {
   return this->Internal->shadowed ? this->Internal->manager().visibility()
-                                  : this->Internal->noVisibility;
+                                  : this->Internal->visibility;
 }
 
 //------------------------------------------------------------------------------
@@ -950,6 +960,8 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   this->Internal->settings->PrintSelf(os, indent.GetNextIndent());
   os << indent << "Route: " << routes[this->Route] << "\n";
   os << indent << "SmoothTerminators: " << (this->SmoothTerminators ? "on" : "off") << "\n";
+  const char* const castings[] = { "auto", "all", "brightest" };
+  os << indent << "Casting: " << castings[this->Casting] << "\n";
   const char* const interactives[] = { "auto", "off", "on" };
   os << indent << "Interactive: " << interactives[this->Interactive] << "\n";
   os << indent << "MaximumError: " << this->MaximumError << "\n";

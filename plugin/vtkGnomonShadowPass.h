@@ -166,6 +166,25 @@ public:
   ///@}
 
   /**
+   * Which lights cast, of those whose own key (vtkGnomonLightKeys::CASTS) does not say. A headlight
+   * does not, nor a camera light that stands at the camera, which hardly sees their shadows.
+   */
+  enum CastingType
+  {
+    CASTING_AUTO = 0,     ///< those of the scene, and the brightest of those that follow the camera
+    CASTING_ALL = 1,      ///< all of them
+    CASTING_BRIGHTEST = 2 ///< the one of most intensity times luminance; of equal ones, the first
+  };
+
+  ///@{
+  /**
+   * The report says why a light does not cast. Default CASTING_AUTO.
+   */
+  vtkSetClampMacro(Casting, int, CASTING_AUTO, CASTING_BRIGHTEST);
+  vtkGetMacro(Casting, int);
+  ///@}
+
+  /**
    * Whether a frame is one of a picture that moves. AUTO: a window with an interactor asks for a
    * higher update rate than the interactor's StillUpdateRate (and 0.01), as interactor styles have
    * it do while their user drags, and camera, lights or props changed less than half a second ago.
@@ -408,6 +427,7 @@ protected:
 
   int Route = ROUTE_AUTO;
   bool SmoothTerminators = true;
+  int Casting = CASTING_AUTO;
   int Interactive = INTERACTIVE_AUTO;
   double MaximumError = 0.005;
   double MaximumSoftError = 0.03;

@@ -329,7 +329,7 @@ const PointwiseTechnique* CastingLight::pointwiseOn(Route route, bool translucen
 void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& defaults,
   const FrameWishes& wishes, TechniquesOfLights& ofView, FrameReport& report)
 {
-  LightSet set = this->manager_.collect(renderer, defaults);
+  LightSet set = this->manager_.collect(renderer, defaults, wishes.casting);
   report.headlightIsAlone = set.headlightIsAlone;
   report.misfits = findMisfits(set.lights, defaults);
   if (wishes.isShared)

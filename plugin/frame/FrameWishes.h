@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lights/LightManager.h"
 #include "plugin/frame/CostModel.h"
 
 #include <optional>
@@ -22,6 +23,7 @@ struct FrameWishes
   RouteWish route = RouteWish::Auto;
   bool keepVisibility = false; ///< true if visibility is asked for as data
   bool measureStages = false;
+  Casting casting = Casting::Auto;
   bool isShared = false;     ///< true if several processes draw the picture
   int reductionFactor = 1;   ///< of the delegate's viewport, whose lower left part is the picture
   double memoryBudget = 0.0; ///< bytes of lights' maps and images of visibility; 0: none
