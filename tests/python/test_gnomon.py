@@ -85,6 +85,42 @@ class Shadows(unittest.TestCase):
                 self.assertEqual(lights.GetNumberOfItems(), 1)
                 self.assertTrue(lights.GetItemAsObject(0).LightTypeIsHeadlight())
 
+    def test_a_headlight_stays_away_from_lights_that_came_meanwhile(self):
+        def switch_key_off(renderer):
+            renderer.GetLights().GetItemAsObject(0).SwitchOff()
+
+        def add_light(renderer):
+            renderer.AddLight(vtkLight())
+
+        def set_light(renderer):
+            renderer.RemoveAllLights()
+            renderer.AddLight(vtkLight())
+
+        def add_dark_light(renderer):
+            renderer.AddLight(vtkLight())
+            renderer.GetLights().GetItemAsObject(1).SwitchOff()
+
+        for change, comes_back, others in (
+            (lambda _: None, True, 0),
+            (switch_key_off, True, 0),
+            (add_dark_light, True, 1),
+            (add_light, False, 1),
+            (set_light, False, 1),
+            (vtkRenderer.RemoveAllLights, False, 0),
+        ):
+            with self.subTest(change=change.__name__):
+                renderer = Scene(has_sun=False).renderer
+                head = vtkLight()
+                head.SetLightTypeToHeadlight()
+                renderer.AddLight(head)
+                with self.assertWarnsRegex(UserWarning, "key light"):
+                    gnomon.add_shadows(renderer)
+                change(renderer)
+                gnomon.remove_shadows(renderer)
+                lights = renderer.GetLights()
+                self.assertEqual(bool(lights.IsItemPresent(head)), comes_back)
+                self.assertEqual(lights.GetNumberOfItems(), others + comes_back)
+
     def test_shadows_are_added_again_and_removed(self):
         scene = Scene()
         with warnings.catch_warnings():

@@ -140,6 +140,8 @@ def add_shadows(
 def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
     """Give a renderer back the pass and the lights that it had before `add_shadows`.
 
+    A headlight comes back if no light but the key light in its place gives light.
+
     Parameters
     ----------
     target : vtkRenderer or pyvista.Plotter
@@ -159,10 +161,13 @@ def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
         renderer.SetPass(render_pass)
     if lights is not None:
         key, headlight, creates = lights
+        present = _lights_of(renderer)
         renderer.RemoveLight(key)
-        if headlight is not None:
+        is_alone = key in present and not any(map(_gives_light, _lights_of(renderer)))
+        if headlight is not None and is_alone:
             renderer.AddLight(headlight)
-        renderer.SetAutomaticLightCreation(creates)
+        if creates:
+            renderer.AutomaticLightCreationOn()
 
 
 def report(shadows: vtkGnomonShadowPass) -> dict[str, Any]:
@@ -234,6 +239,11 @@ def _address_of(renderer):
     return renderer.GetAddressAsString("vtkRenderer")
 
 
+def _lights_of(renderer):
+    lights = renderer.GetLights()
+    return [lights.GetItemAsObject(i) for i in range(lights.GetNumberOfItems())]
+
+
 def _gives_light(light):
     return light.GetSwitch() and light.GetIntensity() != 0 and any(light.GetDiffuseColor())
 
@@ -244,8 +254,7 @@ def _replace_headlight(renderer):
     Returns the key light, the headlight (None where there was none yet), and whether the renderer
     creates lights; None if nothing is exchanged.
     """
-    lights = renderer.GetLights()
-    all_lights = [lights.GetItemAsObject(i) for i in range(lights.GetNumberOfItems())]
+    all_lights = _lights_of(renderer)
     lit = [light for light in all_lights if _gives_light(light)]
     creates = renderer.GetAutomaticLightCreation()
     casts = vtkGnomonLightKeys.CASTS()
