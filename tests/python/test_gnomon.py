@@ -12,6 +12,7 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkFiltersSources import vtkPointSource, vtkSphereSource
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
+from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAAPass, vtkSSAOPass
 
 import gnomon
 from gnomon.images import _pixels
@@ -183,6 +184,22 @@ class Shadows(unittest.TestCase):
         scene.renderer.SetPass(other)
         gnomon.remove_shadows(scene.renderer)
         self.assertIs(scene.renderer.GetPass(), other)
+
+    def test_a_pass_that_gives_way_is_named_and_comes_back(self):
+        scene = Scene()
+        steps, occlusion, smooth = vtkRenderStepsPass(), vtkSSAOPass(), vtkSSAAPass()
+        occlusion.SetDelegatePass(steps)
+        smooth.SetDelegatePass(occlusion)
+        for render_pass, names in (
+            (steps, "vtkRenderStepsPass"),
+            (smooth, "vtkSSAAPass around vtkSSAOPass around vtkRenderStepsPass"),
+        ):
+            scene.renderer.SetPass(render_pass)
+            with self.assertWarnsRegex(UserWarning, f"gave way to shadows: {names}[.]") as warned:
+                gnomon.add_shadows(scene.renderer)
+            self.assertEqual(warned.filename, __file__)
+            gnomon.remove_shadows(scene.renderer)
+            self.assertIs(scene.renderer.GetPass(), render_pass)
 
     def test_lights_that_give_none_do_not_count(self):
         scene = Scene(has_sun=False)

@@ -116,6 +116,8 @@ def add_shadows(
     shows nothing yet, it is placed when the first picture is drawn. `remove_shadows` takes all of
     that back.
 
+    The renderer's own pass gives way, too. A warning names it and its delegates.
+
     Raises
     ------
     TypeError
@@ -131,7 +133,14 @@ def add_shadows(
         _set(shadows, name, value)
     remove_shadows(renderer)
     address = _address_of(renderer)
-    _before[address] = (shadows, renderer.GetPass(), _replace_headlight(renderer))
+    replaced = renderer.GetPass()
+    if replaced is not None:
+        warnings.warn(
+            f"The renderer's pass gave way to shadows: {_name_chain(replaced)}. remove_shadows() "
+            "brings it back.",
+            stacklevel=2,
+        )
+    _before[address] = (shadows, replaced, _replace_headlight(renderer))
     renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))
     renderer.SetPass(shadows)
     return shadows
@@ -223,6 +232,14 @@ def _renderer_of(target):
     if not isinstance(renderer, vtkRenderer):
         raise TypeError(f"expected a vtkRenderer or a plotter, found {type(target).__name__}")
     return renderer
+
+
+def _name_chain(render_pass):
+    names = []
+    while render_pass is not None:
+        names.append(render_pass.GetClassName())
+        render_pass = getattr(render_pass, "GetDelegatePass", lambda: None)()
+    return " around ".join(names)
 
 
 def _set(shadows, name, value):
