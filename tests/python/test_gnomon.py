@@ -226,10 +226,47 @@ class Shadows(unittest.TestCase):
         shadows = gnomon.add_shadows(Plotter())
         self.assertIs(scene.renderer.GetPass(), shadows)
 
+    def test_objects_that_hold_a_vtk_object_stand_for_it(self):
+        scene = Scene()
+
+        def holder(name, held):
+            return type("Holder", (), {name: held})()
+
+        wrapped = holder("_vtk_obj", scene.renderer)  # as tvtk's
+        figure = holder("scene", holder("renderer", wrapped))  # as Mayavi's
+        for target in (wrapped, figure.scene, figure):
+            shadows = gnomon.add_shadows(target)
+            self.assertIs(scene.renderer.GetPass(), shadows)
+            gnomon.remove_shadows(target)
+            self.assertIsNone(scene.renderer.GetPass())
+
+        mesh = holder("actor", scene.ball)  # as vedo's
+        surface = holder("actor", holder("actor", holder("_vtk_obj", scene.ball)))  # as Mayavi's
+        surface.scene = figure.scene
+        props = gnomon.vtkGnomonPropKeys
+        for prop in (mesh, surface):
+            props.SetCasts(prop, False)
+            self.assertFalse(props.GetCasts(scene.ball))
+            props.SetCasts(scene.ball, True)
+            self.assertTrue(props.GetCasts(prop))
+
+        sun = scene.renderer.GetLights().GetItemAsObject(0)
+        lamp = holder("source", holder("_vtk_obj", sun))  # as Mayavi's
+        gnomon.vtkGnomonLightKeys.SetTechnique(lamp, "pcf")
+        self.assertEqual(gnomon.vtkGnomonLightKeys.GetTechnique(sun), "pcf")
+        gnomon.vtkGnomonLightPlacement.SetPitchAndYaw(lamp, -90, 0)
+        self.assertEqual(sun.GetPosition()[0], 0)
+        with self.assertRaisesRegex(TypeError, "found Mock"):  # holds objects without end
+            gnomon.add_shadows(mock.Mock())
+        with self.assertRaisesRegex(TypeError, "requires a VTK object"):
+            props.SetCasts(holder("actor", None), True)
+
     def test_mistakes_change_nothing(self):
         scene = Scene(has_sun=False)
-        with self.assertRaisesRegex(TypeError, "found str"):
+        with self.assertRaisesRegex(TypeError, "`_vtk_obj`, found str"):
             gnomon.add_shadows("renderer")
+        with self.assertRaisesRegex(TypeError, "found vtkOpenGLLight"):
+            gnomon.add_shadows(vtkLight())
         with self.assertRaisesRegex(ValueError, "kernel_sise"):
             gnomon.add_shadows(scene.renderer, kernel_sise=3)
         with self.assertRaisesRegex(ValueError, "technique"):

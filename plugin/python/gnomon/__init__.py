@@ -37,6 +37,7 @@ from .GnomonPlugin import (
     vtkGnomonVisibilityFilter,
 )
 from .errors import collect_errors
+from .holders import taking_holders, unwrap
 from .images import assert_images_equal
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
     from .figure import draw as draw
 
     class _HasRenderer(Protocol):
-        """What has a renderer, as pyvista.Plotter does."""
+        """What has a renderer, as a plotter of PyVista or vedo and a scene of Mayavi do."""
 
         @property
         def renderer(self) -> vtkRenderer: ...
@@ -78,7 +79,10 @@ __all__ = [
 # when nothing in Python names it, and the renderer stays. Entries go with the renderers.
 _before: dict[str, Any] = {}
 
-if not TYPE_CHECKING:  # for which every name would exist
+if not TYPE_CHECKING:  # for which every name would exist, and classes made by a call would not
+    vtkGnomonLightKeys = taking_holders(vtkGnomonLightKeys)
+    vtkGnomonLightPlacement = taking_holders(vtkGnomonLightPlacement)
+    vtkGnomonPropKeys = taking_holders(vtkGnomonPropKeys)
 
     def __getattr__(name):
         if name in ("draw", "hours_lit", "sun_path"):  # need NumPy, which the rest can do without
@@ -97,8 +101,8 @@ def add_shadows(
 
     Parameters
     ----------
-    target : vtkRenderer or pyvista.Plotter
-        Of a plotter, the active subplot's renderer.
+    target : vtkRenderer or what has one
+        A plotter of PyVista or vedo (its active subplot), a figure or scene of Mayavi, tvtk's.
     technique : str, optional
         A name of vtkGnomonShadowPass.GetTechniqueName(), or "auto", the default.
     **settings
@@ -135,11 +139,8 @@ def add_shadows(
     address = _address_of(renderer)
     replaced = renderer.GetPass()
     if replaced is not None:
-        warnings.warn(
-            f"The renderer's pass gave way to shadows: {_name_chain(replaced)}. remove_shadows() "
-            "brings it back.",
-            stacklevel=2,
-        )
+        chain = _name_chain(replaced)
+        warnings.warn(f"The renderer's pass gave way to shadows: {chain}.", stacklevel=2)
     _before[address] = (shadows, replaced, _replace_headlight(renderer))
     renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))
     renderer.SetPass(shadows)
@@ -153,7 +154,7 @@ def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
 
     Parameters
     ----------
-    target : vtkRenderer or pyvista.Plotter
+    target : vtkRenderer or what has one
         As for `add_shadows`. A renderer without shadows stays as it is, and so does a pass that was
         set since.
 
@@ -175,8 +176,7 @@ def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
         is_alone = key in present and not any(map(_gives_light, _lights_of(renderer)))
         if headlight is not None and is_alone:
             renderer.AddLight(headlight)
-        if creates:
-            renderer.AutomaticLightCreationOn()
+        renderer.SetAutomaticLightCreation(creates or renderer.GetAutomaticLightCreation())
 
 
 def report(shadows: vtkGnomonShadowPass) -> dict[str, Any]:
@@ -228,9 +228,12 @@ def visibility(shadows: vtkGnomonShadowPass) -> dict[str, numpy.ndarray]:
 
 
 def _renderer_of(target):
-    renderer = target if isinstance(target, vtkRenderer) else getattr(target, "renderer", None)
+    renderer = unwrap(target)
     if not isinstance(renderer, vtkRenderer):
-        raise TypeError(f"expected a vtkRenderer or a plotter, found {type(target).__name__}")
+        raise TypeError(
+            "expected a vtkRenderer or an object that has one as `renderer`, `scene` or `_vtk_obj`,"
+            f" found {type(target).__name__}"
+        )
     return renderer
 
 
