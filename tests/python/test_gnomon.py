@@ -12,7 +12,16 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkFiltersSources import vtkPointSource, vtkSphereSource
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
-from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAAPass, vtkSSAOPass
+from vtkmodules.vtkRenderingOpenGL2 import (
+    vtkDepthOfFieldPass,
+    vtkEDLShading,
+    vtkGaussianBlurPass,
+    vtkPanoramicProjectionPass,
+    vtkRenderStepsPass,
+    vtkSobelGradientMagnitudePass,
+    vtkSSAAPass,
+    vtkSSAOPass,
+)
 
 import gnomon
 from gnomon.images import _pixels
@@ -200,6 +209,35 @@ class Shadows(unittest.TestCase):
             self.assertEqual(warned.filename, __file__)
             gnomon.remove_shadows(scene.renderer)
             self.assertIs(scene.renderer.GetPass(), render_pass)
+
+    def test_passes_of_the_guide_stand_around_the_shadow_pass(self):
+        for kind in (
+            vtkEDLShading,
+            vtkDepthOfFieldPass,
+            vtkGaussianBlurPass,
+            vtkSobelGradientMagnitudePass,
+            vtkPanoramicProjectionPass,
+        ):
+            with self.subTest(kind=kind.__name__):
+                scene = Scene()
+                scene.renderer.GetActiveCamera().SetPosition(0, -2, 2)
+                scene.renderer.ResetCameraClippingRange()
+
+                def picture(inner):
+                    outer = kind()
+                    outer.SetDelegatePass(inner)
+                    scene.renderer.SetPass(outer)
+                    scene.window.Render()  # the first one is empty with depth of field
+                    pixels = _pixels(scene.window).astype(int)
+                    outer.ReleaseGraphicsResources(scene.window)
+                    return pixels
+
+                plain = picture(vtkRenderStepsPass())
+                for technique in ("silhouette", "pcf"):
+                    inner = gnomon.vtkGnomonShadowPass()
+                    inner.SetTechnique(technique)
+                    changed = (abs(plain - picture(inner)) > 30).any(axis=2)
+                    self.assertTrue(40 < changed.sum() < 2500, changed.sum())
 
     def test_lights_that_give_none_do_not_count(self):
         scene = Scene(has_sun=False)
