@@ -12,6 +12,16 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkFiltersSources import vtkPointSource, vtkSphereSource
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
+from vtkmodules.vtkRenderingOpenGL2 import (
+    vtkDepthOfFieldPass,
+    vtkEDLShading,
+    vtkGaussianBlurPass,
+    vtkPanoramicProjectionPass,
+    vtkRenderStepsPass,
+    vtkSobelGradientMagnitudePass,
+    vtkSSAAPass,
+    vtkSSAOPass,
+)
 
 import gnomon
 from gnomon.images import _pixels
@@ -85,6 +95,42 @@ class Shadows(unittest.TestCase):
                 self.assertEqual(lights.GetNumberOfItems(), 1)
                 self.assertTrue(lights.GetItemAsObject(0).LightTypeIsHeadlight())
 
+    def test_a_headlight_stays_away_from_lights_that_came_meanwhile(self):
+        def switch_key_off(renderer):
+            renderer.GetLights().GetItemAsObject(0).SwitchOff()
+
+        def add_light(renderer):
+            renderer.AddLight(vtkLight())
+
+        def set_light(renderer):
+            renderer.RemoveAllLights()
+            renderer.AddLight(vtkLight())
+
+        def add_dark_light(renderer):
+            renderer.AddLight(vtkLight())
+            renderer.GetLights().GetItemAsObject(1).SwitchOff()
+
+        for change, comes_back, others in (
+            (lambda _: None, True, 0),
+            (switch_key_off, True, 0),
+            (add_dark_light, True, 1),
+            (add_light, False, 1),
+            (set_light, False, 1),
+            (vtkRenderer.RemoveAllLights, False, 0),
+        ):
+            with self.subTest(change=change.__name__):
+                renderer = Scene(has_sun=False).renderer
+                head = vtkLight()
+                head.SetLightTypeToHeadlight()
+                renderer.AddLight(head)
+                with self.assertWarnsRegex(UserWarning, "key light"):
+                    gnomon.add_shadows(renderer)
+                change(renderer)
+                gnomon.remove_shadows(renderer)
+                lights = renderer.GetLights()
+                self.assertEqual(bool(lights.IsItemPresent(head)), comes_back)
+                self.assertEqual(lights.GetNumberOfItems(), others + comes_back)
+
     def test_shadows_are_added_again_and_removed(self):
         scene = Scene()
         with warnings.catch_warnings():
@@ -148,6 +194,51 @@ class Shadows(unittest.TestCase):
         gnomon.remove_shadows(scene.renderer)
         self.assertIs(scene.renderer.GetPass(), other)
 
+    def test_a_pass_that_gives_way_is_named_and_comes_back(self):
+        scene = Scene()
+        steps, occlusion, smooth = vtkRenderStepsPass(), vtkSSAOPass(), vtkSSAAPass()
+        occlusion.SetDelegatePass(steps)
+        smooth.SetDelegatePass(occlusion)
+        for render_pass, names in (
+            (steps, "vtkRenderStepsPass"),
+            (smooth, "vtkSSAAPass around vtkSSAOPass around vtkRenderStepsPass"),
+        ):
+            scene.renderer.SetPass(render_pass)
+            with self.assertWarnsRegex(UserWarning, f"gave way to shadows: {names}[.]") as warned:
+                gnomon.add_shadows(scene.renderer)
+            self.assertEqual(warned.filename, __file__)
+            gnomon.remove_shadows(scene.renderer)
+            self.assertIs(scene.renderer.GetPass(), render_pass)
+
+    def test_passes_of_the_guide_stand_around_the_shadow_pass(self):
+        for kind in (
+            vtkEDLShading,
+            vtkDepthOfFieldPass,
+            vtkGaussianBlurPass,
+            vtkSobelGradientMagnitudePass,
+            vtkPanoramicProjectionPass,
+        ):
+            with self.subTest(kind=kind.__name__):
+                scene = Scene()
+                scene.renderer.GetActiveCamera().SetPosition(0, -2, 2)
+                scene.renderer.ResetCameraClippingRange()
+
+                def picture(inner):
+                    outer = kind()
+                    outer.SetDelegatePass(inner)
+                    scene.renderer.SetPass(outer)
+                    scene.window.Render()  # the first one is empty with depth of field
+                    pixels = _pixels(scene.window).astype(int)
+                    outer.ReleaseGraphicsResources(scene.window)
+                    return pixels
+
+                plain = picture(vtkRenderStepsPass())
+                for technique in ("silhouette", "pcf"):
+                    inner = gnomon.vtkGnomonShadowPass()
+                    inner.SetTechnique(technique)
+                    changed = (abs(plain - picture(inner)) > 30).any(axis=2)
+                    self.assertTrue(40 < changed.sum() < 2500, changed.sum())
+
     def test_lights_that_give_none_do_not_count(self):
         scene = Scene(has_sun=False)
         dark = vtkLight()
@@ -173,10 +264,47 @@ class Shadows(unittest.TestCase):
         shadows = gnomon.add_shadows(Plotter())
         self.assertIs(scene.renderer.GetPass(), shadows)
 
+    def test_objects_that_hold_a_vtk_object_stand_for_it(self):
+        scene = Scene()
+
+        def holder(name, held):
+            return type("Holder", (), {name: held})()
+
+        wrapped = holder("_vtk_obj", scene.renderer)  # as tvtk's
+        figure = holder("scene", holder("renderer", wrapped))  # as Mayavi's
+        for target in (wrapped, figure.scene, figure):
+            shadows = gnomon.add_shadows(target)
+            self.assertIs(scene.renderer.GetPass(), shadows)
+            gnomon.remove_shadows(target)
+            self.assertIsNone(scene.renderer.GetPass())
+
+        mesh = holder("actor", scene.ball)  # as vedo's
+        surface = holder("actor", holder("actor", holder("_vtk_obj", scene.ball)))  # as Mayavi's
+        surface.scene = figure.scene
+        props = gnomon.vtkGnomonPropKeys
+        for prop in (mesh, surface):
+            props.SetCasts(prop, False)
+            self.assertFalse(props.GetCasts(scene.ball))
+            props.SetCasts(scene.ball, True)
+            self.assertTrue(props.GetCasts(prop))
+
+        sun = scene.renderer.GetLights().GetItemAsObject(0)
+        lamp = holder("source", holder("_vtk_obj", sun))  # as Mayavi's
+        gnomon.vtkGnomonLightKeys.SetTechnique(lamp, "pcf")
+        self.assertEqual(gnomon.vtkGnomonLightKeys.GetTechnique(sun), "pcf")
+        gnomon.vtkGnomonLightPlacement.SetPitchAndYaw(lamp, -90, 0)
+        self.assertEqual(sun.GetPosition()[0], 0)
+        with self.assertRaisesRegex(TypeError, "found Mock"):  # holds objects without end
+            gnomon.add_shadows(mock.Mock())
+        with self.assertRaisesRegex(TypeError, "requires a VTK object"):
+            props.SetCasts(holder("actor", None), True)
+
     def test_mistakes_change_nothing(self):
         scene = Scene(has_sun=False)
-        with self.assertRaisesRegex(TypeError, "found str"):
+        with self.assertRaisesRegex(TypeError, "`_vtk_obj`, found str"):
             gnomon.add_shadows("renderer")
+        with self.assertRaisesRegex(TypeError, "found vtkOpenGLLight"):
+            gnomon.add_shadows(vtkLight())
         with self.assertRaisesRegex(ValueError, "kernel_sise"):
             gnomon.add_shadows(scene.renderer, kernel_sise=3)
         with self.assertRaisesRegex(ValueError, "technique"):

@@ -37,6 +37,7 @@ from .GnomonPlugin import (
     vtkGnomonVisibilityFilter,
 )
 from .errors import collect_errors
+from .holders import taking_holders, unwrap
 from .images import assert_images_equal
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
     from .figure import draw as draw
 
     class _HasRenderer(Protocol):
-        """What has a renderer, as pyvista.Plotter does."""
+        """What has a renderer, as a plotter of PyVista or vedo and a scene of Mayavi do."""
 
         @property
         def renderer(self) -> vtkRenderer: ...
@@ -78,7 +79,10 @@ __all__ = [
 # when nothing in Python names it, and the renderer stays. Entries go with the renderers.
 _before: dict[str, Any] = {}
 
-if not TYPE_CHECKING:  # for which every name would exist
+if not TYPE_CHECKING:  # for which every name would exist, and classes made by a call would not
+    vtkGnomonLightKeys = taking_holders(vtkGnomonLightKeys)
+    vtkGnomonLightPlacement = taking_holders(vtkGnomonLightPlacement)
+    vtkGnomonPropKeys = taking_holders(vtkGnomonPropKeys)
 
     def __getattr__(name):
         if name in ("draw", "hours_lit", "sun_path"):  # need NumPy, which the rest can do without
@@ -97,8 +101,8 @@ def add_shadows(
 
     Parameters
     ----------
-    target : vtkRenderer or pyvista.Plotter
-        Of a plotter, the active subplot's renderer.
+    target : vtkRenderer or what has one
+        A plotter of PyVista or vedo (its active subplot), a figure or scene of Mayavi, tvtk's.
     technique : str, optional
         A name of vtkGnomonShadowPass.GetTechniqueName(), or "auto", the default.
     **settings
@@ -116,6 +120,8 @@ def add_shadows(
     shows nothing yet, it is placed when the first picture is drawn. `remove_shadows` takes all of
     that back.
 
+    The renderer's own pass gives way, too. A warning names it and its delegates.
+
     Raises
     ------
     TypeError
@@ -131,7 +137,11 @@ def add_shadows(
         _set(shadows, name, value)
     remove_shadows(renderer)
     address = _address_of(renderer)
-    _before[address] = (shadows, renderer.GetPass(), _replace_headlight(renderer))
+    replaced = renderer.GetPass()
+    if replaced is not None:
+        chain = _name_chain(replaced)
+        warnings.warn(f"The renderer's pass gave way to shadows: {chain}.", stacklevel=2)
+    _before[address] = (shadows, replaced, _replace_headlight(renderer))
     renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))
     renderer.SetPass(shadows)
     return shadows
@@ -140,9 +150,11 @@ def add_shadows(
 def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
     """Give a renderer back the pass and the lights that it had before `add_shadows`.
 
+    A headlight comes back if no light but the key light in its place gives light.
+
     Parameters
     ----------
-    target : vtkRenderer or pyvista.Plotter
+    target : vtkRenderer or what has one
         As for `add_shadows`. A renderer without shadows stays as it is, and so does a pass that was
         set since.
 
@@ -159,10 +171,12 @@ def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
         renderer.SetPass(render_pass)
     if lights is not None:
         key, headlight, creates = lights
+        present = _lights_of(renderer)
         renderer.RemoveLight(key)
-        if headlight is not None:
+        is_alone = key in present and not any(map(_gives_light, _lights_of(renderer)))
+        if headlight is not None and is_alone:
             renderer.AddLight(headlight)
-        renderer.SetAutomaticLightCreation(creates)
+        renderer.SetAutomaticLightCreation(creates or renderer.GetAutomaticLightCreation())
 
 
 def report(shadows: vtkGnomonShadowPass) -> dict[str, Any]:
@@ -214,10 +228,21 @@ def visibility(shadows: vtkGnomonShadowPass) -> dict[str, numpy.ndarray]:
 
 
 def _renderer_of(target):
-    renderer = target if isinstance(target, vtkRenderer) else getattr(target, "renderer", None)
+    renderer = unwrap(target)
     if not isinstance(renderer, vtkRenderer):
-        raise TypeError(f"expected a vtkRenderer or a plotter, found {type(target).__name__}")
+        raise TypeError(
+            "expected a vtkRenderer or an object that has one as `renderer`, `scene` or `_vtk_obj`,"
+            f" found {type(target).__name__}"
+        )
     return renderer
+
+
+def _name_chain(render_pass):
+    names = []
+    while render_pass is not None:
+        names.append(render_pass.GetClassName())
+        render_pass = getattr(render_pass, "GetDelegatePass", lambda: None)()
+    return " around ".join(names)
 
 
 def _set(shadows, name, value):
@@ -234,6 +259,11 @@ def _address_of(renderer):
     return renderer.GetAddressAsString("vtkRenderer")
 
 
+def _lights_of(renderer):
+    lights = renderer.GetLights()
+    return [lights.GetItemAsObject(i) for i in range(lights.GetNumberOfItems())]
+
+
 def _gives_light(light):
     return light.GetSwitch() and light.GetIntensity() != 0 and any(light.GetDiffuseColor())
 
@@ -244,8 +274,7 @@ def _replace_headlight(renderer):
     Returns the key light, the headlight (None where there was none yet), and whether the renderer
     creates lights; None if nothing is exchanged.
     """
-    lights = renderer.GetLights()
-    all_lights = [lights.GetItemAsObject(i) for i in range(lights.GetNumberOfItems())]
+    all_lights = _lights_of(renderer)
     lit = [light for light in all_lights if _gives_light(light)]
     creates = renderer.GetAutomaticLightCreation()
     casts = vtkGnomonLightKeys.CASTS()
