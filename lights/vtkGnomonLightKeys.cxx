@@ -9,6 +9,7 @@
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkInformationStringVectorKey.h"
 #include "vtkLight.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkSmartPointer.h"
 
@@ -36,6 +37,13 @@ vtkSmartPointer<vtkInformation> keysOf(vtkLight* light)
   }
   vtkErrorWithObjectMacro(light, "vtkGnomonLightKeys needs a light, not null.");
   return vtkSmartPointer<vtkInformation>::New();
+}
+
+/// Why this thread's last SetSetting() was refused.
+std::string& settingError()
+{
+  thread_local std::string error;
+  return error;
 }
 
 } // namespace
@@ -66,25 +74,18 @@ void vtkGnomonLightKeys::SetCasts(vtkLight* light, bool casts)
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonLightKeys::SetSetting(vtkLight* light, const char* name, const char* value)
+bool vtkGnomonLightKeys::SetSetting(vtkLight* light, const char* name, const char* value)
 {
-  const gnomon::Setting* setting = gnomon::findSetting(name ? name : "");
-  if (!setting)
-  {
-    vtkErrorWithObjectMacro(light,
-      "Lights have no setting '" << (name ? name : "") << "'. There are: " << gnomon::settingNames()
-                                 << ".");
-    return;
-  }
   const std::string text = value ? value : "";
-  gnomon::ShadowSettings scratch;
-  if (!text.empty() && !setting->set(scratch, text))
+  vtkNew<vtkGnomonNamedSettings> scratch;
+  const bool isRemoved = text.empty() && gnomon::findSetting(name ? name : "");
+  if (!isRemoved && !scratch->TrySetting(name, text.c_str()))
   {
-    vtkErrorWithObjectMacro(light,
-      "Invalid value '" << text << "' for a light's setting '" << name << "', expected "
-                        << setting->expected() << ".");
-    return;
+    settingError() = scratch->GetSettingError();
+    vtkErrorWithObjectMacro(light, << settingError() << ".");
+    return false;
   }
+  settingError().clear();
   const auto keys = keysOf(light);
   std::vector<std::string> pairs;
   for (int i = 0; i + 1 < keys->Length(SETTINGS()); i += 2)
@@ -104,6 +105,13 @@ void vtkGnomonLightKeys::SetSetting(vtkLight* light, const char* name, const cha
   {
     keys->Append(SETTINGS(), part.c_str());
   }
+  return light != nullptr;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonLightKeys::GetSettingError()
+{
+  return settingError();
 }
 
 //------------------------------------------------------------------------------
@@ -121,9 +129,9 @@ const char* vtkGnomonLightKeys::GetSetting(vtkLight* light, const char* name)
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonLightKeys::SetTechnique(vtkLight* light, const char* technique)
+bool vtkGnomonLightKeys::SetTechnique(vtkLight* light, const char* technique)
 {
-  SetSetting(light, "technique", technique);
+  return SetSetting(light, "technique", technique);
 }
 
 //------------------------------------------------------------------------------

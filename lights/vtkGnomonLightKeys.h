@@ -75,11 +75,13 @@ public:
   ///@{
   /**
    * Set one of a light's settings by name, see above. A null or empty value removes the setting, so
-   * the pass's value applies. An unknown name or an invalid value is an error and changes nothing.
-   * GetSetting() returns null for a setting that the light leaves unset.
+   * the pass's value applies. An unknown name or an invalid value is an error, returns false and
+   * changes nothing; GetSettingError() then says why (vtkGnomonNamedSettings), of this thread's last
+   * call. GetSetting() returns null for a setting that the light leaves unset.
    */
-  static void SetSetting(vtkLight* light, const char* name, const char* value)
+  static bool SetSetting(vtkLight* light, const char* name, const char* value)
     VTK_EXPECTS(light != nullptr);
+  static std::string GetSettingError();
   static const char* GetSetting(vtkLight* light, const char* name) VTK_EXPECTS(light != nullptr);
   ///@}
 
@@ -108,7 +110,7 @@ public:
    * clamped to [16, 16384]; 0 or less removes the setting. If the light does not set them,
    * GetTechnique returns null and GetMapSize 0.
    */
-  static void SetTechnique(vtkLight* light, const char* technique) VTK_EXPECTS(light != nullptr);
+  static bool SetTechnique(vtkLight* light, const char* technique) VTK_EXPECTS(light != nullptr);
   static const char* GetTechnique(vtkLight* light) VTK_EXPECTS(light != nullptr);
   static void SetMapSize(vtkLight* light, int mapSizeTexels) VTK_EXPECTS(light != nullptr);
   static int GetMapSize(vtkLight* light) VTK_EXPECTS(light != nullptr);

@@ -1,6 +1,7 @@
 #include "vtkGnomonLightPlacement.h"
 
 #include "lights/Bounds.h"
+#include "lights/LightManager.h"
 
 #include "vtkCamera.h"
 #include "vtkLight.h"
@@ -196,4 +197,14 @@ void vtkGnomonLightPlacement::GetPitchAndYaw(vtkLight* light, double degrees[2])
   degrees[0] = glm::degrees(std::atan2(travel.y, level));
   // Straight up and down, what rounding leaves of the level direction turns anywhere.
   degrees[1] = level > 1e-12 ? glm::degrees(std::atan2(-travel.x, -travel.z)) : 0.0;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonLightPlacement::IsHeadlight(vtkLight* light)
+{
+  if (!light)
+  {
+    vtkErrorWithObjectMacro(light, "vtkGnomonLightPlacement needs a light, not null.");
+  }
+  return light && gnomon::isHeadlight(light);
 }

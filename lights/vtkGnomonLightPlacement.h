@@ -105,6 +105,12 @@ public:
   static void GetPitchAndYaw(vtkLight* light, double degrees[2]) VTK_EXPECTS(light != nullptr);
   ///@}
 
+  /**
+   * True for a headlight, and for a camera light that stands where one does: the camera hardly sees
+   * its shadows, so it casts none unless its key asks.
+   */
+  static bool IsHeadlight(vtkLight* light) VTK_EXPECTS(light != nullptr);
+
 protected:
   vtkGnomonLightPlacement() = default;
   ~vtkGnomonLightPlacement() override = default;

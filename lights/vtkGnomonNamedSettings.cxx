@@ -16,6 +16,7 @@ struct vtkGnomonNamedSettings::Internals
 {
   gnomon::ShadowSettings values;
   std::set<std::string> set; ///< names of the settings that were set
+  std::string error;
 };
 
 namespace
@@ -69,22 +70,26 @@ vtkGnomonNamedSettings::vtkGnomonNamedSettings()
 vtkGnomonNamedSettings::~vtkGnomonNamedSettings() = default;
 
 //------------------------------------------------------------------------------
-std::string vtkGnomonNamedSettings::TrySetting(const char* name, const char* value)
+bool vtkGnomonNamedSettings::TrySetting(const char* name, const char* value)
 {
   const gnomon::Setting* const setting = settingOf(name);
+  std::string& error = this->Internal->error;
   if (!setting)
   {
-    return "Lights have no setting '" + std::string(name ? name : "") +
+    error = "Lights have no setting '" + std::string(name ? name : "") +
       "'. There are: " + gnomon::settingNames();
+    return false;
   }
   gnomon::ShadowSettings& values = this->Internal->values;
   const std::string text = value ? value : "";
   const std::string before = setting->get(values);
   if (!setting->set(values, text))
   {
-    return "Invalid value '" + text + "' for the setting '" + setting->name + "', expected " +
+    error = "Invalid value '" + text + "' for the setting '" + setting->name + "', expected " +
       setting->expected();
+    return false;
   }
+  error.clear();
   if (setting->name == "technique")
   {
     values.named = { setting->name }; // settings for another technique are no errors
@@ -94,17 +99,24 @@ std::string vtkGnomonNamedSettings::TrySetting(const char* name, const char* val
   {
     this->Modified();
   }
-  return {};
+  return true;
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonNamedSettings::SetSetting(const char* name, const char* value)
+bool vtkGnomonNamedSettings::SetSetting(const char* name, const char* value)
 {
-  const std::string why = this->TrySetting(name, value);
-  if (!why.empty())
+  const bool isSet = this->TrySetting(name, value);
+  if (!isSet)
   {
-    vtkErrorMacro(<< why << ".");
+    vtkErrorMacro(<< this->Internal->error << ".");
   }
+  return isSet;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonNamedSettings::GetSettingError() const
+{
+  return this->Internal->error;
 }
 
 //------------------------------------------------------------------------------

@@ -29,10 +29,13 @@ public:
 
   ///@{
   /**
-   * A setting's value as text. An unknown name or an invalid value is an error and changes nothing.
-   * GetSetting() returns an empty string for an unknown name.
+   * A setting's value as text. An unknown name or an invalid value is an error, returns false and
+   * changes nothing. GetSettingError() then says why, as a sentence without a full stop, also while
+   * VTK's warnings are switched off; it is empty after a success. GetSetting() returns an empty
+   * string for an unknown name.
    */
-  virtual void SetSetting(const char* name, const char* value);
+  virtual bool SetSetting(const char* name, const char* value);
+  std::string GetSettingError() const;
   std::string GetSetting(const char* name) const;
   ///@}
 
@@ -58,10 +61,9 @@ public:
   ///@}
 
   /**
-   * Set a setting. Return an empty string, or why the setting was not set, as a sentence without a
-   * full stop.
+   * Do what SetSetting() does without an error.
    */
-  std::string TrySetting(const char* name, const char* value);
+  bool TrySetting(const char* name, const char* value);
 
   ///@{
   /**

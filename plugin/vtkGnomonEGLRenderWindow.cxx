@@ -158,6 +158,7 @@ void vtkGnomonEGLRenderWindow::Start()
 //------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::Render()
 {
+  const gnomon::CurrentContext restored;
   if (this->HasContext())
   {
     this->Superclass::Render();
@@ -167,7 +168,23 @@ void vtkGnomonEGLRenderWindow::Render()
 //------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::MakeCurrent()
 {
-  if (this->Context && !this->Context->makeCurrent())
+  if (this->Context && gnomon::CurrentContext::isOfGlx())
+  {
+    this->Replaced = std::make_unique<gnomon::CurrentContext>();
+  }
+  this->BecomeCurrent();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::BecomeCurrent()
+{
+  if (this->Context && !this->Context->isOfThisProcess())
+  {
+    this->TellOfContext("The process was forked after this window was made, and OpenGL does not "
+                        "follow: fork before, or start a new program (in Python: the start method "
+                        "'spawn' of multiprocessing).");
+  }
+  else if (this->Context && !this->Context->makeCurrent())
   {
     this->TellOfContext("The window's context cannot be made current on this thread (" +
       gnomon::EglContext::lastError() +
@@ -180,7 +197,7 @@ void vtkGnomonEGLRenderWindow::MakeCurrent()
 bool vtkGnomonEGLRenderWindow::HasContext()
 {
   this->Initialize();
-  this->MakeCurrent();
+  this->BecomeCurrent();
   const bool has = this->Initialized && this->IsCurrent();
   if (has)
   {
@@ -196,6 +213,7 @@ void vtkGnomonEGLRenderWindow::ReleaseCurrent()
   {
     eglMakeCurrent(this->Context->display(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
+  this->Replaced.reset();
 }
 
 //------------------------------------------------------------------------------
@@ -207,8 +225,8 @@ bool vtkGnomonEGLRenderWindow::IsCurrent()
 //------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::PushContext()
 {
-  this->ContextStack.push_back(std::make_unique<gnomon::EglCurrentContext>());
-  this->MakeCurrent();
+  this->ContextStack.push_back(std::make_unique<gnomon::CurrentContext>());
+  this->BecomeCurrent();
 }
 
 //------------------------------------------------------------------------------
@@ -250,6 +268,7 @@ void vtkGnomonEGLRenderWindow::OpenGLInitContext()
 //------------------------------------------------------------------------------
 const char* vtkGnomonEGLRenderWindow::ReportCapabilities()
 {
+  const gnomon::CurrentContext restored;
   return this->HasContext() ? this->Superclass::ReportCapabilities() : "";
 }
 
@@ -295,24 +314,51 @@ int* vtkGnomonEGLRenderWindow::GetScreenSize()
 }
 
 //------------------------------------------------------------------------------
-bool vtkGnomonEGLRenderWindow::HasFrame(const void* pixels)
+/// Read or write pixels of the frame.
+/// @param pixels the array for them
+template <typename Call>
+int vtkGnomonEGLRenderWindow::WithFrame(const void* pixels, const Call& call)
 {
   if (!pixels)
   {
     vtkErrorMacro("There is no array to read pixels into or write them from.");
-    return false;
+    return VTK_ERROR;
   }
   if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
   {
     vtkErrorMacro("There are no pixels to read or write before the first Render().");
-    return false;
+    return VTK_ERROR;
   }
-  return this->HasContext();
+  int result = VTK_ERROR;
+  {
+    const gnomon::CurrentContext restored;
+    result = this->HasContext() ? call() : VTK_ERROR;
+  }
+  // Filters make the window current to read it. A selection goes on afterwards.
+  if (!this->IsSelecting())
+  {
+    this->Replaced.reset();
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonEGLRenderWindow::IsSelecting()
+{
+  bool isSelecting = false;
+  vtkCollectionSimpleIterator iterator;
+  this->Renderers->InitTraversal(iterator);
+  while (vtkRenderer* renderer = this->Renderers->GetNextRenderer(iterator))
+  {
+    isSelecting = isSelecting || renderer->GetSelector();
+  }
+  return isSelecting;
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 {
+  const gnomon::CurrentContext restored;
   if (!rgba || !this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
   {
     // A context without a surface has no other buffers, and newer VTK warns when it asks for them.
@@ -332,6 +378,7 @@ int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetDepthBufferSize()
 {
+  const gnomon::CurrentContext restored;
   constexpr int usual = 24;
   if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
   {
@@ -348,88 +395,85 @@ int vtkGnomonEGLRenderWindow::GetDepthBufferSize()
 int vtkGnomonEGLRenderWindow::ReadPixels(
   const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right)
 {
-  return this->HasFrame(data)
-    ? this->Superclass::ReadPixels(rect, front, glFormat, glType, data, right)
-    : VTK_ERROR;
+  return this->WithFrame(
+    data, [&] { return this->Superclass::ReadPixels(rect, front, glFormat, glType, data, right); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, float* z)
 {
-  return this->HasFrame(z) ? this->Superclass::GetZbufferData(x1, y1, x2, y2, z) : VTK_ERROR;
+  return this->WithFrame(z, [&] { return this->Superclass::GetZbufferData(x1, y1, x2, y2, z); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
 {
-  return this->HasFrame(buffer) ? this->Superclass::GetZbufferData(x1, y1, x2, y2, buffer)
-                                : VTK_ERROR;
+  return this->WithFrame(
+    buffer, [&] { return this->Superclass::GetZbufferData(x1, y1, x2, y2, buffer); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetZbufferData(int x1, int y1, int x2, int y2, float* buffer)
 {
-  return this->HasFrame(buffer) ? this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer)
-                                : VTK_ERROR;
+  return this->WithFrame(
+    buffer, [&] { return this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
 {
-  return this->HasFrame(buffer) ? this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer)
-                                : VTK_ERROR;
+  return this->WithFrame(
+    buffer, [&] { return this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetPixelData(
   int x1, int y1, int x2, int y2, unsigned char* data, int front, int right)
 {
-  return this->HasFrame(data) ? this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right)
-                              : VTK_ERROR;
+  return this->WithFrame(
+    data, [&] { return this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetPixelData(
   int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front, int right)
 {
-  return this->HasFrame(data) ? this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right)
-                              : VTK_ERROR;
+  return this->WithFrame(
+    data, [&] { return this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetRGBAPixelData(
   int x1, int y1, int x2, int y2, float* data, int front, int blend, int right)
 {
-  return this->HasFrame(data)
-    ? this->Superclass::SetRGBAPixelData(x1, y1, x2, y2, data, front, blend, right)
-    : VTK_ERROR;
+  return this->WithFrame(data,
+    [&] { return this->Superclass::SetRGBAPixelData(x1, y1, x2, y2, data, front, blend, right); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetRGBAPixelData(
   int x1, int y1, int x2, int y2, vtkFloatArray* data, int front, int blend, int right)
 {
-  return this->HasFrame(data)
-    ? this->Superclass::SetRGBAPixelData(x1, y1, x2, y2, data, front, blend, right)
-    : VTK_ERROR;
+  return this->WithFrame(data,
+    [&] { return this->Superclass::SetRGBAPixelData(x1, y1, x2, y2, data, front, blend, right); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetRGBACharPixelData(
   int x1, int y1, int x2, int y2, unsigned char* data, int front, int blend, int right)
 {
-  return this->HasFrame(data)
-    ? this->Superclass::SetRGBACharPixelData(x1, y1, x2, y2, data, front, blend, right)
-    : VTK_ERROR;
+  return this->WithFrame(data,
+    [&]
+    { return this->Superclass::SetRGBACharPixelData(x1, y1, x2, y2, data, front, blend, right); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::SetRGBACharPixelData(
   int x1, int y1, int x2, int y2, vtkUnsignedCharArray* data, int front, int blend, int right)
 {
-  return this->HasFrame(data)
-    ? this->Superclass::SetRGBACharPixelData(x1, y1, x2, y2, data, front, blend, right)
-    : VTK_ERROR;
+  return this->WithFrame(data,
+    [&]
+    { return this->Superclass::SetRGBACharPixelData(x1, y1, x2, y2, data, front, blend, right); });
 }
 
 //------------------------------------------------------------------------------

@@ -19,9 +19,14 @@
  *
  * Multisampling is off by default (SetMultiSamples). If no context can be made, Initialize() and
  * everything that needs one is an error (vtkErrorMacro), said once, that says what was tried, and
- * nothing is drawn. The window's calls belong on one thread. Another thread may use the window
- * after ReleaseCurrent() on the first; before that, its calls are one error and draw nothing. On a
- * thread where another window system's context (GLX) is current, release that one first.
+ * nothing is drawn.
+ *
+ * <b>Beside other windows and threads.</b> Its functions leave the context of the thread that was
+ * current before, of another window's (of X's, too) or none. So windows may take turns on a thread,
+ * and threads on a window. Initialize(), MakeCurrent() and Start() alone leave the window's context
+ * current, until ReleaseCurrent() or, in place of a context of X, the next reading of pixels. While
+ * it is, calls on another thread are one error and draw nothing, and X's windows on this thread end
+ * the process. A process that was forked afterwards cannot draw, which is one error.
  */
 
 #ifndef vtkGnomonEGLRenderWindow_h
@@ -38,8 +43,8 @@
 namespace gnomon
 {
 class Complaints;
+class CurrentContext;
 class EglContext;
-class EglCurrentContext;
 }
 
 class GNOMONPLUGIN_EXPORT vtkGnomonEGLRenderWindow : public vtkOpenGLRenderWindow
@@ -180,12 +185,16 @@ private:
   vtkGnomonEGLRenderWindow(const vtkGnomonEGLRenderWindow&) = delete;
   void operator=(const vtkGnomonEGLRenderWindow&) = delete;
 
+  void BecomeCurrent();
   bool HasContext();
-  bool HasFrame(const void* pixels);
+  bool IsSelecting();
+  template <typename Call>
+  int WithFrame(const void* pixels, const Call& call);
   void TellOfContext(const std::string& error);
 
   std::unique_ptr<gnomon::EglContext> Context;
-  std::vector<std::unique_ptr<gnomon::EglCurrentContext>> ContextStack;
+  std::vector<std::unique_ptr<gnomon::CurrentContext>> ContextStack;
+  std::unique_ptr<gnomon::CurrentContext> Replaced; // X's, by MakeCurrent()
   std::unique_ptr<gnomon::Complaints> Complaints;
 };
 

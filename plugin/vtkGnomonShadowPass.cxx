@@ -51,6 +51,15 @@ vtkStandardNewMacro(vtkGnomonShadowPass);
 namespace
 {
 
+/// Whether a picture has pixels at all; VTK draws nothing of others.
+bool hasPixels(const vtkRenderState* s)
+{
+  int size[2];
+  int origin[2];
+  s->GetRenderer()->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  return s->GetFrameBuffer() || (size[0] > 0 && size[1] > 0);
+}
+
 /// Whether an outer pass has the scene drawn into a framebuffer of its own. Not all of them say so
 /// in the render state.
 bool drawsIntoOuterPass(const vtkRenderState* s)
@@ -302,6 +311,11 @@ gnomon::ShownPicture vtkGnomonShadowPass::RenderPicture(const vtkRenderState* s)
     this->RenderPlain(s, "the renderer's UseShadows is off");
     return picture;
   }
+  if (!hasPixels(s))
+  {
+    this->TellPlain("its viewport has no pixels");
+    return picture;
+  }
   std::string whyNot = this->Internal->context.enter(this, renderer, { 3, 2 });
   gnomon::Ranks* ranks = nullptr;
   try
@@ -517,7 +531,7 @@ void vtkGnomonShadowPass::TellOfLights(vtkRenderer* renderer)
   const gnomon::FrameReport& report = this->Internal->manager().report();
   for (const std::string& misfit : complaints.news(renderer, gnomon::Topic::Lights, report.misfits))
   {
-    vtkErrorMacro(<< misfit << ".");
+    gnomon::tell(this, vtkCommand::ErrorEvent, misfit + ".");
   }
   const std::string warning = complaints.news(renderer, gnomon::Topic::Headlight,
     report.headlightIsAlone
@@ -525,10 +539,7 @@ void vtkGnomonShadowPass::TellOfLights(vtkRenderer* renderer)
         "light, as vtkGnomonLightPlacement::MakeKeyLight() makes it, or have the "
         "headlight cast by vtkGnomonLightKeys::SetCasts()."
       : "");
-  if (!warning.empty())
-  {
-    vtkWarningMacro(<< warning);
-  }
+  gnomon::tell(this, vtkCommand::WarningEvent, warning);
 }
 
 //------------------------------------------------------------------------------
@@ -538,8 +549,9 @@ void vtkGnomonShadowPass::TellWhatIsLeftOut(vtkRenderer* renderer)
     renderer, gnomon::Topic::LeftOut, this->Internal->manager().report().leftOut));
   if (!kinds.empty())
   {
-    vtkWarningMacro("Visible and lit, but without shadows: "
-      << kinds << ". See docs/guide/what_casts.md for what casts and receives.");
+    gnomon::tell(this, vtkCommand::WarningEvent,
+      "Visible and lit, but without shadows: " + kinds +
+        ". See docs/guide/what_casts.md for what casts and receives.");
   }
 }
 
@@ -781,18 +793,25 @@ vtkGnomonShadowSettings* vtkGnomonShadowPass::GetSettings()
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
+bool vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
 {
   const vtkMTimeType before = this->Internal->settings->GetMTime();
-  const std::string why = this->Internal->settings->TrySetting(name, value);
-  if (!why.empty())
+  const bool isSet = this->Internal->settings->TrySetting(name, value);
+  if (!isSet)
   {
-    vtkErrorMacro(<< why << ".");
+    vtkErrorMacro(<< this->GetSettingError() << ".");
   }
   else if (this->Internal->settings->GetMTime() != before)
   {
     this->Modified();
   }
+  return isSet;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonShadowPass::GetSettingError() const
+{
+  return this->Internal->settings->GetSettingError();
 }
 
 //------------------------------------------------------------------------------
@@ -819,9 +838,9 @@ int vtkGnomonShadowPass::GetMapSize() const
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::SetTechnique(const char* name)
+bool vtkGnomonShadowPass::SetTechnique(const char* name)
 {
-  this->SetSetting("technique", name);
+  return this->SetSetting("technique", name);
 }
 
 //------------------------------------------------------------------------------

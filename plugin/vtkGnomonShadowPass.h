@@ -80,7 +80,7 @@ public:
    * TimeBudget allow: plain maps in place of rays for hard shadows, hard shadows or fewer samples
    * of area lights. GetReport() says what it took, and why.
    */
-  virtual void SetTechnique(const char* name);
+  virtual bool SetTechnique(const char* name);
   const char* GetTechnique() const;
   ///@}
 
@@ -119,10 +119,11 @@ public:
   /**
    * The same by name: any of vtkGnomonLightKeys's settings,
    * by name, technique and map size included. A setting that does not exist, and a value that it
-   * does not take, are an error and change nothing. GetSetting returns an empty string for what
-   * does not exist.
+   * does not take, are an error, return false and change nothing; GetSettingError then says why
+   * (vtkGnomonNamedSettings). GetSetting returns an empty string for what does not exist.
    */
-  virtual void SetSetting(const char* name, const char* value);
+  virtual bool SetSetting(const char* name, const char* value);
+  std::string GetSettingError() const;
   std::string GetSetting(const char* name) const;
   ///@}
 

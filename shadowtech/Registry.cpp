@@ -29,8 +29,6 @@ namespace
 
 ///@{
 /// The exact techniques of lights at rest that leave their technique to the pass.
-constexpr const char* restingHard = "silhouette";
-constexpr const char* restingSoft = "penumbra";
 ///@}
 
 template <typename Estimator>

@@ -49,6 +49,10 @@ std::string techniqueNames();
 /// The name by which a light leaves its technique to the pass. The pass chooses an exact technique
 /// while the picture rests, and a fast enough one while it moves (plugin/frame/TechniqueChoice.h).
 inline constexpr const char* automaticTechnique = "auto";
+
+/// What it chooses while the picture rests, of lights with hard and with soft shadows.
+inline constexpr const char* restingHard = "silhouette";
+inline constexpr const char* restingSoft = "penumbra";
 inline constexpr const char* automaticSummary =
   "any: exact while the picture rests, as fast as an error allows while it moves";
 

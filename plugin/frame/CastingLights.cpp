@@ -7,6 +7,7 @@
 #include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/tracing/EdgeSettings.h"
 
+#include <vtkLightCollection.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
@@ -117,11 +118,13 @@ void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::stri
 }
 
 /// True if a light's technique has a setting. A light that leaves its technique to the pass has the
-/// settings of both techniques, at rest and in motion.
+/// settings of all techniques that the pass may choose, in this frame or another.
 bool mayHave(const ShadowLight& light, const std::string& settingName)
 {
+  const auto hasIt = [&](const char* technique)
+  { return has(findTechnique(technique)->estimator->info, settingName); };
   return has(estimatorOfLight(light).info, settingName) ||
-    (isAutomatic(light) && has(findTechnique(plainTechnique)->estimator->info, settingName));
+    (isAutomatic(light) && (hasIt(plainTechnique) || hasIt(restingHard) || hasIt(restingSoft)));
 }
 
 /// Return the errors of named settings that are without effect: a light's own that its technique
@@ -332,6 +335,10 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   LightSet set = this->manager_.collect(renderer, defaults, wishes.casting);
   report.headlightIsAlone = set.headlightIsAlone;
   report.misfits = findMisfits(set.lights, defaults);
+  if (renderer->GetLights()->GetNumberOfItems() == 0)
+  {
+    report.notes.push_back("no light: VTK shades nothing, and nothing casts");
+  }
   if (wishes.isShared)
   {
     for (ShadowLight& light : set.lights)

@@ -1,5 +1,6 @@
 #include "plugin/frame/Complaints.h"
 
+#include <vtkCommand.h>
 #include <vtkObject.h>
 #include <vtkRenderer.h>
 
@@ -52,10 +53,23 @@ std::string Complaints::news(vtkRenderer* renderer, Topic topic, const std::stri
 void Complaints::tellError(
   vtkObject* teller, vtkRenderer* renderer, Topic topic, const std::string& error)
 {
-  const std::string news = this->news(renderer, topic, error);
-  if (!news.empty())
+  tell(teller, vtkCommand::ErrorEvent, this->news(renderer, topic, error));
+}
+
+//------------------------------------------------------------------------------
+void tell(vtkObject* teller, unsigned long event, const std::string& text)
+{
+  if (!text.empty() && teller->HasObserver(event))
   {
-    vtkErrorWithObjectMacro(teller, << news);
+    teller->InvokeEvent(event, const_cast<char*>(text.c_str())); // as VTK's macros do
+  }
+  else if (!text.empty() && event == vtkCommand::ErrorEvent)
+  {
+    vtkErrorWithObjectMacro(teller, << text);
+  }
+  else if (!text.empty())
+  {
+    vtkWarningWithObjectMacro(teller, << text);
   }
 }
 

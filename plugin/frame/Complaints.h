@@ -28,6 +28,12 @@ enum class Topic
   Frame
 };
 
+/// Let an object report an error or a warning. Its observers of the event are told even while VTK's
+/// warnings are switched off, as many programs do for the whole process.
+/// @param event vtkCommand::ErrorEvent or WarningEvent
+/// @param text empty for none
+void tell(vtkObject* teller, unsigned long event, const std::string& text);
+
 /// What an object says of its frames: each text once, until it is no longer true of any renderer.
 class Complaints
 {

@@ -317,7 +317,8 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
   {
     report.notes.push_back("The window has " + std::to_string(samples) +
       " samples per pixel, and the image route one visibility, that of the surface at the pixel's "
-      "centre: what covers other samples has that of the nearest surface at a centre around.");
+      "centre: what covers other samples has that of the nearest surface at a centre around. The "
+      "setting edge_samples smooths edges of shadows.");
   }
 
   std::vector<ShadedLight> shaded;

@@ -43,9 +43,10 @@ ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* re
   }
   if (auto* follower = vtkFollower::SafeDownCast(actor))
   {
-    // An assembly places its parts by PokeMatrix(), which puts a follower elsewhere. A
+    // An assembly places its parts by PokeMatrix(), which puts a follower of a camera elsewhere. A
     // vtkAxisFollower computes its matrix only while it is drawn.
-    const bool served = matrix == actor->GetMatrix() && !actor->IsA("vtkAxisFollower");
+    const bool served =
+      (!follower->GetCamera() || matrix == actor->GetMatrix()) && !actor->IsA("vtkAxisFollower");
     return served ? ActorDrawing{ FollowerAccess::device(follower), actor->GetMapper(), matrix }
                   : ActorDrawing{};
   }

@@ -100,6 +100,13 @@ bool askedToCast(vtkProp* viewProp)
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
 }
 
+/// True unless its keys keep a prop both from casting and from receiving.
+bool mayCastOrReceive(vtkProp* viewProp)
+{
+  return !viewProp->GetPropertyKeys() || vtkGnomonPropKeys::GetCasts(viewProp) ||
+    vtkGnomonPropKeys::GetReceives(viewProp);
+}
+
 /// True if a light changes how a prop looks. The outlines that VTK's interactor styles put around
 /// what is picked reflect nothing.
 bool showsLight(vtkProperty* property)
@@ -138,8 +145,11 @@ bool isLit(vtkProp* leaf)
   {
     return slice->GetProperty()->GetDiffuse() > 0.0;
   }
-  const bool isText = leaf->IsA("vtkTextActor3D") || leaf->IsA("vtkBillboardTextActor3D");
-  return leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly") && !isText;
+  const char* const annotations[] = { "vtkTextActor3D", "vtkBillboardTextActor3D", "vtkLightActor",
+    "vtkAxesActor", "vtkAnnotatedCubeActor" };
+  return leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly") &&
+    std::none_of(std::begin(annotations), std::end(annotations),
+      [leaf](const char* name) { return leaf->IsA(name); });
 }
 
 /// True if VTK culls a prop for lack of bounds. A mapper of solids computes its bounds from cells,
@@ -168,6 +178,8 @@ public:
   void addViewProp(vtkProp* viewProp, int number)
   {
     const std::size_t first = this->drawn_.props.size();
+    this->number_ = number;
+    this->isAsked_ = mayCastOrReceive(viewProp);
     this->addViewProp(viewProp);
     std::for_each(this->drawn_.props.begin() + static_cast<std::ptrdiff_t>(first),
       this->drawn_.props.end(), [number](DrawnProp& prop) { prop.number = number; });
@@ -187,18 +199,49 @@ private:
   bool updateInput(vtkMapper* mapper, MapperKind kind);
   void skip(vtkObjectBase* what, const char* why)
   {
-    ++this->skipped_[std::string(what->GetClassName()) + " (" + why + ")"];
+    if (this->isAsked_)
+    {
+      auto* const actor = vtkActor::SafeDownCast(what);
+      this->name(this->skipped_[std::string(what->GetClassName()) + " (" + why + ")"],
+        actor ? actor->GetMapper() : vtkMapper::SafeDownCast(what));
+    }
   }
+
+  /// Props of which something is to be told.
+  struct NamedProps
+  {
+    int count = 0;
+    std::string names; ///< of the first ones: numbers in GetViewProps(), with the data's sources
+  };
+  void name(NamedProps& props, vtkMapper* mapper) const;
 
   vtkRenderer* renderer_;
   PropMemory& memory_;
   DrawnProps drawn_;
   std::unordered_set<vtkMapper*> updated_;
-  std::map<std::string, int> skipped_; ///< props left out, with their number
+  int number_ = 0;                            ///< of the view prop
+  bool isAsked_ = false;                      ///< its keys let it cast or receive
+  std::map<std::string, NamedProps> skipped_; ///< props left out
+  NamedProps unlit_, notCasting_;
   std::map<std::string, int>
     uncut_;       ///< why props cast without a texture's holes, with their number
   int moved_ = 0; ///< number of props whose vertices shader code may move
 };
+
+//------------------------------------------------------------------------------
+void Finder::name(NamedProps& props, vtkMapper* mapper) const
+{
+  constexpr int mostNames = 5;
+  if (++props.count > mostNames)
+  {
+    return;
+  }
+  vtkAlgorithm* const source =
+    mapper && mapper->GetNumberOfInputConnections(0) > 0 ? mapper->GetInputAlgorithm() : nullptr;
+  props.names += (props.count > 1 ? ", " : "") + std::to_string(this->number_) +
+    (source && !source->IsA("vtkTrivialProducer") ? std::string(" (") + source->GetClassName() + ")"
+                                                  : "");
+}
 
 //------------------------------------------------------------------------------
 void Finder::addViewProp(vtkProp* viewProp)
@@ -398,7 +441,11 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   if (opaque)
   {
     add(false);
-    if (eitherOr && !seenThrough && !prop.isMoved && !sizedInPixels && viewProp == actor &&
+    if (!lit && prop.receives && this->isAsked_)
+    {
+      this->name(this->unlit_, mapper);
+    }
+    if (eitherOr && lit && !seenThrough && !prop.isMoved && !sizedInPixels && viewProp == actor &&
       this->drawn_.props.size() > before)
     {
       this->memory_.plainProps.remember(actor);
@@ -407,6 +454,10 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   if (translucent && askedToCast(viewProp))
   {
     add(true);
+  }
+  else if (translucent && prop.casts && this->isAsked_)
+  {
+    this->name(this->notCasting_, mapper);
   }
   if (prop.casts && this->drawn_.props.size() > before)
   {
@@ -561,12 +612,23 @@ bool Finder::updateInput(vtkMapper* mapper, MapperKind kind)
 //------------------------------------------------------------------------------
 DrawnProps Finder::take()
 {
-  for (const auto& [what, count] : this->skipped_)
+  const auto tell = [this](const NamedProps& props, const std::string& one, const std::string& many)
+  {
+    if (props.count > 0)
+    {
+      this->drawn_.notes.push_back(std::to_string(props.count) +
+        (props.count == 1 ? " prop " + one + ": view prop " : " props " + many + ": view props ") +
+        props.names);
+    }
+  };
+  for (const auto& [what, props] : this->skipped_)
   {
     this->drawn_.leftOut.push_back(what);
-    this->drawn_.notes.push_back(what + " (" + std::to_string(count) +
-      (count == 1 ? " prop neither casts nor receives)" : " props neither cast nor receive)"));
+    tell(props, "neither casts nor receives, " + what, "neither cast nor receive, " + what);
   }
+  tell(this->unlit_, "is unlit and shows no shadow", "are unlit and show no shadow");
+  tell(this->notCasting_, "is translucent and casts nothing unless its key asks",
+    "are translucent and cast nothing unless their keys ask");
   for (const auto& [why, count] : this->uncut_)
   {
     this->drawn_.notes.push_back("holes in textures are not cut out of shadows: " + why + " (" +

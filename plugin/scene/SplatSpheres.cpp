@@ -66,8 +66,9 @@ const char* reasonAgainstSplats(vtkPointGaussianMapper* mapper)
     : mapper->GetScaleFactor() == 0.0         ? "points"
     : mapper->GetOpacityArray()               ? "its splats are blended"
     : mapper->GetNumberOfClippingPlanes() > 0 ? "clipped"
-    : !code || !std::strstr(code, "discard")  ? "its shader code cuts out no discs"
-                                              : nullptr;
+    : !code || !std::strstr(code, "discard")
+    ? "its splat shader code (SetSplatShaderCode) discards nothing, so it has no discs"
+    : nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -20,8 +20,7 @@ namespace
 vtkPolyData* inputOf(vtkProp* prop, const SurfaceKey& key)
 {
   auto* const actor = vtkActor::SafeDownCast(prop);
-  if (!actor || actor != key.actor || !actor->GetMapper() || key.glyphPoints ||
-    solidOf(key.cells) != Solid::None)
+  if (!actor || !actor->GetMapper() || key.glyphPoints || solidOf(key.cells) != Solid::None)
   {
     return nullptr;
   }

@@ -2,11 +2,16 @@
 
 #include <EGL/eglext.h>
 
+#include <dlfcn.h>
+#include <unistd.h>
+
 #include <array>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -87,6 +92,13 @@ Candidate deviceCandidate(const std::vector<EGLDeviceEXT>& devices, std::size_t 
 
 std::vector<Candidate> listCandidates(int deviceIndex)
 {
+  static const pid_t firstProcess = getpid();
+  if (getpid() != firstProcess)
+  {
+    throw std::runtime_error("the process was forked after it had used EGL, which does not follow: "
+                             "fork before, or start a new program (in Python: the start method "
+                             "'spawn' of multiprocessing)");
+  }
   const std::vector<EGLDeviceEXT> devices = listDevices();
   if (deviceIndex >= 0)
   {
@@ -163,6 +175,52 @@ private:
   EGLDisplay display_;
 };
 
+/// GLX's functions, if the process has it loaded.
+struct Glx
+{
+  void* (*getCurrentContext)();
+  void* (*getCurrentDisplay)();
+  unsigned long (*getCurrentDrawable)();
+  unsigned long (*getCurrentReadDrawable)();
+  int (*makeContextCurrent)(void* display, unsigned long draw, unsigned long read, void* context);
+
+  static std::optional<Glx> find()
+  {
+    void* library = nullptr;
+    for (const char* name : { "libGLX.so.0", "libGL.so.1" })
+    {
+      library = library ? library : dlopen(name, RTLD_LAZY | RTLD_NOLOAD);
+    }
+    if (!library)
+    {
+      return std::nullopt;
+    }
+    Glx glx{};
+    const auto load = [library](auto& function, const char* name)
+    {
+      function = reinterpret_cast<std::decay_t<decltype(function)>>(dlsym(library, name));
+      return function != nullptr;
+    };
+    const bool hasAll = load(glx.getCurrentContext, "glXGetCurrentContext") &&
+      load(glx.getCurrentDisplay, "glXGetCurrentDisplay") &&
+      load(glx.getCurrentDrawable, "glXGetCurrentDrawable") &&
+      load(glx.getCurrentReadDrawable, "glXGetCurrentReadDrawable") &&
+      load(glx.makeContextCurrent, "glXMakeContextCurrent");
+    dlclose(library); // whoever has loaded it keeps it
+    return hasAll ? std::optional(glx) : std::nullopt;
+  }
+};
+
+/// Leave this thread without a context of GLX, beside which EGL has none.
+void releaseGlx()
+{
+  if (CurrentContext::isOfGlx())
+  {
+    const std::optional<Glx> glx = Glx::find();
+    glx->makeContextCurrent(glx->getCurrentDisplay(), 0, 0, nullptr);
+  }
+}
+
 EGLContext createContext(EGLDisplay display, EGLConfig config, int majorVersion, int minorVersion)
 {
   const std::array<EGLint, 7> attributes{ EGL_CONTEXT_MAJOR_VERSION, majorVersion,
@@ -233,6 +291,7 @@ struct EglContext::Handles
       const std::array<EGLint, 5> size{ EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE };
       this->surface = eglCreatePbufferSurface(this->display.get(), config, size.data());
     }
+    releaseGlx();
     if (!eglMakeCurrent(this->display.get(), this->surface, this->surface, this->context))
     {
       throw std::runtime_error("the context cannot be made current (" + lastError() + ")");
@@ -240,6 +299,7 @@ struct EglContext::Handles
   }
 
   DisplayUse display;
+  pid_t process = getpid();
   EGLContext context = EGL_NO_CONTEXT;
   EGLSurface surface = EGL_NO_SURFACE;
 };
@@ -267,20 +327,36 @@ EglContext::EglContext(const EglRequest& request)
 }
 
 //------------------------------------------------------------------------------
-EglContext::~EglContext() = default;
+EglContext::~EglContext()
+{
+  if (!this->isOfThisProcess())
+  {
+    static_cast<void>(this->handles_.release()); // whose destruction would wait for threads
+  }
+}
 
 //------------------------------------------------------------------------------
 bool EglContext::makeCurrent() const
 {
-  return this->isCurrent() ||
-    eglMakeCurrent(this->handles_->display.get(), this->handles_->surface, this->handles_->surface,
-      this->handles_->context);
+  if (this->isCurrent())
+  {
+    return true;
+  }
+  releaseGlx();
+  return eglMakeCurrent(this->handles_->display.get(), this->handles_->surface,
+    this->handles_->surface, this->handles_->context);
 }
 
 //------------------------------------------------------------------------------
 bool EglContext::isCurrent() const
 {
-  return eglGetCurrentContext() == this->handles_->context;
+  return this->isOfThisProcess() && eglGetCurrentContext() == this->handles_->context;
+}
+
+//------------------------------------------------------------------------------
+bool EglContext::isOfThisProcess() const
+{
+  return this->handles_->process == getpid();
 }
 
 //------------------------------------------------------------------------------
@@ -324,20 +400,41 @@ std::string EglContext::lastError()
 }
 
 //------------------------------------------------------------------------------
-EglCurrentContext::EglCurrentContext()
+bool CurrentContext::isOfGlx()
+{
+  const std::optional<Glx> glx = Glx::find();
+  return glx && glx->getCurrentContext();
+}
+
+//------------------------------------------------------------------------------
+CurrentContext::CurrentContext()
   : display_(eglGetCurrentDisplay())
   , draw_(eglGetCurrentSurface(EGL_DRAW))
   , read_(eglGetCurrentSurface(EGL_READ))
   , context_(eglGetCurrentContext())
 {
+  const std::optional<Glx> glx = Glx::find();
+  if (glx && glx->getCurrentContext())
+  {
+    this->glxDisplay_ = glx->getCurrentDisplay();
+    this->glxDraw_ = glx->getCurrentDrawable();
+    this->glxRead_ = glx->getCurrentReadDrawable();
+    this->glxContext_ = glx->getCurrentContext();
+  }
 }
 
 //------------------------------------------------------------------------------
-EglCurrentContext::~EglCurrentContext()
+CurrentContext::~CurrentContext()
 {
-  if (this->context_ != EGL_NO_CONTEXT && this->context_ != eglGetCurrentContext())
+  const EGLContext current = eglGetCurrentContext();
+  if (this->context_ != current)
   {
-    eglMakeCurrent(this->display_, this->draw_, this->read_, this->context_);
+    eglMakeCurrent(this->context_ != EGL_NO_CONTEXT ? this->display_ : eglGetCurrentDisplay(),
+      this->draw_, this->read_, this->context_);
+  }
+  if (const std::optional<Glx> glx = Glx::find(); glx && this->glxContext_)
+  {
+    glx->makeContextCurrent(this->glxDisplay_, this->glxDraw_, this->glxRead_, this->glxContext_);
   }
 }
 

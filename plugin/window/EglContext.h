@@ -36,9 +36,12 @@ public:
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
 
-  /// Make the context current. False if EGL refuses; lastError() then says why.
+  /// Make the context current, in place of one of GLX, too. False if EGL refuses; lastError() then
+  /// says why.
   bool makeCurrent() const;
   bool isCurrent() const;
+  /// True if the process was not forked since.
+  bool isOfThisProcess() const;
   EGLDisplay display() const;
   EGLContext context() const;
   /// Return the context's place for display: "EGL device 0", "EGL surfaceless platform", ...
@@ -55,20 +58,30 @@ private:
   std::string platform_;
 };
 
-/// Remembers this thread's current context and restores it on destruction.
-class EglCurrentContext
+/// Remembers this thread's current context, of EGL or GLX, or that it has none, and restores that on
+/// destruction. A thread has one or the other: while it has one of EGL, GLX ends the process.
+class CurrentContext
 {
 public:
-  EglCurrentContext();
-  ~EglCurrentContext();
-  EglCurrentContext(const EglCurrentContext&) = delete;
-  EglCurrentContext& operator=(const EglCurrentContext&) = delete;
+  static bool isOfGlx();
+
+  CurrentContext();
+  ~CurrentContext();
+  CurrentContext(const CurrentContext&) = delete;
+  CurrentContext& operator=(const CurrentContext&) = delete;
 
 private:
   EGLDisplay display_;
   EGLSurface draw_;
   EGLSurface read_;
   EGLContext context_;
+  ///@{
+  /// GLX's; null and 0 without.
+  void* glxDisplay_ = nullptr;
+  unsigned long glxDraw_ = 0;
+  unsigned long glxRead_ = 0;
+  void* glxContext_ = nullptr;
+  ///@}
 };
 
 } // namespace gnomon

@@ -21,6 +21,7 @@ std::string PassContext::enter(
   if (window != this->window_ || window->GetContextCreationTime() > this->checked_.GetMTime())
   {
     pass->ReleaseGraphicsResources(this->window_);
+    window->MakeCurrent(); // windows of toolkits do not restore the context that was
     this->window_ = window;
     this->checked_.Modified();
     std::pair<int, int> version;

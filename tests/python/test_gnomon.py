@@ -1,6 +1,8 @@
 """The Python package: shadows by one call, data as NumPy arrays, pictures as tests."""
 
+import contextlib
 import gc
+import io
 import os
 import tempfile
 import unittest
@@ -8,7 +10,7 @@ import warnings
 from unittest import mock
 
 import numpy
-from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonCore import vtkObject, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkFiltersSources import vtkPointSource, vtkSphereSource
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
@@ -70,6 +72,93 @@ class Shadows(unittest.TestCase):
         del shadows, scene
         gc.collect()
         self.assertTrue((first == copy).all())
+
+    def test_wrong_settings_are_errors_while_warnings_are_off(self):
+        for shown in (True, False):
+            vtkObject.SetGlobalWarningDisplay(shown)
+            try:
+                for settings in ({"technique": "silhouete"}, {"light_radius": -3}, {"kernel": 1}):
+                    with self.subTest(settings=settings), self.assertRaises(ValueError):
+                        gnomon.add_shadows(vtkRenderer(), **settings)
+                self.assertEqual(vtkObject.GetGlobalWarningDisplay(), shown)
+            finally:
+                vtkObject.GlobalWarningDisplayOn()
+
+    def test_settings_say_why_they_are_refused(self):
+        light = vtkLight()
+        shadows = gnomon.vtkGnomonShadowPass()
+        vtkObject.GlobalWarningDisplayOff()
+        try:
+            for taker, given in (
+                (shadows, ()),
+                (shadows.GetSettings(), ()),
+                (gnomon.vtkGnomonLightKeys, (light,)),
+            ):
+                with self.subTest(taker=taker):
+                    self.assertFalse(taker.SetSetting(*given, "map_size", "wide"))
+                    self.assertIn("Invalid value 'wide'", taker.GetSettingError())
+                    self.assertFalse(taker.SetSetting(*given, "mapsize", "512"))
+                    self.assertIn("no setting 'mapsize'", taker.GetSettingError())
+                    self.assertTrue(taker.SetSetting(*given, "map_size", "512"))
+                    self.assertEqual(taker.GetSettingError(), "")
+        finally:
+            vtkObject.GlobalWarningDisplayOn()
+
+    def test_what_a_pass_says_is_a_warning_while_those_of_vtk_are_off(self):
+        scene = Scene()
+        scene.ball.GetProperty().SetRepresentationToWireframe()
+        gnomon.add_shadows(scene.renderer)
+        vtkObject.GlobalWarningDisplayOff()
+        try:
+            with self.assertWarnsRegex(UserWarning, "without shadows: .*wireframe"):
+                scene.window.Render()
+        finally:
+            vtkObject.GlobalWarningDisplayOn()
+
+    def test_why_prints_what_is_known(self):
+        def said_of(renderer):
+            with contextlib.redirect_stdout(io.StringIO()) as output:
+                gnomon.why(renderer)
+            return output.getvalue()
+
+        scene = Scene()
+        self.assertIn("drawn by no pass", said_of(scene.renderer))
+        gnomon.add_shadows(scene.renderer)
+        self.assertIn("Nothing was drawn yet", said_of(scene.renderer))
+        scene.window.Render()
+        self.assertIn("nothing is left out", said_of(scene.renderer))
+        scene.ball.GetProperty().SetOpacity(0.5)
+        head = vtkLight()
+        head.SetLightTypeToHeadlight()
+        scene.renderer.AddLight(head)
+        scene.window.Render()
+        said = said_of(scene.renderer)
+        self.assertIn("Light 1 casts nothing: a headlight.", said)
+        self.assertIn("is translucent and casts nothing unless its key asks", said)
+        steps = vtkRenderStepsPass()
+        scene.renderer.SetPass(steps)
+        scene.window.Render()
+        self.assertIn("drawn by vtkRenderStepsPass", said_of(scene.renderer))
+
+    def test_a_report_outlives_its_window(self):
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer)
+        shadows.KeepVisibilityOn()
+        scene.window.Render()
+        report, seen = gnomon.report(shadows), gnomon.visibility(shadows)
+        scene.window.Finalize()
+        self.assertEqual(gnomon.report(shadows), report)
+        self.assertTrue((gnomon.visibility(shadows)["light 0"] == seen["light 0"]).all())
+
+    def test_removed_shadows_leave_no_observer(self):
+        renderer = vtkRenderer()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for _ in range(50):
+                gnomon.add_shadows(renderer)
+                gnomon.remove_shadows(renderer)
+        for event in ("DeleteEvent", "StartEvent"):
+            self.assertFalse(renderer.HasObserver(event))
 
     def test_nothing_is_kept_unless_asked_for(self):
         scene = Scene()

@@ -36,9 +36,10 @@ from .GnomonPlugin import (
     vtkGnomonShadowPass,
     vtkGnomonVisibilityFilter,
 )
-from .errors import collect_errors
+from .errors import raising, warn_of
 from .holders import taking_holders, unwrap
 from .images import assert_images_equal
+from .why import reasons
 
 if TYPE_CHECKING:
     from typing import Protocol
@@ -63,6 +64,7 @@ __all__ = [
     "report",
     "sun_path",
     "visibility",
+    "why",
     "vtkGnomonAreaLight",
     "vtkGnomonEGLRenderWindow",
     "vtkGnomonLightKeys",
@@ -141,8 +143,9 @@ def add_shadows(
     if replaced is not None:
         chain = _name_chain(replaced)
         warnings.warn(f"The renderer's pass gave way to shadows: {chain}.", stacklevel=2)
-    _before[address] = (shadows, replaced, _replace_headlight(renderer))
-    renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))
+    observers = [renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))]
+    _before[address] = (shadows, replaced, _replace_headlight(renderer, observers), observers)
+    warn_of(shadows)
     renderer.SetPass(shadows)
     return shadows
 
@@ -166,7 +169,9 @@ def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
     renderer = _renderer_of(target)
     if _address_of(renderer) not in _before:
         return
-    shadows, render_pass, lights = _before.pop(_address_of(renderer))
+    shadows, render_pass, lights, observers = _before.pop(_address_of(renderer))
+    for observer in observers:
+        renderer.RemoveObserver(observer)
     if renderer.GetPass() is shadows:
         renderer.SetPass(render_pass)
     if lights is not None:
@@ -227,6 +232,27 @@ def visibility(shadows: vtkGnomonShadowPass) -> dict[str, numpy.ndarray]:
     return arrays
 
 
+def why(target: vtkRenderer | _HasRenderer) -> None:
+    """Print why a renderer shows no shadow, or not all: what its last frame reports.
+
+    Parameters
+    ----------
+    target : vtkRenderer or what has one
+        As for `add_shadows`.
+
+    Raises
+    ------
+    TypeError
+        For a target that is no renderer, and has none.
+    """
+    renderer = _renderer_of(target)
+    shadows = _before.get(_address_of(renderer), [None])[0]
+    if isinstance(renderer.GetPass(), vtkGnomonShadowPass):
+        shadows = renderer.GetPass()
+    told = reasons(renderer, shadows and report(shadows), _name_chain)
+    print("\n".join(told))
+
+
 def _renderer_of(target):
     renderer = unwrap(target)
     if not isinstance(renderer, vtkRenderer):
@@ -248,11 +274,8 @@ def _name_chain(render_pass):
 def _set(shadows, name, value):
     is_switch = type(value).__name__ in ("bool", "bool_")  # NumPy's, too
     text = ("on" if value else "off") if is_switch else str(value)
-    errors, observer = collect_errors(shadows)
-    shadows.SetSetting(name, text)
-    shadows.RemoveObserver(observer)
-    if errors:
-        raise ValueError(errors[0])
+    with raising(shadows):
+        shadows.SetSetting(name, text)
 
 
 def _address_of(renderer):
@@ -268,7 +291,7 @@ def _gives_light(light):
     return light.GetSwitch() and light.GetIntensity() != 0 and any(light.GetDiffuseColor())
 
 
-def _replace_headlight(renderer):
+def _replace_headlight(renderer, observers):
     """Exchange a lone headlight for a key light.
 
     Returns the key light, the headlight (None where there was none yet), and whether the renderer
@@ -280,7 +303,9 @@ def _replace_headlight(renderer):
     casts = vtkGnomonLightKeys.CASTS()
     if len(lit) > 1 or (all_lights and not lit) or (not all_lights and not creates):
         return None
-    if lit and (not lit[0].LightTypeIsHeadlight() or lit[0].GetInformation().Has(casts)):
+    if lit and (
+        not vtkGnomonLightPlacement.IsHeadlight(lit[0]) or lit[0].GetInformation().Has(casts)
+    ):
         return None
     warnings.warn(
         "The only light was a headlight, which shows no shadow: a key light took its place.",
@@ -299,6 +324,7 @@ def _replace_headlight(renderer):
                 caller.RemoveObserver(observer)
 
         observer = renderer.AddObserver("StartEvent", place_later)
+        observers.append(observer)
     return key, headlight, creates
 
 

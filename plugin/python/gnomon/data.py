@@ -13,7 +13,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
-from .errors import collect_errors
+from .errors import raising
 from .GnomonLights import vtkGnomonSun
 from .GnomonPlugin import vtkGnomonVisibilityFilter
 
@@ -56,14 +56,12 @@ def sun_path(
     """
     day = datetime.date.fromisoformat(str(date))
     sun = vtkGnomonSun()
-    errors, _ = collect_errors(sun)
-    sun.SetPlace(latitude, longitude)
-    sun.SetDate(day.year, day.month, day.day)
-    sun.SetTime(12, 0, 0.0, zone)
     directions, hours = vtkDoubleArray(), vtkDoubleArray()
-    sun.MakeDayPath(minutes, directions, hours)
-    if errors:
-        raise ValueError(errors[0])
+    with raising(sun):
+        sun.SetPlace(latitude, longitude)
+        sun.SetDate(day.year, day.month, day.day)
+        sun.SetTime(12, 0, 0.0, zone)
+        sun.MakeDayPath(minutes, directions, hours)
     return vtk_to_numpy(directions), vtk_to_numpy(hours)
 
 
@@ -113,16 +111,14 @@ def hours_lit(
     towards = _array("directions", directions, (None, 3), float)
     count = len(towards)
     shines = _array("hours", numpy.ones(count) if hours is None else hours, (count,), float)
-    errors, _ = collect_errors(shadows)
-    shadows.AddDirections(numpy_to_vtk(towards), numpy_to_vtk(shines))
-    shadows.SetSamples(samples)
-    shadows.SetAngularDiameter(angular_diameter)
-    shadows.ComputeReasonsOff()
-    if not errors:
-        with _interruptible(shadows):
-            shadows.Update()
-    if errors:
-        raise ValueError(errors[0])
+    with raising(shadows) as errors:
+        shadows.AddDirections(numpy_to_vtk(towards), numpy_to_vtk(shines))
+        shadows.SetSamples(samples)
+        shadows.SetAngularDiameter(angular_diameter)
+        shadows.ComputeReasonsOff()
+        if not errors:
+            with _interruptible(shadows):
+                shadows.Update()
     data = shadows.GetOutput().GetCellData()
     return vtk_to_numpy(data.GetArray(shadows.GetHoursName()))
 

@@ -1,12 +1,47 @@
-"""VTK's errors, for exceptions."""
+"""VTK's errors and warnings, for exceptions and Python's warnings."""
+
+import warnings
+from contextlib import contextmanager
+
+from vtkmodules.vtkCommonCore import vtkObject
 
 
-def collect_errors(caller):
-    """Return a list that gets the text of each error of a VTK object, and the observer's number."""
+def _text_of(message):
+    return message.split("): ", 1)[-1].strip()
+
+
+@contextmanager
+def raising(*callers):
+    """Raise the first error that VTK objects report; gives a list of the errors.
+
+    Many programs switch VTK's warnings off for the whole process, and VTK then reports nothing: here
+    they are on.
+    """
     errors = []
 
     def take(_caller, _event, message):
-        errors.append(message.split("): ", 1)[-1].strip())
+        errors.append(_text_of(message))
 
     take.CallDataType = "string0"
-    return errors, caller.AddObserver("ErrorEvent", take)
+    before = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.GlobalWarningDisplayOn()
+    observers = [(caller, caller.AddObserver("ErrorEvent", take)) for caller in callers]
+    try:
+        yield errors
+    finally:
+        for caller, observer in observers:
+            caller.RemoveObserver(observer)
+        vtkObject.SetGlobalWarningDisplay(before)
+    if errors:
+        raise ValueError(errors[0])
+
+
+def warn_of(caller):
+    """Have Python warn of what a pass says of its frames."""
+
+    def warn(_caller, _event, message):
+        warnings.warn(_text_of(message), stacklevel=2)
+
+    warn.CallDataType = "string0"
+    for event in ("ErrorEvent", "WarningEvent"):
+        caller.AddObserver(event, warn)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
 from .data import _array, _polydata
-from .errors import collect_errors
+from .errors import raising
 from .GnomonPlugin import vtkGnomonEGLRenderWindow
 from .images import _pixels, _write
 
@@ -78,9 +78,6 @@ def draw(
     window.SetSize(*size)
     window.AddRenderer(renderer)
     shadows = add_shadows(renderer, None if technique is None else str(technique), **settings)
-    errors, _ = collect_errors(shadows)
-    errors_of_window, _ = collect_errors(window)
-    picture = _pixels(window)
-    if errors or errors_of_window:
-        raise ValueError((errors_of_window + errors)[0])
+    with raising(window, shadows):
+        picture = _pixels(window)
     _write(picture, str(path))

@@ -175,6 +175,7 @@ void PassScene::lookFrom(const glm::dvec3& position, const glm::dvec3& target)
 Picture PassScene::render()
 {
   this->window->Render();
+  this->window->MakeCurrent();
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   EXPECT_EQ(this->report().numbersWrong > 0, this->numbersAreWrong);
   return readPicture(this->window);

@@ -39,6 +39,7 @@
 #include <string>
 
 using namespace gnomon::test;
+using gnomon::VisibilityImages;
 
 namespace
 {
@@ -451,6 +452,60 @@ TEST_P(Props, followersCastAsTheyFaceTheCamera)
   const Picture straight = this->scene.render();
   EXPECT_GT(differingPixels(rolled, straight, 100), 50u);
   EXPECT_TRUE(this->dark(2.3, 3.3));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, followersWithoutACameraAreActors)
+{
+  const auto alone = [](vtkProp3D* part) { return vtkSmartPointer<vtkProp>(part); };
+  const auto inAssembly = [](vtkProp3D* part)
+  {
+    vtkNew<vtkAssembly> assembly;
+    assembly->AddPart(part);
+    assembly->SetPosition(0.5, 0.0, 0.0);
+    return vtkSmartPointer<vtkProp>(assembly);
+  };
+  const auto inAssemblyOfAssembly = [&](vtkProp3D* part)
+  { return inAssembly(vtkProp3D::SafeDownCast(inAssembly(part))); };
+  const auto inPropAssembly = [](vtkProp3D* part)
+  {
+    vtkNew<vtkPropAssembly> assembly;
+    assembly->AddPart(part);
+    return vtkSmartPointer<vtkProp>(assembly);
+  };
+  const auto followed = [&](vtkProp3D* part)
+  {
+    vtkNew<vtkProp3DFollower> follower;
+    follower->SetProp3D(part);
+    follower->SetCamera(this->scene.renderer->GetActiveCamera());
+    return vtkSmartPointer<vtkProp>(follower);
+  };
+  using Hold = std::function<vtkSmartPointer<vtkProp>(vtkProp3D*)>;
+  for (const Hold& hold : { Hold(alone), Hold(inAssembly), Hold(inAssemblyOfAssembly),
+         Hold(inPropAssembly), Hold(followed) })
+  {
+    vtkNew<vtkSphereSource> ball;
+    ball->SetCenter(0.0, 3.0, 2.0);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(ball->GetOutputPort());
+    const auto draw = [&](vtkActor* actor)
+    {
+      actor->SetMapper(mapper);
+      const vtkSmartPointer<vtkProp> prop = hold(actor);
+      this->scene.renderer->AddViewProp(prop);
+      const VisibilityImages kept = drawKept(this->scene);
+      EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
+      this->scene.renderer->RemoveViewProp(prop);
+      return kept;
+    };
+    const VisibilityImages ofActor = draw(vtkNew<vtkActor>());
+    const VisibilityImages ofFollower = draw(vtkNew<vtkFollower>());
+    EXPECT_EQ(ofFollower.visibility, ofActor.visibility);
+    EXPECT_EQ(ofFollower.cell, ofActor.cell);
+    EXPECT_EQ(ofFollower.prop, ofActor.prop);
+    EXPECT_GT(
+      std::count(ofActor.visibility.front().begin(), ofActor.visibility.front().end(), 0.0f), 10);
+  }
 }
 
 //------------------------------------------------------------------------------

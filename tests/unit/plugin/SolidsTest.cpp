@@ -1116,7 +1116,7 @@ TEST_F(SolidsTest, splatsWithoutDiscsAreListed)
   expectListed("its splats are blended");
   scene.splats->SetOpacityArray(nullptr);
   scene.splats->SetSplatShaderCode(nullptr);
-  expectListed("its shader code cuts out no discs");
+  expectListed("its splat shader code (SetSplatShaderCode) discards nothing, so it has no discs");
   scene.splats->SetScaleFactor(0.0);
   expectListed("points");
 }

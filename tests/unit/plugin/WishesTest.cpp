@@ -376,6 +376,7 @@ TEST_F(Wishes, severalShadowsOfChosenDirections)
   const ExactFloor exact = floorUnderHalfSuns(standingBox, directions);
   const auto wrong = [&] { return checkFloor(scene, scene.render(), exact, 0.2).wrong(); };
   EXPECT_EQ(wrong(), 0u);
+  scene.pass->SetCasting(vtkGnomonShadowPass::CASTING_ALL);
   for (vtkLight* light : lights)
   {
     light->SetLightTypeToCameraLight();

@@ -16,6 +16,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -177,8 +180,12 @@ TEST_F(EGLRenderWindow, twoWindowsAlternate)
   first->Render();
   const auto firstPicture = readPicture(first);
   second->Render();
-  EXPECT_TRUE(second->IsCurrent());
+  EXPECT_FALSE(second->IsCurrent()) << "pictures leave no context behind";
   EXPECT_FALSE(first->IsCurrent());
+  first->MakeCurrent();
+  second->Render();
+  EXPECT_TRUE(first->IsCurrent()) << "they restore the one before";
+  first->ReleaseCurrent();
   const auto secondPicture = readPicture(second);
   EXPECT_EQ(readPicture(first), firstPicture); // reading makes the right context current
   for (int i = 0; i < 3; ++i)
@@ -410,6 +417,7 @@ TEST_F(EGLRenderWindow, callsOnASecondThreadAreOneErrorUntilTheFirstReleasesTheC
       [&] { window->Finalize(); },
     })
   {
+    window->MakeCurrent();
     std::thread(call).join();
     const std::string errors = this->takeErrors();
     EXPECT_EQ(countErrors(errors), 1) << errors;
@@ -424,9 +432,34 @@ TEST_F(EGLRenderWindow, callsOnASecondThreadAreOneErrorUntilTheFirstReleasesTheC
     {
       window->Render();
       EXPECT_EQ(readPicture(window), picture);
-      window->ReleaseCurrent();
     })
     .join();
+  window->Render();
+  EXPECT_EQ(readPicture(window), picture);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, saysOneErrorInAForkedProcess)
+{
+  const auto window = makeWindow(64, 48);
+  window->Render();
+  const auto picture = readPicture(window);
+  for (const bool isNew : { false, true })
+  {
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      this->takeErrors();
+      const auto drawn = isNew ? makeWindow(64, 48) : window;
+      drawn->Render();
+      drawn->Render();
+      const std::string errors = this->takeErrors();
+      _exit(countErrors(errors) == 1 && errors.find("forked") != std::string::npos ? 0 : 1);
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0) << isNew;
+  }
   window->Render();
   EXPECT_EQ(readPicture(window), picture);
 }

@@ -2,14 +2,22 @@
 
 #include "WindowScene.h"
 
+#include "vtkGnomonShadowPass.h"
+
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkHardwareSelector.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRendererCollection.h>
+#include <vtkSelection.h>
+#include <vtkWindowToImageFilter.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <vector>
 
 using gnomon::test::makeSphereScene;
 using gnomon::test::readPicture;
@@ -41,6 +49,44 @@ TEST(GlxWindow, showsTheSameBytesAsTheWindowWithoutADisplay)
 
   vtkNew<vtkGnomonEGLRenderWindow> withoutDisplay;
   EXPECT_TRUE(draw(withoutDisplay) == expected);
+}
+
+//------------------------------------------------------------------------------
+// A thread has a context of GLX or of EGL. While it has one of EGL, GLX ends the process.
+TEST(GlxWindow, takesTurnsWithTheWindowWithoutADisplay)
+{
+  for (const bool isXFirst : { false, true })
+  {
+    vtkNew<vtkRenderWindow> onDisplay;
+    onDisplay->SetOffScreenRendering(1);
+    vtkNew<vtkGnomonEGLRenderWindow> withoutDisplay;
+    vtkNew<vtkGnomonShadowPass> pass;
+    std::vector<vtkRenderWindow*> windows = { withoutDisplay, onDisplay };
+    if (isXFirst)
+    {
+      std::reverse(windows.begin(), windows.end());
+    }
+    const auto first = draw(windows[0]);
+    EXPECT_EQ(draw(windows[1]), first);
+    windows[0]->GetRenderers()->GetFirstRenderer()->SetPass(pass);
+    for (int turn = 0; turn < 3; ++turn)
+    {
+      for (vtkRenderWindow* window : windows)
+      {
+        window->Render();
+        vtkNew<vtkWindowToImageFilter> grab;
+        grab->SetInput(window);
+        grab->SetInputBufferTypeToRGBA();
+        grab->Update();
+        vtkNew<vtkHardwareSelector> selector;
+        selector->SetRenderer(window->GetRenderers()->GetFirstRenderer());
+        selector->SetArea(0, 0, 20, 20);
+        vtk::TakeSmartPointer(selector->Select());
+        withoutDisplay->ReleaseCurrent(); // which a selection makes current
+      }
+    }
+    EXPECT_EQ(readPicture(windows[1]), first);
+  }
 }
 
 //------------------------------------------------------------------------------

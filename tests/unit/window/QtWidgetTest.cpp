@@ -11,6 +11,7 @@
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRendererCollection.h>
+#include <vtkSmartPointer.h>
 
 #include <QApplication>
 #include <QImage>
@@ -59,7 +60,7 @@ std::vector<unsigned char> drawWithoutDisplay()
   window->AddRenderer(makeSphereScene());
   window->Render();
   return readPicture(window);
-} // one thread holds an EGL or a GLX context, not both
+}
 
 } // namespace
 
@@ -130,4 +131,25 @@ TEST(QtWidget, showsTheSameBytesAsTheWindowWithoutADisplay)
   window->Render();
   processEvents();
   EXPECT_FALSE(readPicture(widget) == expected);
+
+  // One pass in two widgets, by turns.
+  QVTKOpenGLNativeWidget other;
+  vtkNew<vtkGenericOpenGLRenderWindow> otherWindow;
+  otherWindow->SetMultiSamples(0);
+  other.setRenderWindow(otherWindow);
+  other.resize(width, height);
+  const auto otherRenderer = makeSphereScene();
+  otherWindow->AddRenderer(otherRenderer);
+  const vtkSmartPointer<vtkRenderPass> shared = otherRenderer->GetPass();
+  renderer->SetPass(shared);
+  renderer->SetActiveCamera(otherRenderer->GetActiveCamera());
+  other.show();
+  for (int turn = 0; turn < 3; ++turn)
+  {
+    window->Render();
+    otherWindow->Render();
+    processEvents();
+    EXPECT_TRUE(readPicture(widget) == expected);
+    EXPECT_TRUE(readPicture(other) == expected);
+  }
 }
