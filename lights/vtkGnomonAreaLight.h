@@ -38,8 +38,8 @@
  * pass, makes any light such a disk or ball.
  *
  * <b>Errors.</b> A light of size 0 is a point. Some lights cast no shadow, and the frame's report
- * gives the reason: a size that is not finite or immense beside the scene, a light without direction, a rectangle
- * or textured disk with Up along the light, an invalid Texture.
+ * gives the reason: a size that is not finite or immense beside the scene, a light without
+ * direction, a rectangle or textured disk with Up along the light, an invalid Texture.
  */
 
 #ifndef vtkGnomonAreaLight_h

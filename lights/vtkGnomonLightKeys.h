@@ -58,7 +58,7 @@ public:
   /**
    * The keys, for code that fills information objects.
    *
-   * - CASTS is 0 or 1. Default: 1.
+   * - CASTS is 0 or 1. Default: unset, so that the pass chooses (vtkGnomonShadowPass::SetCasting).
    * - SETTINGS holds SetSetting()'s names and values, alternating.
    * - BOX limits a directional light to a box, see above. Its numbers are width, height and depth
    *   in world units, each > 0, and the up direction x, y, z of the near face. The up direction
@@ -76,8 +76,8 @@ public:
   /**
    * Set one of a light's settings by name, see above. A null or empty value removes the setting, so
    * the pass's value applies. An unknown name or an invalid value is an error, returns false and
-   * changes nothing; GetSettingError() then says why (vtkGnomonNamedSettings), of this thread's last
-   * call. GetSetting() returns null for a setting that the light leaves unset.
+   * changes nothing; GetSettingError() then says why (vtkGnomonNamedSettings), of this thread's
+   * last call. GetSetting() returns null for a setting that the light leaves unset.
    */
   static bool SetSetting(vtkLight* light, const char* name, const char* value)
     VTK_EXPECTS(light != nullptr);
@@ -98,7 +98,8 @@ public:
 
   ///@{
   /**
-   * True if the light casts shadows. Default: true.
+   * True if the light casts shadows, whatever the pass chooses. GetCasts() is true where that is
+   * unset.
    */
   static void SetCasts(vtkLight* light, bool casts) VTK_EXPECTS(light != nullptr);
   static bool GetCasts(vtkLight* light) VTK_EXPECTS(light != nullptr);

@@ -25,9 +25,9 @@ glm::ivec2 originOf(const vtkRenderState* s);
 
 /// A renderer's camera.
 ///
-/// Its view space is VTK's if that is rigid, if depth and distance do not change across the picture,
-/// and if the frame has the world's unit. Else it is another one, in which that is so for all usual
-/// projections (vtkCamera's model, user view and explicit matrices, off-axis screens).
+/// Its view space is VTK's if that is rigid, if depth and distance do not change across the
+/// picture, and if the frame has the world's unit. Else it is another one, in which that is so for
+/// all usual projections (vtkCamera's model, user view and explicit matrices, off-axis screens).
 struct ShownView
 {
   CameraView camera;

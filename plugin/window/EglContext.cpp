@@ -206,7 +206,7 @@ struct Glx
       load(glx.getCurrentDrawable, "glXGetCurrentDrawable") &&
       load(glx.getCurrentReadDrawable, "glXGetCurrentReadDrawable") &&
       load(glx.makeContextCurrent, "glXMakeContextCurrent");
-    dlclose(library); // whoever has loaded it keeps it
+    dlclose(library); // what has loaded it keeps it
     return hasAll ? std::optional(glx) : std::nullopt;
   }
 };

@@ -58,8 +58,8 @@ private:
   std::string platform_;
 };
 
-/// Remembers this thread's current context, of EGL or GLX, or that it has none, and restores that on
-/// destruction. A thread has one or the other: while it has one of EGL, GLX ends the process.
+/// Remembers this thread's current context, of EGL or GLX, or that it has none, and restores that
+/// on destruction. A thread has one or the other: while it has one of EGL, GLX ends the process.
 class CurrentContext
 {
 public:

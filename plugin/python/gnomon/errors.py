@@ -14,8 +14,8 @@ def _text_of(message):
 def raising(*callers):
     """Raise the first error that VTK objects report; gives a list of the errors.
 
-    Many programs switch VTK's warnings off for the whole process, and VTK then reports nothing: here
-    they are on.
+    Many programs switch VTK's warnings off for the whole process, and VTK then reports nothing:
+    here they are on.
     """
     errors = []
 

@@ -1,5 +1,5 @@
-// Which lights cast: (lights of the scene, of the camera, at the camera, headlights, VTK's light kit)
-// by each choice.
+// Which lights cast: (lights of the scene, of the camera, at the camera, headlights, VTK's light
+// kit) by each choice.
 
 #include "lights/LightManager.h"
 #include "lights/vtkGnomonLightKeys.h"

@@ -280,7 +280,7 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
   this->scene.render();
   this->scene.render();
   const bool isPlain = std::string(GetParam().technique) == "raytraced";
-  EXPECT_EQ(this->scene.report().notes.size(), isPlain ? 1u : 0u);
+  EXPECT_EQ(this->scene.report().notes.size(), isPlain ? 2u : 1u) << "one of what casts nothing";
   EXPECT_EQ(this->scene.report().programCompiles, 0);
   EXPECT_EQ(this->scene.report().mapBakes, 0);
 }
