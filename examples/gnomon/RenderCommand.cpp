@@ -208,6 +208,7 @@ void requireComposition(vtkRenderer* renderer)
 void requireDrawable(const PictureSize& size, vtkOpenGLRenderWindow* window)
 {
   window->Render(); // creates the context
+  window->MakeCurrent();
   GLint side = 0;
   GLint viewport[2] = { 0, 0 };
   window->GetState()->vtkglGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);

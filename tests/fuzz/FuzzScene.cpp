@@ -338,6 +338,7 @@ test::Picture FuzzScene::render()
       light->Modified();
     }
     this->window_->Render();
+    this->window_->MakeCurrent();
     checkFrame(this->pass_, messages);
     if (this->pass_->GetProgress() >= 1.0)
     {

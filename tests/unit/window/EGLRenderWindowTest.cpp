@@ -169,6 +169,7 @@ TEST_F(EGLRenderWindow, clippingPlanesArePlacedBetweenFramesAsBeforeTheFirst)
   after->SetActiveCamera(before->GetActiveCamera());
   window->AddRenderer(after);
   EXPECT_EQ(rangeOf(after), expected);
+  window->MakeCurrent();
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
