@@ -273,6 +273,22 @@ const char* vtkGnomonEGLRenderWindow::ReportCapabilities()
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::GetOpenGLVersion(int& major, int& minor)
+{
+  const gnomon::CurrentContext restored;
+  this->BecomeCurrent();
+  this->Superclass::GetOpenGLVersion(major, minor);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::WaitForCompletion()
+{
+  const gnomon::CurrentContext restored;
+  this->BecomeCurrent();
+  this->Superclass::WaitForCompletion();
+}
+
+//------------------------------------------------------------------------------
 void* vtkGnomonEGLRenderWindow::GetGenericDisplayId()
 {
   return this->Context ? this->Context->display() : nullptr;

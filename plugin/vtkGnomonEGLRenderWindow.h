@@ -103,10 +103,15 @@ public:
    */
   void OpenGLInitContext() override;
 
+  ///@{
   /**
-   * Text about the driver; empty when no context can be made.
+   * Text about the driver, empty when no context can be made; OpenGL's version; and the end of all
+   * that was drawn.
    */
   const char* ReportCapabilities() override;
+  void GetOpenGLVersion(int& major, int& minor);
+  void WaitForCompletion() override;
+  ///@}
 
   ///@{
   /**

@@ -386,6 +386,7 @@ TEST_F(Auto, settingsOfWhatItMayTakeAreNoMistakes)
   this->pass->SetSetting("light_radius", "3");
   this->pass->SetSetting("light_samples", "16");
   this->pass->SetSetting("bias_constant", "0.001"); // a setting of maps
+  this->pass->SetSetting("edge_samples", "16");     // and of hard shadows
   this->rest();
   EXPECT_EQ(this->report().lights[0].lightSamples, 16);
   this->pass->SetSetting("mc_rays", "4");

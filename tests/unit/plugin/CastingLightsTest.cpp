@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -229,6 +230,39 @@ TEST_P(CastingLights, aHeadlightAloneCastsIfAsked)
   vtkGnomonLightKeys::SetCasts(head, true);
   EXPECT_EQ(castingLights(), 1);
   EXPECT_EQ(this->messages_.warnings().size(), 1u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(CastingLights, noneAtAllIsNoted)
+{
+  this->scene.render();
+  EXPECT_THAT(this->scene.report().notes, testing::Contains(HasSubstr("no light")));
+  this->scene.addSun({ 1.0, 0.4, -1.5 });
+  this->scene.render();
+  EXPECT_THAT(this->scene.report().notes, testing::Not(testing::Contains(HasSubstr("no light"))));
+}
+
+//------------------------------------------------------------------------------
+/// Nothing is drawn in a viewport without pixels, and nothing said; one that is partly outside of
+/// the window is drawn as VTK draws it.
+TEST_P(CastingLights, viewportsMayHaveNoPixels)
+{
+  this->scene.addSun({ 1.0, 0.4, -1.5 });
+  const Picture shadowed = this->scene.render();
+  for (const std::array<double, 4>& place :
+    { std::array{ 0.0, 0.0, 0.0, 0.0 }, { 0.5, 0.5, 0.5, 0.5 }, { 0.0, 0.0, 0.001, 1.0 },
+      { -0.5, 0.0, 1.0, 1.0 }, { 0.0, 0.0, 1.0, 1.0 } })
+  {
+    this->scene.renderer->SetViewport(place[0], place[1], place[2], place[3]);
+    this->scene.usePlain();
+    const Picture plain = this->scene.render();
+    this->scene.useGnomon();
+    const Picture drawn = this->scene.render();
+    const bool isSeen = place[2] - place[0] > 0.5;
+    EXPECT_EQ(this->scene.report().route == "none", !isSeen);
+    EXPECT_EQ(differingPixels(drawn, plain) > 100, isSeen);
+  }
+  EXPECT_EQ(differingPixels(this->scene.render(), shadowed), 0u);
 }
 
 //------------------------------------------------------------------------------

@@ -182,6 +182,11 @@ TEST_F(EGLRenderWindow, twoWindowsAlternate)
   const auto firstPicture = readPicture(first);
   second->Render();
   EXPECT_FALSE(second->IsCurrent()) << "pictures leave no context behind";
+  int major = 0;
+  int minor = 0;
+  second->GetOpenGLVersion(major, minor);
+  EXPECT_GE(major, 3);
+  second->WaitForCompletion();
   EXPECT_FALSE(first->IsCurrent());
   first->MakeCurrent();
   second->Render();
