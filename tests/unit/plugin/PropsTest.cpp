@@ -455,6 +455,24 @@ TEST_P(Props, followersCastAsTheyFaceTheCamera)
 }
 
 //------------------------------------------------------------------------------
+/// As for the parts of VTK's old widgets, which are ordinary actors.
+TEST_P(Props, nothingIsSaidOfThoseThatAreToDoNeither)
+{
+  vtkActor* const outline = this->scene.addBox({ -1.0, 2.0, 1.0 }, { 0.0, 3.0, 2.0 });
+  outline->GetProperty()->SetRepresentationToWireframe();
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().leftOut.size(), 1u);
+  EXPECT_THAT(this->messages_.warnings(), testing::SizeIs(1));
+  vtkGnomonPropKeys::SetCasts(outline, false);
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().leftOut.size(), 1u);
+  vtkGnomonPropKeys::SetReceives(outline, false);
+  this->scene.render();
+  EXPECT_THAT(this->scene.report().leftOut, testing::IsEmpty());
+  EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
+}
+
+//------------------------------------------------------------------------------
 TEST_P(Props, followersWithoutACameraAreActors)
 {
   const auto alone = [](vtkProp3D* part) { return vtkSmartPointer<vtkProp>(part); };
