@@ -179,7 +179,7 @@ public:
   {
     const std::size_t first = this->drawn_.props.size();
     this->number_ = number;
-    this->isAsked_ = mayCastOrReceive(viewProp);
+    this->viewProp_ = viewProp;
     this->addViewProp(viewProp);
     std::for_each(this->drawn_.props.begin() + static_cast<std::ptrdiff_t>(first),
       this->drawn_.props.end(), [number](DrawnProp& prop) { prop.number = number; });
@@ -199,7 +199,7 @@ private:
   bool updateInput(vtkMapper* mapper, MapperKind kind);
   void skip(vtkObjectBase* what, const char* why)
   {
-    if (this->isAsked_)
+    if (mayCastOrReceive(this->viewProp_))
     {
       auto* const actor = vtkActor::SafeDownCast(what);
       this->name(this->skipped_[std::string(what->GetClassName()) + " (" + why + ")"],
@@ -219,8 +219,8 @@ private:
   PropMemory& memory_;
   DrawnProps drawn_;
   std::unordered_set<vtkMapper*> updated_;
-  int number_ = 0;                            ///< of the view prop
-  bool isAsked_ = false;                      ///< its keys let it cast or receive
+  int number_ = 0; ///< of the view prop
+  vtkProp* viewProp_ = nullptr;
   std::map<std::string, NamedProps> skipped_; ///< props left out
   NamedProps unlit_, notCasting_;
   std::map<std::string, int>
@@ -441,7 +441,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   if (opaque)
   {
     add(false);
-    if (!lit && prop.receives && this->isAsked_)
+    if (!lit && prop.receives)
     {
       this->name(this->unlit_, mapper);
     }
@@ -455,7 +455,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   {
     add(true);
   }
-  else if (translucent && prop.casts && this->isAsked_)
+  else if (translucent && prop.casts)
   {
     this->name(this->notCasting_, mapper);
   }
