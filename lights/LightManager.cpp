@@ -446,10 +446,7 @@ LightSet LightManager::read(
   ReadTextures textures;
   int sceneIndex = 0;
   int shaderIndex = 0;
-  vtkLightCollection* lights = renderer->GetLights();
-  vtkCollectionSimpleIterator iterator;
-  lights->InitTraversal(iterator);
-  while (vtkLight* light = lights->GetNextLight(iterator))
+  const auto readOne = [&](vtkLight* light)
   {
     std::string reason = whyWithoutPlace(light);
     const ShadowSettings settings = readSettings(light, defaults, reason);
@@ -472,7 +469,8 @@ LightSet LightManager::read(
     ++sceneIndex;
     // VTK numbers lightColorN over all lights that are switched on, including those that cast none.
     shaderIndex += light->GetSwitch() ? 1 : 0;
-  }
+  };
+  visitLights(renderer, readOne);
   this->textures_ = std::move(textures);
   return set;
 }

@@ -20,16 +20,18 @@ constexpr double largestArea = 1e12;
 /// The tangent of the smallest angle that an area fills.
 constexpr double smallestAngle = 1e-12;
 
-glm::dvec3 largestDividedOut(const glm::dvec3& vector)
+/// Return a vector's direction, of any length: its square may overflow.
+glm::dvec3 directionOf(const glm::dvec3& vector)
 {
-  return vector / std::max({ std::abs(vector.x), std::abs(vector.y), std::abs(vector.z) });
+  return glm::normalize(
+    vector / std::max({ std::abs(vector.x), std::abs(vector.y), std::abs(vector.z) }));
 }
 
 /// Let a far lamp shine in parallel rays.
 /// @param toScene from the lamp
 void makeParallel(ShadowLight& light, const glm::dvec3& toScene)
 {
-  const glm::dvec3 travel = glm::normalize(largestDividedOut(toScene));
+  const glm::dvec3 travel = directionOf(toScene);
   const double distance = glm::dot(toScene, travel);
   light.kind = LightKind::Directional;
   light.directionWorld = travel;
@@ -128,7 +130,7 @@ std::string enterFrame(ShadowLight& light, const SceneFrame& frame)
     return "its box begins too far away";
   }
   if (isFar && light.kind == LightKind::Spot &&
-    !(glm::dot(glm::normalize(largestDividedOut(toScene)), light.directionWorld) >
+    !(glm::dot(directionOf(toScene), light.directionWorld) >
       std::cos(glm::radians(light.coneAngleDegrees))))
   {
     return "it is far away, and its cone passes the scene by";

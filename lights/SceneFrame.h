@@ -11,8 +11,8 @@ namespace gnomon
 
 struct ShadowLight;
 
-/// The coordinates in which a scene is computed, so that floats hold it, their products included,
-/// wherever it lies and whatever its unit of length.
+/// The coordinates in which a scene is computed. In them, floats hold positions and products of
+/// lengths, for scenes at any place and with any unit of length.
 ///
 /// Lengths count in *units* of 2^exponent. *Centred* coordinates are world coordinates in units,
 /// less the centre. Within lights/ and shadowtech/ all lengths are in units, also those of world
@@ -27,7 +27,7 @@ struct SceneFrame
 
   /// The length of a unit in the world.
   double unitWorld() const;
-  /// The world's length in units, by which its coordinates are multiplied.
+  /// How many units the world's length 1 has: world coordinates times this are in units.
   double unitsPerWorld() const;
 
   glm::dvec3 fromWorld(const glm::dvec3& positionWorld) const
@@ -38,7 +38,7 @@ struct SceneFrame
   {
     return (positionCentred + this->centre) * this->unitWorld();
   }
-  /// Return the matrix to the world's place of a matrix to centred coordinates' place.
+  /// Return a matrix to world coordinates, changed to lead to centred coordinates.
   glm::dmat4 centredFrom(const glm::dmat4& worldFromSpace) const;
 
   bool operator==(const SceneFrame& other) const

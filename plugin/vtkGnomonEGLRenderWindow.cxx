@@ -180,9 +180,8 @@ void vtkGnomonEGLRenderWindow::BecomeCurrent()
 {
   if (this->Context && !this->Context->isOfThisProcess())
   {
-    this->TellOfContext("The process was forked after this window was made, and OpenGL does not "
-                        "follow: fork before, or start a new program (in Python: the start method "
-                        "'spawn' of multiprocessing).");
+    this->TellOfContext(
+      "The process was forked after this window was made" + gnomon::forkAdvice + ".");
   }
   else if (this->Context && !this->Context->makeCurrent())
   {

@@ -95,9 +95,7 @@ std::vector<Candidate> listCandidates(int deviceIndex)
   static const pid_t firstProcess = getpid();
   if (getpid() != firstProcess)
   {
-    throw std::runtime_error("the process was forked after it had used EGL, which does not follow: "
-                             "fork before, or start a new program (in Python: the start method "
-                             "'spawn' of multiprocessing)");
+    throw std::runtime_error("the process was forked after it had used EGL" + forkAdvice);
   }
   const std::vector<EGLDeviceEXT> devices = listDevices();
   if (deviceIndex >= 0)
@@ -175,7 +173,7 @@ private:
   EGLDisplay display_;
 };
 
-/// GLX's functions, if the process has it loaded.
+/// The functions of GLX, of a thread that has a context of it.
 struct Glx
 {
   void* (*getCurrentContext)();
@@ -184,7 +182,8 @@ struct Glx
   unsigned long (*getCurrentReadDrawable)();
   int (*makeContextCurrent)(void* display, unsigned long draw, unsigned long read, void* context);
 
-  static std::optional<Glx> find()
+  /// Return nothing if GLX is not loaded, or this thread has no context of it.
+  static std::optional<Glx> ofThread()
   {
     void* library = nullptr;
     for (const char* name : { "libGLX.so.0", "libGL.so.1" })
@@ -207,16 +206,15 @@ struct Glx
       load(glx.getCurrentReadDrawable, "glXGetCurrentReadDrawable") &&
       load(glx.makeContextCurrent, "glXMakeContextCurrent");
     dlclose(library); // what has loaded it keeps it
-    return hasAll ? std::optional(glx) : std::nullopt;
+    return hasAll && glx.getCurrentContext() ? std::optional(glx) : std::nullopt;
   }
 };
 
 /// Leave this thread without a context of GLX, beside which EGL has none.
 void releaseGlx()
 {
-  if (CurrentContext::isOfGlx())
+  if (const std::optional<Glx> glx = Glx::ofThread())
   {
-    const std::optional<Glx> glx = Glx::find();
     glx->makeContextCurrent(glx->getCurrentDisplay(), 0, 0, nullptr);
   }
 }
@@ -402,8 +400,7 @@ std::string EglContext::lastError()
 //------------------------------------------------------------------------------
 bool CurrentContext::isOfGlx()
 {
-  const std::optional<Glx> glx = Glx::find();
-  return glx && glx->getCurrentContext();
+  return Glx::ofThread().has_value();
 }
 
 //------------------------------------------------------------------------------
@@ -413,9 +410,9 @@ CurrentContext::CurrentContext()
   , read_(eglGetCurrentSurface(EGL_READ))
   , context_(eglGetCurrentContext())
 {
-  const std::optional<Glx> glx = Glx::find();
-  if (glx && glx->getCurrentContext())
+  if (const std::optional<Glx> glx = Glx::ofThread())
   {
+    this->glxMakeCurrent_ = glx->makeContextCurrent;
     this->glxDisplay_ = glx->getCurrentDisplay();
     this->glxDraw_ = glx->getCurrentDrawable();
     this->glxRead_ = glx->getCurrentReadDrawable();
@@ -432,9 +429,9 @@ CurrentContext::~CurrentContext()
     eglMakeCurrent(this->context_ != EGL_NO_CONTEXT ? this->display_ : eglGetCurrentDisplay(),
       this->draw_, this->read_, this->context_);
   }
-  if (const std::optional<Glx> glx = Glx::find(); glx && this->glxContext_)
+  if (this->glxMakeCurrent_)
   {
-    glx->makeContextCurrent(this->glxDisplay_, this->glxDraw_, this->glxRead_, this->glxContext_);
+    this->glxMakeCurrent_(this->glxDisplay_, this->glxDraw_, this->glxRead_, this->glxContext_);
   }
 }
 

@@ -12,6 +12,11 @@
 namespace gnomon
 {
 
+/// The end of errors in a forked process.
+inline const std::string forkAdvice =
+  ", and OpenGL does not follow: fork before, or start a new program (in Python: the start method "
+  "'spawn' of multiprocessing)";
+
 /// Requirements of a context.
 struct EglRequest
 {
@@ -76,7 +81,8 @@ private:
   EGLSurface read_;
   EGLContext context_;
   ///@{
-  /// GLX's; null and 0 without.
+  /// GLX's; null and 0 if it has none of that.
+  int (*glxMakeCurrent_)(void*, unsigned long, unsigned long, void*) = nullptr;
   void* glxDisplay_ = nullptr;
   unsigned long glxDraw_ = 0;
   unsigned long glxRead_ = 0;

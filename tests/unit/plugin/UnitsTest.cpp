@@ -362,6 +362,10 @@ TEST(Units, ofPowersOfTenChangeHardlyAPixel)
       EXPECT_GT(differences.covered, 1000u);
       EXPECT_LE(differences.triangles, differences.covered / 100);
       EXPECT_LE(differences.mean, 1e-3);
+      if (technique.estimator->info.exact)
+      {
+        EXPECT_LE(differences.visibility, 1u + differences.covered / 10000);
+      }
     }
   }
 }
