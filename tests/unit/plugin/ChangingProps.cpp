@@ -430,7 +430,7 @@ const std::vector<PropKind>& changingProps()
     { "resliced", makeSlice<vtkImageResliceMapper>, false }, { "stack", makeStack },
     { "follower", makeFollower }, { "level actor", makeLodActor, false },
     { "quadric actor", makeQuadricActor, false }, { "assembly", makeAssembly },
-    { "slice assembly", makeSliceAssembly }, { "follower assembly", makeFollowerAssembly },
+    { "slice assembly", makeSliceAssembly }, { "follower assembly", makeFollowerAssembly, false },
     { "text", makeText } };
   return kinds;
 }

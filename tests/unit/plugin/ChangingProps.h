@@ -38,7 +38,7 @@ struct PropKind
   /// @param renderer is in a window
   ChangingProp (*make)(vtkRenderer* renderer);
   /// False if VTK chooses what it draws by the time that drawing takes, or reports errors with
-  /// several renderers or without a light.
+  /// several renderers or without a light, or places a prop by how often it drew it.
   bool isRepeatable = true;
 };
 const std::vector<PropKind>& changingProps();
