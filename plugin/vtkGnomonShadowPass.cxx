@@ -3,6 +3,7 @@
 #include "lights/SettingsTable.h"
 #include "plugin/frame/Complaints.h"
 #include "plugin/frame/FrameWishes.h"
+#include "plugin/frame/OtherFrames.h"
 #include "plugin/frame/PictureTimer.h"
 #include "plugin/frame/Progress.h"
 #include "plugin/frame/ReceiverDrawing.h"
@@ -107,6 +108,7 @@ struct vtkGnomonShadowPass::Internals
 {
   explicit Internals(vtkGnomonShadowPass* pass)
     : pictureTimer(pass)
+    , otherFrames([this](vtkRenderer* renderer) { this->tellOfOther(renderer); })
   {
   }
 
@@ -134,6 +136,7 @@ struct vtkGnomonShadowPass::Internals
 
   std::optional<gnomon::CostFactors> factors; ///< none: the default ones
   gnomon::PictureTimer pictureTimer;
+  gnomon::OtherFrames otherFrames;
 
   std::unique_ptr<gnomon::Ranks> ranks; ///< of the last controller with several processes, or null
 
@@ -141,6 +144,8 @@ struct vtkGnomonShadowPass::Internals
 
   gnomon::RenderManager& managerOf(vtkRenderer* renderer);
   gnomon::Ranks* updateRanks(vtkMultiProcessController* controller);
+  void keepLastFrame();
+  void tellOfOther(vtkRenderer* renderer);
   gnomon::RenderManager& manager() { return *this->renderers.front().manager; }
 };
 
@@ -162,6 +167,29 @@ gnomon::RenderManager& vtkGnomonShadowPass::Internals::managerOf(vtkRenderer* re
       { renderer, std::make_unique<gnomon::RenderManager>(*this->programs) });
   }
   return this->manager();
+}
+
+//------------------------------------------------------------------------------
+/// Take the last frame's report and visibility from the manager.
+void vtkGnomonShadowPass::Internals::keepLastFrame()
+{
+  if (this->shadowed)
+  {
+    this->report = this->manager().report();
+    this->visibility = this->manager().visibility();
+  }
+  this->shadowed = false;
+}
+
+//------------------------------------------------------------------------------
+/// Note in the report that the renderer has drawn a frame without this pass.
+void vtkGnomonShadowPass::Internals::tellOfOther(vtkRenderer* renderer)
+{
+  const vtkRenderPass* const other = renderer->GetPass();
+  this->keepLastFrame();
+  this->report.notes.push_back(
+    std::string("this frame is not the last one: the renderer has since been drawn by ") +
+    (other ? other->GetClassName() : "no pass"));
 }
 
 //------------------------------------------------------------------------------
@@ -289,6 +317,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();
   this->NumberOfRenderedProps = 0;
+  this->Internal->otherFrames.drawn(renderer);
   if (renderer->GetSelector())
   {
     this->DrawPlain(s); // and what refines goes on after it
@@ -705,12 +734,7 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
         }
         this->Internal->steps->ReleaseGraphicsResources(drawnIn);
       }
-      if (this->Internal->shadowed)
-      {
-        this->Internal->report = this->Internal->manager().report();
-        this->Internal->visibility = this->Internal->manager().visibility();
-      }
-      this->Internal->shadowed = false;
+      this->Internal->keepLastFrame();
       this->Internal->renderers.clear();
       this->Internal->programs = std::make_unique<gnomon::PassPrograms>();
     });

@@ -481,5 +481,5 @@ TEST_F(PassTest, theImageRouteSaysWhatItCannotShowWithSeveralSamples)
   scene->window->SetMultiSamples(samples);
   scene->render();
   EXPECT_EQ(scene->report().route, "image");
-  EXPECT_THAT(scene->report().notes, testing::ElementsAre(testing::HasSubstr("samples per pixel")));
+  EXPECT_THAT(scene->report().notes, testing::ElementsAre(testing::HasSubstr("edge_samples")));
 }

@@ -217,3 +217,32 @@ TEST_F(ChainedScene, SupersamplingInsideIsForFunctionsOfThePoint)
     EXPECT_EQ(unshadowed.falseShadow, 0u);
   }
 }
+
+//------------------------------------------------------------------------------
+TEST_F(ChainedScene, ReportSaysThatAnotherPassDrewSince)
+{
+  const auto namesOther = [this](const char* name)
+  {
+    return std::count_if(this->scene.report().notes.begin(), this->scene.report().notes.end(),
+      [name](const std::string& note)
+      { return note.find("since been drawn by " + std::string(name)) != std::string::npos; });
+  };
+  const Picture shadowed = this->scene.render();
+  EXPECT_TRUE(this->scene.report().notes.empty());
+  const std::vector<std::pair<const char*, Pass>> others = {
+    { "vtkRenderStepsPass", vtkSmartPointer<vtkRenderStepsPass>::New() }, { "no pass", nullptr }
+  };
+  for (const auto& [name, pass] : others)
+  {
+    this->scene.renderer->SetPass(pass);
+    for (int frame = 0; frame < 3; ++frame)
+    {
+      this->scene.render();
+      EXPECT_EQ(namesOther(name), 1) << name;
+      EXPECT_EQ(this->scene.report().lights.size(), 1u) << name;
+    }
+    this->scene.renderer->SetPass(this->scene.pass);
+    EXPECT_EQ(differingPixels(this->scene.render(), shadowed), 0u);
+    EXPECT_TRUE(this->scene.report().notes.empty());
+  }
+}
