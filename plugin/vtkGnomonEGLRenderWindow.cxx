@@ -2,6 +2,7 @@
 
 #include "plugin/frame/Complaints.h"
 #include "plugin/vtk_versions/OpenGlLoading.h"
+#include "plugin/window/CurrentContext.h"
 #include "plugin/window/EglContext.h"
 
 #include "shadowtech/base/Gl.h"

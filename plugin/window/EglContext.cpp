@@ -1,17 +1,16 @@
 #include "plugin/window/EglContext.h"
 
+#include "plugin/window/CurrentContext.h"
+
 #include <EGL/eglext.h>
 
-#include <dlfcn.h>
 #include <unistd.h>
 
 #include <array>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -173,52 +172,6 @@ private:
   EGLDisplay display_;
 };
 
-/// The functions of GLX, of a thread that has a context of it.
-struct Glx
-{
-  void* (*getCurrentContext)();
-  void* (*getCurrentDisplay)();
-  unsigned long (*getCurrentDrawable)();
-  unsigned long (*getCurrentReadDrawable)();
-  int (*makeContextCurrent)(void* display, unsigned long draw, unsigned long read, void* context);
-
-  /// Return nothing if GLX is not loaded, or this thread has no context of it.
-  static std::optional<Glx> ofThread()
-  {
-    void* library = nullptr;
-    for (const char* name : { "libGLX.so.0", "libGL.so.1" })
-    {
-      library = library ? library : dlopen(name, RTLD_LAZY | RTLD_NOLOAD);
-    }
-    if (!library)
-    {
-      return std::nullopt;
-    }
-    Glx glx{};
-    const auto load = [library](auto& function, const char* name)
-    {
-      function = reinterpret_cast<std::decay_t<decltype(function)>>(dlsym(library, name));
-      return function != nullptr;
-    };
-    const bool hasAll = load(glx.getCurrentContext, "glXGetCurrentContext") &&
-      load(glx.getCurrentDisplay, "glXGetCurrentDisplay") &&
-      load(glx.getCurrentDrawable, "glXGetCurrentDrawable") &&
-      load(glx.getCurrentReadDrawable, "glXGetCurrentReadDrawable") &&
-      load(glx.makeContextCurrent, "glXMakeContextCurrent");
-    dlclose(library); // what has loaded it keeps it
-    return hasAll && glx.getCurrentContext() ? std::optional(glx) : std::nullopt;
-  }
-};
-
-/// Leave this thread without a context of GLX, beside which EGL has none.
-void releaseGlx()
-{
-  if (const std::optional<Glx> glx = Glx::ofThread())
-  {
-    glx->makeContextCurrent(glx->getCurrentDisplay(), 0, 0, nullptr);
-  }
-}
-
 EGLContext createContext(EGLDisplay display, EGLConfig config, int majorVersion, int minorVersion)
 {
   const std::array<EGLint, 7> attributes{ EGL_CONTEXT_MAJOR_VERSION, majorVersion,
@@ -289,7 +242,7 @@ struct EglContext::Handles
       const std::array<EGLint, 5> size{ EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE };
       this->surface = eglCreatePbufferSurface(this->display.get(), config, size.data());
     }
-    releaseGlx();
+    CurrentContext::releaseGlx();
     if (!eglMakeCurrent(this->display.get(), this->surface, this->surface, this->context))
     {
       throw std::runtime_error("the context cannot be made current (" + lastError() + ")");
@@ -340,7 +293,7 @@ bool EglContext::makeCurrent() const
   {
     return true;
   }
-  releaseGlx();
+  CurrentContext::releaseGlx();
   return eglMakeCurrent(this->handles_->display.get(), this->handles_->surface,
     this->handles_->surface, this->handles_->context);
 }
@@ -395,44 +348,6 @@ std::string EglContext::lastError()
   const EGLint error = eglGetError();
   const auto name = names.find(error);
   return name != names.end() ? name->second : "EGL error " + std::to_string(error);
-}
-
-//------------------------------------------------------------------------------
-bool CurrentContext::isOfGlx()
-{
-  return Glx::ofThread().has_value();
-}
-
-//------------------------------------------------------------------------------
-CurrentContext::CurrentContext()
-  : display_(eglGetCurrentDisplay())
-  , draw_(eglGetCurrentSurface(EGL_DRAW))
-  , read_(eglGetCurrentSurface(EGL_READ))
-  , context_(eglGetCurrentContext())
-{
-  if (const std::optional<Glx> glx = Glx::ofThread())
-  {
-    this->glxMakeCurrent_ = glx->makeContextCurrent;
-    this->glxDisplay_ = glx->getCurrentDisplay();
-    this->glxDraw_ = glx->getCurrentDrawable();
-    this->glxRead_ = glx->getCurrentReadDrawable();
-    this->glxContext_ = glx->getCurrentContext();
-  }
-}
-
-//------------------------------------------------------------------------------
-CurrentContext::~CurrentContext()
-{
-  const EGLContext current = eglGetCurrentContext();
-  if (this->context_ != current)
-  {
-    eglMakeCurrent(this->context_ != EGL_NO_CONTEXT ? this->display_ : eglGetCurrentDisplay(),
-      this->draw_, this->read_, this->context_);
-  }
-  if (this->glxMakeCurrent_)
-  {
-    this->glxMakeCurrent_(this->glxDisplay_, this->glxDraw_, this->glxRead_, this->glxContext_);
-  }
 }
 
 } // namespace gnomon
