@@ -395,6 +395,7 @@ void CastingLights::enter(const SceneFrame& frame, FrameReport& report)
   const auto isSkipped = [&](CastingLight& casting)
   {
     const std::string reason = enterFrame(casting.light, frame);
+    casting.identity = identityOf(casting.light);
     if (casting.asked)
     {
       enterFrame(*casting.asked, frame);
@@ -497,6 +498,7 @@ void CastingLights::takeResting(CastingLight& casting, FrameReport& report)
 /// Note that another technique shades a light in this frame.
 void CastingLights::tell(CastingLight& casting, FrameReport& report)
 {
+  casting.identity = identityOf(casting.light);
   casting.channels = channelsOf(casting.own.info(), casting.light);
   reportOf(report, casting.light) = reportOfCasting(casting.light, casting.own.info());
   this->placeVisibility();
@@ -531,13 +533,14 @@ TechniquesOfLights& CastingLights::placeOf(const ShadowLight& light, TechniquesO
 CastingLight CastingLights::take(
   ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView)
 {
+  const RayIdentity identity = identityOf(light);
   const int channels = channelsOf(estimator.info, light);
   auto kept = this->placeOf(light, ofView).extract(light.sceneIndex);
   if (kept && &kept.mapped().own.estimator() == &estimator)
   {
-    return { std::move(kept.mapped()), std::move(light), channels };
+    return { std::move(kept.mapped()), std::move(light), identity, channels };
   }
-  return { { LightTechnique(estimator), std::nullopt }, std::move(light), channels };
+  return { { LightTechnique(estimator), std::nullopt }, std::move(light), identity, channels };
 }
 
 //------------------------------------------------------------------------------

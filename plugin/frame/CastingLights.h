@@ -4,6 +4,7 @@
 #include "lights/SceneFrame.h"
 #include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/LightTechnique.h"
+#include "plugin/frame/RayIdentity.h"
 #include "shadowtech/base/VisibilityLayers.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
@@ -40,6 +41,7 @@ std::size_t bytesOfMaps(const TechniquesOfLights& techniques);
 struct CastingLight : KeptTechniques
 {
   ShadowLight light;
+  RayIdentity identity;        ///< of `light`
   int channels = 1;            ///< of its visibility, a layer each
   int layer = 0;               ///< its first visibility layer
   int bit = noBit;             ///< or its bit in the image of bits

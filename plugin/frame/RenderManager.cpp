@@ -26,35 +26,10 @@ vtkOpenGLRenderWindow* windowOf(const vtkRenderState* s)
   return vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
 }
 
-void hashPoint(std::size_t& seed, const glm::dvec3& point)
+void hashLight(std::size_t& seed, const CastingLight& casting)
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    hashCombine(seed, point[axis]);
-  }
-}
-
-/// Add to a hash where a light is, and what its rays depend on beside its settings.
-void hashLight(std::size_t& seed, const ShadowLight& light)
-{
-  hashCombine(seed, static_cast<int>(light.kind));
-  hashCombine(seed, light.sceneIndex);
-  hashPoint(seed, light.positionWorld);
-  hashPoint(seed, light.directionWorld);
-  hashCombine(seed, light.coneAngleDegrees);
-  if (light.box)
-  {
-    hashPoint(seed, { light.box->width, light.box->height, light.box->depth });
-    hashPoint(seed, light.box->upWorld);
-  }
-  if (light.area)
-  {
-    hashCombine(seed, static_cast<int>(light.area->shape));
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      hashPoint(seed, light.area->worldFromUnit[axis]);
-    }
-  }
+  hashCombine(seed, casting.light.sceneIndex);
+  hashCombine(seed, casting.identity.hash);
 }
 
 /// Return a number that differs where lights differ in what decides their rays.
@@ -63,9 +38,9 @@ std::uint64_t hashOf(const CastingLights& lights)
   std::size_t seed = lights.size();
   for (const CastingLight& casting : lights)
   {
-    const ShadowLight& light = casting.light;
-    hashLight(seed, light);
-    for (const std::string& value : valuesOf(casting.own.info(), SettingsOf::Estimator, light))
+    hashLight(seed, casting);
+    for (const std::string& value :
+      valuesOf(casting.own.info(), SettingsOf::Estimator, casting.light))
     {
       hashCombine(seed, value);
     }
@@ -190,7 +165,7 @@ bool RenderManager::changes(const vtkRenderState* s)
   std::size_t shown = this->frame_.lights.size();
   for (const CastingLight& casting : this->frame_.lights)
   {
-    hashLight(shown, casting.light);
+    hashLight(shown, casting);
   }
   hashView(shown, this->frame_.camera, this->frame_.size);
   hashCombine(shown, this->shownProps(s));

@@ -96,6 +96,15 @@ TechniqueChoice::TechniqueChoice(
 }
 
 //------------------------------------------------------------------------------
+bool TechniqueChoice::Request::isLike(const Request& other) const
+{
+  const auto [least, most] = std::minmax(this->areaRadius, other.areaRadius);
+  return this->isSoft == other.isSoft && this->mapSizeTexels == other.mapSizeTexels &&
+    this->lightSamples == other.lightSamples && this->errorLimit == other.errorLimit &&
+    most <= 1.1 * least;
+}
+
+//------------------------------------------------------------------------------
 void TechniqueChoice::choose(const std::function<void(CastingLight&)>& bake)
 {
   this->looked_ = false;
@@ -162,14 +171,17 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& har
   {
     const ShadowLight& light = casting.light;
     LightChoice choice = this->lights_[light.sceneIndex];
-    const Asked asked(light.area.has_value(), light.mapSizeTexels, light.lightSamples,
-      light.area ? this->frame_.wishes.maximumSoftError : this->frame_.wishes.maximumError);
-    const bool isAlike = choice.asked == asked;
-    choice = isAlike ? choice : LightChoice{};
-    const Place place(light.positionWorld, light.directionWorld, light.coneAngleDegrees);
-    const bool moved = counters.castersMoved || (isAlike && choice.place != place);
-    choice.asked = asked;
-    choice.place = place;
+    const Request request{ light.area.has_value(), light.mapSizeTexels, light.lightSamples,
+      light.area ? this->frame_.wishes.maximumSoftError : this->frame_.wishes.maximumError,
+      light.area ? light.area->radius() : 0.0 };
+    const bool isAlike = request.isLike(choice.request);
+    if (!isAlike)
+    {
+      choice = LightChoice{};
+      choice.request = request;
+    }
+    const bool moved = counters.castersMoved || (isAlike && choice.identity != casting.identity);
+    choice.identity = casting.identity;
     choice.tracedShare = moved ? 1.0 : choice.tracedShare;
     choice.sinceProbed += moved ? framesPerProbe / framesPerProbeOfMoved : 1;
     if (casting.asked && !light.area)
@@ -198,7 +210,7 @@ void TechniqueChoice::rest()
   this->byMaps_ = 0;
   for (auto& [sceneIndex, choice] : this->lights_)
   {
-    const bool isSoft = std::get<bool>(choice.asked);
+    const bool isSoft = choice.request.isSoft;
     choice.step = isSoft ? 0 : choice.step;
     choice.isProbed = false;
     choice.probing = {};

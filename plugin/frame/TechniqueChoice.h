@@ -13,7 +13,6 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -48,10 +47,18 @@ public:
   std::size_t bytes() const { return this->probes_.bytes(); }
 
 private:
-  /// A light's place: position, direction, half the cone.
-  using Place = std::tuple<glm::dvec3, glm::dvec3, double>;
-  /// The request that a choice answers: soft or hard, map side in texels, samples, error limit.
-  using Asked = std::tuple<bool, int, int, double>;
+  /// The request that a choice answers.
+  struct Request
+  {
+    bool isSoft = false;
+    int mapSizeTexels = 0;
+    int lightSamples = 0;
+    double errorLimit = 0.0;
+    double areaRadius = 0.0; ///< 0 without an area
+
+    /// True if one choice answers both: an area's size may differ by a tenth.
+    bool isLike(const Request& other) const;
+  };
   /// A probe of a map that may take several frames.
   struct Probing
   {
@@ -67,8 +74,8 @@ private:
     int sinceProbed = 0;   ///< frames
     Probing probing;
     double tracedShare = 1.0; ///< of its tiles, as last counted, that had rays; 1: not known
-    Place place{};            ///< in the last frame
-    Asked asked{};            ///< in the last frame
+    RayIdentity identity;     ///< in the last frame
+    Request request;          ///< that was proved, or is being proved
   };
 
   FrameCounters takeChanges(const std::vector<CastingLight*>& hard);

@@ -14,25 +14,12 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace gnomon
 {
 namespace
 {
-
-/// Where a light is, and what it is.
-auto placeOf(const ShadowLight& light)
-{
-  const auto box = [](const LightBox& of)
-  { return std::tuple(of.width, of.height, of.depth, of.upWorld); };
-  const auto texture = [](const PlacedTexture& of)
-  { return std::tuple(of.texture, of.pictureFromWorld); };
-  return std::tuple(light.kind, light.positionWorld, light.directionWorld, light.coneAngleDegrees,
-    light.area, light.box ? std::optional(box(*light.box)) : std::nullopt,
-    light.texture ? std::optional(texture(*light.texture)) : std::nullopt);
-}
 
 /// How many samples an area light has in this frame. With several views it has all of them: the
 /// pass's progress is that of the last view alone.
@@ -95,7 +82,7 @@ ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
 {
   const TechniqueInfo& info = casting.own.info();
   ValueKey key = *this->frame_.view->receivers.key;
-  key.add("the light", placeOf(casting.light));
+  key.add("the light", casting.identity);
   key.add("its technique", std::pair(&casting.own.estimator(), casting.light.fittedToReceivers));
   key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light));
   key.add("its layer", std::pair(casting.layer, casting.bit));

@@ -535,6 +535,21 @@ TEST_F(Auto, areaLightsHaveHardShadowsInMotionWherePenumbraeAreThin)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(Auto, areaLightsThatGrowInMotionAreProvedAnew)
+{
+  this->pass->SetSetting("light_radius", "0.1");
+  this->rest();
+  this->move();
+  ASSERT_EQ(this->technique(), "silhouette") << "hard shadows of its centre";
+  this->pass->SetSetting("light_radius", "3");
+  this->move();
+  EXPECT_EQ(this->technique(), "penumbra") << this->report().choice;
+  this->pass->SetSetting("light_radius", "0.1");
+  this->move();
+  EXPECT_EQ(this->technique(), "silhouette") << this->report().choice;
+}
+
+//------------------------------------------------------------------------------
 // If nothing keeps the budget, the allowed error counts; if there is time, rays are traced.
 TEST_F(Auto, aTimeBudgetChoosesWhatIsMostAccurateInIt)
 {

@@ -1,0 +1,56 @@
+#include "plugin/frame/RayIdentity.h"
+
+#include "plugin/scene/Hash.h"
+
+namespace gnomon
+{
+namespace
+{
+
+template <typename Vector>
+void hashVector(std::size_t& seed, const Vector& vector)
+{
+  for (int i = 0; i < vector.length(); ++i)
+  {
+    hashCombine(seed, vector[i]);
+  }
+}
+
+template <typename Matrix>
+void hashColumns(std::size_t& seed, const Matrix& matrix)
+{
+  for (int column = 0; column < matrix.length(); ++column)
+  {
+    hashVector(seed, matrix[column]);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+RayIdentity identityOf(const ShadowLight& light)
+{
+  std::size_t seed = 0;
+  hashCombine(seed, static_cast<int>(light.kind));
+  hashVector(seed, light.positionWorld);
+  hashVector(seed, light.directionWorld);
+  hashCombine(seed, light.coneAngleDegrees);
+  if (light.box)
+  {
+    hashVector(seed, glm::dvec3(light.box->width, light.box->height, light.box->depth));
+    hashVector(seed, light.box->upWorld);
+  }
+  if (light.area)
+  {
+    hashCombine(seed, static_cast<int>(light.area->shape));
+    hashColumns(seed, light.area->worldFromUnit);
+  }
+  if (light.texture)
+  {
+    hashCombine(seed, light.texture->texture.get());
+    hashColumns(seed, light.texture->pictureFromWorld);
+  }
+  return { seed };
+}
+
+} // namespace gnomon
