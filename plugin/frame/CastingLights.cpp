@@ -246,18 +246,6 @@ void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
   lights = std::move(casting);
 }
 
-/// Restore the resting technique of a light that another shades, and keep a map.
-void putBack(CastingLight& casting)
-{
-  if (casting.own.info().isPointwise())
-  {
-    casting.plain = std::move(casting.own);
-  }
-  casting.own = std::move(casting.resting->technique);
-  casting.light = std::move(casting.resting->light);
-  casting.resting.reset();
-}
-
 LightReport reportOfSkipped(const SkippedLight& skipped)
 {
   LightReport report;
@@ -286,13 +274,13 @@ LightReport reportOfCasting(const ShadowLight& light, const TechniqueInfo& info)
 //------------------------------------------------------------------------------
 bool isOnCpu(const CastingLight& casting)
 {
-  return casting.own.info().evaluation == Evaluation::ScreenCpu;
+  return casting.own->info().evaluation == Evaluation::ScreenCpu;
 }
 
 //------------------------------------------------------------------------------
 std::size_t edgeSamplesOf(const CastingLight& casting)
 {
-  const bool smooths = casting.own.info().has(edgeSettings()) && !casting.light.area;
+  const bool smooths = casting.own->info().has(edgeSettings()) && !casting.light.area;
   return smooths ? static_cast<std::size_t>(casting.light.of<EdgeSettings>().samples) : 1;
 }
 
@@ -310,27 +298,8 @@ bool canDrawMaps()
 }
 
 //------------------------------------------------------------------------------
-const PointwiseTechnique* CastingLight::pointwiseOn(Route route, bool translucentReceivers)
-{
-  const PointwiseTechnique* own = this->own.as<PointwiseTechnique>();
-  if (own || !translucentReceivers)
-  {
-    if (!this->asked)
-    {
-      this->plain.reset();
-    }
-    return translucentReceivers || route == Route::Inline ? own : nullptr;
-  }
-  if (!this->plain)
-  {
-    this->plain.emplace(*findTechnique(plainTechnique)->estimator);
-  }
-  return this->plain->as<PointwiseTechnique>();
-}
-
-//------------------------------------------------------------------------------
 void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& defaults,
-  const FrameWishes& wishes, TechniquesOfLights& ofView, FrameReport& report)
+  const FrameWishes& wishes, TechniqueCache& ofView, FrameReport& report)
 {
   LightSet set = this->manager_.collect(renderer, defaults, wishes.casting);
   report.headlightIsAlone = set.headlightIsAlone;
@@ -370,23 +339,19 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   std::sort(report.lights.begin(), report.lights.end(),
     [](const LightReport& a, const LightReport& b) { return a.sceneIndex < b.sceneIndex; });
 
-  // Nothing below throws, so the lights' cached techniques cannot get lost.
-  std::vector<CastingLight> lights;
+  this->ofView_ = &ofView;
+  this->lights_.clear();
   for (ComposedLight& of : composed)
   {
-    lights.push_back(this->take(std::move(of.light), *of.estimator, ofView));
-    lights.back().asked = std::move(of.asked);
-    lights.back().mostMapTexels = of.mostMapTexels;
-    if (lights.back().asked && lights.back().asked->mapSizeTexels > of.mostMapTexels)
-    {
-      lights.back().plain.reset(); // it was made for a larger budget
-    }
+    CastingLight& casting = this->lights_.emplace_back();
+    casting.own = &this->cacheOf(of.light).of(of.light.sceneIndex, *of.estimator);
+    casting.identity = identityOf(of.light);
+    casting.channels = channelsOf(of.estimator->info, of.light);
+    casting.light = std::move(of.light);
+    casting.asked = std::move(of.asked);
+    casting.mostMapTexels = of.mostMapTexels;
   }
-  this->lights_ = std::move(lights);
   this->placeVisibility();
-  // The techniques left over belong to lights that are gone or changed their technique.
-  this->ofAllViews_.clear();
-  ofView.clear();
 }
 
 //------------------------------------------------------------------------------
@@ -417,7 +382,7 @@ void CastingLights::placeVisibility()
 {
   const auto isHard = [](const CastingLight& casting)
   {
-    return isOnCpu(casting) && casting.own.info().exact && !casting.light.area &&
+    return isOnCpu(casting) && casting.own->info().exact && !casting.light.area &&
       !casting.light.texture && edgeSamplesOf(casting) == 1;
   };
   this->layers_ = 0;
@@ -471,13 +436,9 @@ std::string CastingLights::takeOther(CastingLight& casting, ShadowLight other, F
   }
   if (!casting.resting)
   {
-    const bool isKept = casting.plain && &casting.plain->estimator() == estimator;
-    LightTechnique technique =
-      isKept ? *std::exchange(casting.plain, std::nullopt) : LightTechnique(*estimator);
-    casting.resting.emplace(
-      CastingLight::Resting{ std::move(casting.light), std::move(casting.own) });
-    casting.own = std::move(technique);
+    casting.resting.emplace(CastingLight::Resting{ std::move(casting.light), casting.own });
   }
+  casting.own = &this->cacheOf(other).of(other.sceneIndex, *estimator);
   casting.light = std::move(other);
   this->tell(casting, report);
   return {};
@@ -490,7 +451,9 @@ void CastingLights::takeResting(CastingLight& casting, FrameReport& report)
   {
     return;
   }
-  putBack(casting);
+  casting.own = casting.resting->technique;
+  casting.light = std::move(casting.resting->light);
+  casting.resting.reset();
   this->tell(casting, report);
 }
 
@@ -499,60 +462,50 @@ void CastingLights::takeResting(CastingLight& casting, FrameReport& report)
 void CastingLights::tell(CastingLight& casting, FrameReport& report)
 {
   casting.identity = identityOf(casting.light);
-  casting.channels = channelsOf(casting.own.info(), casting.light);
-  reportOf(report, casting.light) = reportOfCasting(casting.light, casting.own.info());
+  casting.channels = channelsOf(casting.own->info(), casting.light);
+  reportOf(report, casting.light) = reportOfCasting(casting.light, casting.own->info());
   this->placeVisibility();
 }
 
 //------------------------------------------------------------------------------
-void CastingLights::giveBack(TechniquesOfLights& ofView)
+const PointwiseTechnique* CastingLights::pointwiseOn(
+  CastingLight& casting, Route route, bool translucentReceivers)
 {
-  for (CastingLight& casting : this->lights_)
+  const PointwiseTechnique* own = casting.own->as<PointwiseTechnique>();
+  if (own || !translucentReceivers)
   {
-    if (casting.resting)
-    {
-      putBack(casting);
-    }
-    TechniquesOfLights& place = this->placeOf(casting.light, ofView);
-    KeptTechniques& kept = casting;
-    place.emplace(casting.light.sceneIndex, std::move(kept));
+    return translucentReceivers || route == Route::Inline ? own : nullptr;
   }
-  this->lights_.clear();
+  casting.plain = &this->cacheOf(casting.light)
+                     .of(casting.light.sceneIndex, *findTechnique(plainTechnique)->estimator);
+  return casting.plain->as<PointwiseTechnique>();
+}
+
+//------------------------------------------------------------------------------
+void CastingLights::endFrame()
+{
+  const EstimatorEntry& plain = *findTechnique(plainTechnique)->estimator;
+  for (const CastingLight& casting : this->lights_)
+  {
+    // The next motion may reuse a map, unless that was made for a larger memory budget.
+    if (casting.asked && casting.asked->mapSizeTexels <= casting.mostMapTexels)
+    {
+      this->cacheOf(casting.light).keep(casting.light.sceneIndex, plain);
+    }
+  }
+  this->ofAllViews_.dropUnused();
+  if (this->ofView_)
+  {
+    this->ofView_->dropUnused();
+  }
 }
 
 //------------------------------------------------------------------------------
 /// Return the cache of a light's techniques. Maps that are fitted to a camera in every frame belong
 /// to one view.
-TechniquesOfLights& CastingLights::placeOf(const ShadowLight& light, TechniquesOfLights& ofView)
+TechniqueCache& CastingLights::cacheOf(const ShadowLight& light)
 {
-  return isFittedToCamera(light) && light.fit != ViewFit::Once ? ofView : this->ofAllViews_;
-}
-
-//------------------------------------------------------------------------------
-/// Return a light with its techniques of an earlier frame, or with new ones.
-CastingLight CastingLights::take(
-  ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView)
-{
-  const RayIdentity identity = identityOf(light);
-  const int channels = channelsOf(estimator.info, light);
-  auto kept = this->placeOf(light, ofView).extract(light.sceneIndex);
-  if (kept && &kept.mapped().own.estimator() == &estimator)
-  {
-    return { std::move(kept.mapped()), std::move(light), identity, channels };
-  }
-  return { { LightTechnique(estimator), std::nullopt }, std::move(light), identity, channels };
-}
-
-//------------------------------------------------------------------------------
-std::size_t bytesOfMaps(const TechniquesOfLights& techniques)
-{
-  std::size_t bytes = 0;
-  for (const auto& [sceneIndex, kept] : techniques)
-  {
-    bytes +=
-      kept.own.technique().bytesOfMaps() + (kept.plain ? kept.plain->technique().bytesOfMaps() : 0);
-  }
-  return bytes;
+  return isFittedToCamera(light) && light.fit != ViewFit::Once ? *this->ofView_ : this->ofAllViews_;
 }
 
 //------------------------------------------------------------------------------

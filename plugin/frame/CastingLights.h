@@ -3,15 +3,14 @@
 #include "lights/LightManager.h"
 #include "lights/SceneFrame.h"
 #include "lights/vtkGnomonVersions.h"
-#include "plugin/frame/LightTechnique.h"
 #include "plugin/frame/RayIdentity.h"
+#include "plugin/frame/TechniqueCache.h"
 #include "shadowtech/base/VisibilityLayers.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,21 +24,12 @@ namespace gnomon
 
 struct FrameWishes;
 
-/// A light's techniques, cached from frame to frame.
-struct KeptTechniques
-{
-  LightTechnique own;
-  /// Shades translucent surfaces if the light's own technique works on the screen. If the light
-  /// leaves its technique to the pass, it also shades all surfaces in moving frames. Else none.
-  std::optional<LightTechnique> plain;
-};
-/// By the lights' indices in the scene.
-using TechniquesOfLights = std::map<int, KeptTechniques>;
-std::size_t bytesOfMaps(const TechniquesOfLights& techniques);
-
 /// A light that casts in this frame, with the techniques that shade it.
-struct CastingLight : KeptTechniques
+struct CastingLight
 {
+  LightTechnique* own = nullptr; ///< never null; lasts as long as the frame
+  /// Shades translucent surfaces if the light's own technique works on the screen. Else null.
+  LightTechnique* plain = nullptr;
   ShadowLight light;
   RayIdentity identity;        ///< of `light`
   int channels = 1;            ///< of its visibility, a layer each
@@ -54,18 +44,13 @@ struct CastingLight : KeptTechniques
   int mostMapTexels = std::numeric_limits<int>::max();
   /// The request of a light that leaves its technique to the pass; none for others.
   std::optional<ShadowLight> asked = std::nullopt;
-  /// Its resting technique while another shades it.
+  /// The light with its resting technique while another shades it.
   struct Resting
   {
     ShadowLight light;
-    LightTechnique technique;
+    LightTechnique* technique;
   };
   std::optional<Resting> resting = std::nullopt;
-
-  /// Return the technique by which the shader computes the light's visibility on a route; null if
-  /// it only fetches. Creates the plain technique if one is needed, and drops one that is not.
-  /// @param translucentReceivers true if translucent surfaces receive
-  const PointwiseTechnique* pointwiseOn(Route route, bool translucentReceivers);
 };
 
 /// True if a light's technique traces from receivers on the CPU.
@@ -84,7 +69,7 @@ public:
   /// Read the present lights, and report the outcome for each.
   /// @param ofView the view's cached techniques of lights whose maps are fitted to a camera
   void collect(vtkRenderer* renderer, const ShadowSettings& defaults, const FrameWishes& wishes,
-    TechniquesOfLights& ofView, FrameReport& report);
+    TechniqueCache& ofView, FrameReport& report);
 
   /// Bring the lights into the scene's frame. Those that cannot shine there are skipped.
   void enter(const SceneFrame& frame, FrameReport& report);
@@ -98,8 +83,14 @@ public:
   void takeResting(CastingLight& casting, FrameReport& report);
   ///@}
 
-  /// End a frame: return the lights' techniques to the caches that collect() took them from.
-  void giveBack(TechniquesOfLights& ofView);
+  /// Return the technique by which the shader computes a light's visibility on a route; null if it
+  /// only fetches.
+  /// @param translucentReceivers true if translucent surfaces receive
+  const PointwiseTechnique* pointwiseOn(
+    CastingLight& casting, Route route, bool translucentReceivers);
+
+  /// End a frame: drop cached techniques that a later frame will not use.
+  void endFrame();
 
   bool empty() const { return this->lights_.empty(); }
   std::size_t size() const { return this->lights_.size(); }
@@ -113,11 +104,11 @@ public:
   bool anyTechnique(const IsSuch& isSuch) const
   {
     return std::any_of(this->lights_.begin(), this->lights_.end(),
-      [&](const CastingLight& casting) { return isSuch(casting.own.info()); });
+      [&](const CastingLight& casting) { return isSuch(casting.own->info()); });
   }
 
   /// Return the bytes of the maps that serve all views.
-  std::size_t bytesOfMaps() const { return gnomon::bytesOfMaps(this->ofAllViews_); }
+  std::size_t bytesOfMaps() const { return this->ofAllViews_.bytesOfMaps(); }
 
   ///@{
   /// Return the number of their visibility layers, and of their bits.
@@ -129,11 +120,11 @@ private:
   std::string takeOther(CastingLight& casting, ShadowLight other, FrameReport& report);
   void tell(CastingLight& casting, FrameReport& report);
   void placeVisibility();
-  TechniquesOfLights& placeOf(const ShadowLight& light, TechniquesOfLights& ofView);
-  CastingLight take(ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView);
+  TechniqueCache& cacheOf(const ShadowLight& light);
 
   LightManager manager_;
-  TechniquesOfLights ofAllViews_;    ///< of lights whose maps serve all views
+  TechniqueCache ofAllViews_;        ///< of lights whose maps serve all views
+  TechniqueCache* ofView_ = nullptr; ///< of lights whose maps are fitted to the frame's camera
   std::vector<CastingLight> lights_; ///< by their index in the scene
   int layers_ = 0;
   int bits_ = 0;

@@ -136,7 +136,7 @@ VisibilityImages keepVisibility(const CastingLights& lights, const ViewValues& v
   auto value = view.visibility.begin();
   for (const CastingLight& casting : lights)
   {
-    ClassImage classImage{ casting.own.info().classes, {} };
+    ClassImage classImage{ casting.own->info().classes, {} };
     if (!classImage.classes.empty())
     {
       classImage.ofPixels = topRowFirst(value->classes, images.width, images.height);

@@ -40,7 +40,7 @@ std::uint64_t hashOf(const CastingLights& lights)
   {
     hashLight(seed, casting);
     for (const std::string& value :
-      valuesOf(casting.own.info(), SettingsOf::Estimator, casting.light))
+      valuesOf(casting.own->info(), SettingsOf::Estimator, casting.light))
     {
       hashCombine(seed, value);
     }
@@ -187,7 +187,7 @@ bool RenderManager::chooseTechniques(bool moves, bool mayRefine)
   this->choice_.choose(
     [this](CastingLight& casting)
     {
-      casting.own.updateMaps(
+      casting.own->updateMaps(
         casting.light, this->mapStage(casting), reportOf(this->frame_.report, casting.light));
     });
   this->frame_.endStage("choice");
@@ -210,7 +210,7 @@ std::string RenderManager::whyNotDeferred(const vtkRenderState* s, bool drawnPla
       std::to_string(this->frame_.lights.size()) + " lights cast";
   }
   const CastingLight& casting = *this->frame_.lights.begin();
-  if (!isOnCpu(casting) || !casting.own.info().exact || casting.light.area)
+  if (!isOnCpu(casting) || !casting.own->info().exact || casting.light.area)
   {
     return "'" + casting.light.technique + "' may leave pixels between light and shadow";
   }
@@ -248,12 +248,12 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
   needs.lights = this->frame_.lights.size();
   for (const CastingLight& casting : this->frame_.lights)
   {
-    if (!casting.own.info().isPointwise())
+    if (!casting.own->info().isPointwise())
     {
       needs.screenTechnique = casting.light.technique;
     }
     needs.headlightOnSamples |= casting.light.isHeadlight && samples > 1;
-    if (casting.own.info().isSlow && samples <= 1)
+    if (casting.own->info().isSlow && samples <= 1)
     {
       needs.slowTechnique = casting.light.technique;
     }
@@ -299,10 +299,10 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
   std::vector<ShadedLight> shaded;
   for (CastingLight& casting : this->frame_.lights)
   {
-    casting.own.chooseFit(
+    casting.own->chooseFit(
       casting.light, this->frame_.route, translucentReceivers, reportOf(report, casting.light));
     const PointwiseTechnique* pointwise =
-      casting.pointwiseOn(this->frame_.route, translucentReceivers);
+      this->frame_.lights.pointwiseOn(casting, this->frame_.route, translucentReceivers);
     casting.shadesAtPoints = pointwise != nullptr;
     shaded.push_back({ casting.light, casting.channels, casting.layer, casting.bit, pointwise });
   }
@@ -556,10 +556,10 @@ void RenderManager::bakeMaps()
   {
     const MapStage stage = this->mapStage(casting);
     LightReport& report = reportOf(this->frame_.report, casting.light);
-    const bool shadesByOwn = casting.shadesAtPoints && casting.own.info().isPointwise();
+    const bool shadesByOwn = casting.shadesAtPoints && casting.own->info().isPointwise();
     if (this->frame_.route == Route::Inline || casting.isStale || shadesByOwn)
     {
-      casting.own.updateMaps(casting.light, stage, report);
+      casting.own->updateMaps(casting.light, stage, report);
     }
     if (casting.plain && casting.shadesAtPoints)
     {
@@ -658,7 +658,7 @@ void RenderManager::endFrame(const vtkRenderState* s)
   report.bytesOccluders =
     this->collector_.bytes() + this->buffers_.bytes() + this->visibility_.bytesOfTable();
   report.bytesBvh = this->visibility_.bytesOfTracer();
-  this->frame_.lights.giveBack(this->frame_.view->techniques);
+  this->frame_.lights.endFrame();
   report.bytesMaps = this->frame_.lights.bytesOfMaps() + this->views_.bytesOfMaps();
   if (this->frame_.route != Route::Inline)
   {
@@ -686,7 +686,6 @@ void RenderManager::endFrame(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 void RenderManager::abandonFrame()
 {
-  this->frame_.lights.giveBack(this->frame_.view->techniques);
   this->programs_.shaders.endStage();
 }
 

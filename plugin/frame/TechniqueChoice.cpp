@@ -308,7 +308,7 @@ std::string TechniqueChoice::whyNoMaps() const
       " lights, not " + std::to_string(this->frame_.lights.size());
   }
   const auto isOther = [](const CastingLight& casting)
-  { return !casting.asked && !casting.own.info().isPointwise(); };
+  { return !casting.asked && !casting.own->info().isPointwise(); };
   if (std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(), isOther))
   {
     return "another light's technique works on the whole screen";
@@ -351,7 +351,6 @@ std::string TechniqueChoice::tryMap(
   const int asked = casting.asked->mapSizeTexels;
   if (asked > casting.mostMapTexels)
   {
-    casting.plain.reset();
     return "the memory budget has no room for maps";
   }
   int mostSteps = 0;
@@ -432,7 +431,7 @@ bool TechniqueChoice::probe(const CastingLight& casting, double limit, LightChoi
   {
     this->look();
     const WrongProbes wrong =
-      this->probes_.wrongOf(*casting.own.as<PointwiseTechnique>(), casting.light,
+      this->probes_.wrongOf(*casting.own->as<PointwiseTechnique>(), casting.light,
         this->frame_.space, this->occluders_, this->visibility_.tracer(), this->shaders_);
     found.asked += wrong.asked;
     found.wrong += wrong.wrong;

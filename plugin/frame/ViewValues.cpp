@@ -65,7 +65,7 @@ std::size_t RendererViews::bytesOfImages() const
 std::size_t RendererViews::bytesOfMaps() const
 {
   return bytesOfAll(
-    this->views_, [](const View& view) { return gnomon::bytesOfMaps(view.values.techniques); });
+    this->views_, [](const View& view) { return view.values.techniques.bytesOfMaps(); });
 }
 
 } // namespace gnomon

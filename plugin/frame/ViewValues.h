@@ -79,7 +79,7 @@ struct ViewValues
 {
   std::size_t shown = 0; ///< hash of lights, camera and props, as RenderManager::changes() noted it
   ReceiversValue receivers;
-  TechniquesOfLights techniques; ///< of lights whose maps are fitted to this view's camera
+  TechniqueCache techniques; ///< of lights whose maps are fitted to this view's camera
   VisibilityLayers layers;
   std::vector<VisibilityValue> visibility; ///< by casting light
 

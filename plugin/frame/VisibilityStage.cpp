@@ -27,7 +27,7 @@ namespace
 int samplesOf(const CastingLight& casting, int before, bool severalViews)
 {
   const ShadowLight& light = casting.light;
-  const bool refines = !severalViews && casting.own.info().has(refinementSettings()) && light.area;
+  const bool refines = !severalViews && casting.own->info().has(refinementSettings()) && light.area;
   const int named = light.of<RefinementSettings>().movingSamples;
   const int first = named > 0 ? named : casting.firstSamples;
   return samplesOfStep(refines ? first : 0, before, light.lightSamples);
@@ -80,10 +80,10 @@ VisibilityStage::VisibilityStage(
 /// The key of a light's visibility; its maps follow from the same parts.
 ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
 {
-  const TechniqueInfo& info = casting.own.info();
+  const TechniqueInfo& info = casting.own->info();
   ValueKey key = *this->frame_.view->receivers.key;
   key.add("the light", casting.identity);
-  key.add("its technique", std::pair(&casting.own.estimator(), casting.light.fittedToReceivers));
+  key.add("its technique", std::pair(&casting.own->estimator(), casting.light.fittedToReceivers));
   key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light));
   key.add("its layer", std::pair(casting.layer, casting.bit));
   return key;
@@ -315,7 +315,7 @@ void VisibilityStage::storeReceivers()
   const auto images = std::count_if(this->frame_.lights.begin(), this->frame_.lights.end(),
     [](const CastingLight& casting)
     {
-      const bool isDecidedByMap = casting.own.info().conservativeMap && casting.own.usesMap();
+      const bool isDecidedByMap = casting.own->info().conservativeMap && casting.own->usesMap();
       return casting.isStale && isOnCpu(casting) && !isDecidedByMap;
     });
   if (++value.framesTraced > patience || images > 1)
@@ -342,7 +342,7 @@ void VisibilityStage::judge()
     [&](std::size_t i)
     {
       const CastingLight& casting = this->frame_.lights.begin()[static_cast<std::ptrdiff_t>(i)];
-      if (casting.isStale && isOnCpu(casting) && casting.own.info().exact &&
+      if (casting.isStale && isOnCpu(casting) && casting.own->info().exact &&
         !casting.light.texture && edgeSamplesOf(casting) == 1)
       {
         this->verdicts_[i].emplace(casting.light, this->occluders_, *boxes, *this->tracer_);
@@ -382,7 +382,7 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
       LightReport& report = reportOf(frameReport, casting.light);
       value->classified = this->classifies();
       this->fill(casting, verdicts->has_value() ? &**verdicts : nullptr, *value, report);
-      const std::vector<PixelClass>& named = casting.own.info().classes;
+      const std::vector<PixelClass>& named = casting.own->info().classes;
       if (value->classified && !named.empty())
       {
         report.classes = countClasses(named, value->classes);
@@ -439,8 +439,8 @@ TracedTiles* VisibilityStage::beginTiles(
 {
   const Occluders& occluders = this->occluders_;
   const ReceiversValue& receivers = this->frame_.view->receivers;
-  const TechniqueInfo& info = casting.own.info();
-  const bool isDecidedByMap = info.conservativeMap && casting.own.usesMap();
+  const TechniqueInfo& info = casting.own->info();
+  const bool isDecidedByMap = info.conservativeMap && casting.own->usesMap();
   // Of a single surface nothing stays where it was.
   if (!info.exact || isDecidedByMap || edgeSamplesOf(casting) > 1 || this->frame_.ranks ||
     occluders.surfaces.size() < 2)
@@ -477,20 +477,20 @@ void VisibilityStage::fill(
   const Occluders& occluders = this->occluders_;
   const ReceiversValue& receivers = this->frame_.view->receivers;
   VisibilityLayers& layers = this->frame_.view->layers;
-  if (auto* pointwise = casting.own.as<PointwiseTechnique>())
+  if (auto* pointwise = casting.own->as<PointwiseTechnique>())
   {
     layers.estimate(casting.layer, *pointwise, light, receivers.target, this->frame_.space,
-      this->shaders_, casting.own.info().classes.empty() ? nullptr : classes);
+      this->shaders_, casting.own->info().classes.empty() ? nullptr : classes);
     this->frame_.endStage("visibility: estimate");
   }
-  else if (auto* onGpu = casting.own.as<GpuScreenTechnique>())
+  else if (auto* onGpu = casting.own->as<GpuScreenTechnique>())
   {
     this->buffers_.update(occluders);
     namingLight(light,
       [&]
       {
         onGpu->drawVisibility(
-          { light, casting.own.fitting(), this->frame_.camera, this->frame_.space, occluders,
+          { light, casting.own->fitting(), this->frame_.camera, this->frame_.space, occluders,
             this->buffers_, receivers.target, this->frame_.view->receivers.number,
             receivers.drawnSurfaces, layers, casting.layer, this->frame_.severalViews,
             this->shaders_, classes != nullptr, classes, value.notes,
@@ -514,7 +514,7 @@ void VisibilityStage::trace(
   const ShadowLight& light = casting.light;
   VisibilityLayers& layers = this->frame_.view->layers;
   std::vector<std::uint8_t>* const classes = value.classified ? &value.classes : nullptr;
-  auto& technique = *casting.own.as<CpuScreenTechnique>();
+  auto& technique = *casting.own->as<CpuScreenTechnique>();
   const std::size_t edgeSamples = edgeSamplesOf(casting);
   std::vector<std::uint8_t> classesForEdges;
   ShadowLight traced = light;
@@ -529,7 +529,7 @@ void VisibilityStage::trace(
   {
     verdicts->tell(light, report);
   }
-  casting.own.tellRays(!verdicts || verdicts->needManyRays());
+  casting.own->tellRays(!verdicts || verdicts->needManyRays());
   const bool isDeferred = this->frame_.route == Route::Deferred;
   if (verdicts && hasBit && !isDeferred && verdicts->areAllDark())
   {
@@ -548,9 +548,10 @@ void VisibilityStage::trace(
   {
     layers.readBit(casting.bit, visibility);
   }
-  const ScreenInput input{ traced, casting.own.fitting(), this->surfacesOfReceivers(), onCpu,
-    *this->tracer_, casting.own.usesMap(), classes || edgeSamples == 1 ? classes : &classesForEdges,
-    tiles, verdicts, this->frame_.report.mapBakes };
+  const ScreenInput input{ traced, casting.own->fitting(), this->surfacesOfReceivers(), onCpu,
+    *this->tracer_, casting.own->usesMap(),
+    classes || edgeSamples == 1 ? classes : &classesForEdges, tiles, verdicts,
+    this->frame_.report.mapBakes };
   namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });
   this->frame_.endStage("visibility: trace");
   if (edgeSamples > 1)
