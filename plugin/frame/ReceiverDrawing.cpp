@@ -1,6 +1,7 @@
 #include "plugin/frame/ReceiverDrawing.h"
 
 #include "plugin/scene/Hash.h"
+#include "plugin/scene/MapperKind.h"
 #include "plugin/scene/PropStamps.h"
 
 #include <vtkActor.h>
@@ -121,7 +122,7 @@ bool isLeafDrawnByPasses(vtkProp* leaf)
   }
   auto* actor = vtkActor::SafeDownCast(leaf);
   return actor
-    ? actor->GetMapper() != nullptr
+    ? actor->GetMapper() && !hasOwnFramebuffer(actor->GetMapper())
     : leaf->IsA("vtkImageSlice") || leaf->IsA("vtkLODProp3D") || leaf->IsA("vtkProp3DFollower");
 }
 
@@ -218,13 +219,16 @@ void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec
   const vtkOpenGLState::ScopedglColorMask colorMask(state);
   const vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
   const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  state->vtkglViewport(0, 0, size.x, size.y);
-  state->vtkglScissor(0, 0, size.x, size.y);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  state->vtkglDepthFunc(GL_LEQUAL);
-  state->vtkglEnable(GL_DEPTH_TEST);
-
+  const auto open = [&]
+  {
+    state->vtkglViewport(0, 0, size.x, size.y);
+    state->vtkglScissor(0, 0, size.x, size.y);
+    state->vtkglDepthMask(GL_TRUE);
+    state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    state->vtkglDepthFunc(GL_LEQUAL);
+    state->vtkglEnable(GL_DEPTH_TEST);
+  };
+  open();
   target.begin(size.x, size.y, withPoints);
   state->PushFramebufferBindings();
   state->ResetFramebufferBindings(); // VTK's copy must name the target, or debug builds warn
@@ -237,6 +241,13 @@ void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec
     {
       const WithoutOtherPasses alone(prop, pass);
       prop->RenderOpaqueGeometry(renderer);
+      if (anyPart(
+            prop, [](vtkProp*, vtkMapper* mapper) { return mapper && mayHaveOwnShaders(mapper); }))
+      {
+        open();
+        target.bind();
+        state->ResetFramebufferBindings();
+      }
     }
   }
   target.end(state->GetEnumState(GL_BLEND));

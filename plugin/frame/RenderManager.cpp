@@ -223,9 +223,9 @@ std::string RenderManager::whyNotDeferred(const vtkRenderState* s, bool drawnPla
   {
     return "a render pass draws the props in its own way";
   }
-  if (!this->collector_.seenThrough().empty())
+  if (this->collector_.anySeenThrough())
   {
-    return "a prop that is forced to be opaque is seen through";
+    return "the receivers lack a prop that is seen through or has a framebuffer of its own";
   }
   if (anyPropHasOwnShaders(s))
   {
@@ -314,8 +314,7 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
   }
   this->programs_.shaders.configure(
     { this->frame_.route, this->readsPoints(), samples > 1, namesTriangles,
-      this->stageValues_.viewFromVtkView == glm::dmat4(1.0),
-      !this->collector_.seenThrough().empty() },
+      this->stageValues_.viewFromVtkView == glm::dmat4(1.0), this->collector_.anySeenThrough() },
     shaded);
   return (this->frame_.wishes.route != RouteWish::Inline || screenTechnique.empty()) &&
     (this->frame_.wishes.route != RouteWish::Deferred || needs.whyNotDeferred.empty());
@@ -708,9 +707,8 @@ void RenderManager::setShaderParameters(
       numbers.add(program, primitives, drawn.index);
     }
   }
-  const std::vector<const vtkProp*>& seenThrough = this->collector_.seenThrough();
-  drawn.translucent |= this->frame_.route == Route::Image && // its layers hold what is behind
-    std::find(seenThrough.begin(), seenThrough.end(), prop) != seenThrough.end();
+  // The layers of the image route hold what is behind.
+  drawn.translucent |= this->frame_.route == Route::Image && this->collector_.isSeenThrough(prop);
   drawn.receives = drawn.receives && (!drawn.translucent || this->shadesTranslucent_);
   this->programs_.shaders.setParameters(program, drawn);
 }

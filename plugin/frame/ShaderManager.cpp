@@ -468,6 +468,7 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   this->layersFit_ = true;
   this->upToDate_.clear();
   this->stageUniforms_.clear();
+  const int spare = this->bindTexture({ GL_TEXTURE_2D, 0 });
   if (this->variant_.route == Route::Image)
   {
     this->stageUniforms_.push_back({ "gnomonStage", values.receiversStage ? 1 : 0 });
@@ -490,6 +491,8 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
     }
   }
   values.receiversStage ? this->separateSamplers() : this->bindVisibility(values);
+  // VTK binds a texture that it creates to the active unit.
+  this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(spare));
 }
 
 //------------------------------------------------------------------------------
@@ -595,7 +598,7 @@ void ShaderManager::setParameters(vtkShaderProgram* program, const HookedSurface
     }
   }
   bool receives = drawn.receives;
-  if (this->variant_.route == Route::Image)
+  if (this->variant_.route == Route::Image && !drawn.translucent)
   {
     receives = this->setLayersOrigin(handle) && receives;
   }

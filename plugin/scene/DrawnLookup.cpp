@@ -117,21 +117,31 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
 }
 
 //------------------------------------------------------------------------------
-void DrawnLookup::beginFrame(const std::vector<const vtkProp*>& translucentReceivers)
+void DrawnLookup::beginFrame(
+  const std::vector<const void*>& translucentReceivers, const std::vector<const void*>& seenThrough)
 {
   this->answers_.clear();
   this->taken_.clear();
   this->drawnSurfaces_.clear();
-  this->translucentReceivers_.clear();
-  this->translucentReceivers_.insert(translucentReceivers.begin(), translucentReceivers.end());
+  this->translucentReceivers_ = { translucentReceivers.begin(), translucentReceivers.end() };
+  this->seenThrough_ = { seenThrough.begin(), seenThrough.end() };
+}
+
+//------------------------------------------------------------------------------
+/// True if a prop or its mapper is among drawers, as DrawnProps lists them.
+bool DrawnLookup::isAmong(vtkProp* prop, const std::unordered_set<const void*>& drawers)
+{
+  auto* const actor = drawers.empty() ? nullptr : vtkActor::SafeDownCast(prop);
+  return actor && (drawers.count(prop) > 0 || drawers.count(actor->GetMapper()) > 0);
 }
 
 //------------------------------------------------------------------------------
 std::size_t DrawnLookup::bytes() const
 {
   return bytesOf(this->held_) + bytesOfTable(this->heldAt_) + bytesOfTable(this->answers_) +
-    bytesOfTable(this->translucentReceivers_) + bytesOfTable(this->taken_) +
-    bytesOf(this->drawnSurfaces_) + bytesOfAll(this->held_, bytesOf<HeldSurface>) +
+    bytesOfTable(this->translucentReceivers_) + bytesOfTable(this->seenThrough_) +
+    bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_) +
+    bytesOfAll(this->held_, bytesOf<HeldSurface>) +
     bytesOfAll(
       this->drawnSurfaces_, [](const DrawnSurface& drawn) { return bytesOf(drawn.blocks); });
 }
@@ -195,7 +205,7 @@ HookedSurface DrawnLookup::find(
   if (prop->IsRenderingTranslucentPolygonalGeometry())
   {
     HookedSurface drawn;
-    drawn.receives = this->translucentReceivers_.count(prop) > 0;
+    drawn.receives = isAmong(prop, this->translucentReceivers_);
     drawn.translucent = true;
     return drawn;
   }

@@ -64,8 +64,12 @@ public:
     std::vector<HeldSurface> held);
 
   /// Clear the list of drawn surfaces.
-  /// @param translucentReceivers as in DrawnProps
-  void beginFrame(const std::vector<const vtkProp*>& translucentReceivers);
+  /// @param translucentReceivers as in DrawnProps, as the next
+  void beginFrame(const std::vector<const void*>& translucentReceivers,
+    const std::vector<const void*>& seenThrough);
+  /// True if the picture of receivers holds what is behind a prop.
+  bool isSeenThrough(vtkProp* prop) const { return isAmong(prop, this->seenThrough_); }
+  bool anySeenThrough() const { return !this->seenThrough_.empty(); }
   /// Return the facts about the surface that VTK is about to draw. A mapper's lines and points are
   /// not held. Surfaces of the translucent pass are not looked up in the snapshot.
   HookedSurface find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders);
@@ -110,13 +114,15 @@ private:
     std::size_t operator()(const Question& question) const;
   };
 
+  static bool isAmong(vtkProp* prop, const std::unordered_set<const void*>& drawers);
   const HeldSurfaces* heldBy(vtkProp* prop) const;
   const HeldSurface* match(const HeldSurfaces& held, vtkPolyData* data, SurfaceCells cells);
 
   std::vector<HeldSurfaces> held_;
   std::unordered_map<Place, std::size_t, PlaceHash> heldAt_; ///< indices into held_
   std::unordered_map<Question, HookedSurface, QuestionHash> answers_;
-  std::unordered_set<const vtkProp*> translucentReceivers_;
+  std::unordered_set<const void*> translucentReceivers_;
+  std::unordered_set<const void*> seenThrough_;
   std::unordered_set<const HeldSurface*> taken_; ///< glyphs whose helper is known
   std::vector<DrawnSurface> drawnSurfaces_;
 };

@@ -222,7 +222,7 @@ private:
   int number_ = 0; ///< of the view prop
   vtkProp* viewProp_ = nullptr;
   std::map<std::string, NamedProps> skipped_; ///< props left out
-  NamedProps unlit_, notCasting_;
+  NamedProps unlit_, notCasting_, copied_;
   std::map<std::string, int>
     uncut_;       ///< why props cast without a texture's holes, with their number
   int moved_ = 0; ///< number of props whose vertices shader code may move
@@ -334,10 +334,19 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   }
   const ActorDrawing drawing =
     actorDrawing(actor, matrix ? matrix : actor->GetMatrix(), this->renderer_);
-  const bool seenThrough = isSeenThrough(actor);
+  const auto nameDrawer = [&](std::vector<const void*>& drawers)
+  {
+    drawers.push_back(drawing.actor);
+    if (!isPlain)
+    {
+      drawers.push_back(drawing.mapper);
+    }
+  };
+  const bool copies = hasOwnFramebuffer(actor->GetMapper());
+  const bool seenThrough = copies || isSeenThrough(actor);
   if (seenThrough)
   {
-    this->drawn_.seenThrough.push_back(drawing.actor);
+    nameDrawer(this->drawn_.seenThrough);
   }
   const bool lit = showsLight(actor->GetProperty());
   const bool asSurface = drawnAsSurface(actor->GetProperty(), actor->GetMapper());
@@ -436,7 +445,11 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   const bool translucent = eitherOr ? !opaque : actor->HasTranslucentPolygonalGeometry() != 0;
   if (prop.receives && (translucent || seenThrough))
   {
-    this->drawn_.translucentReceivers.push_back(prop.actor);
+    nameDrawer(this->drawn_.translucentReceivers);
+    if (copies)
+    {
+      this->name(this->copied_, mapper);
+    }
   }
   if (opaque)
   {
@@ -629,6 +642,8 @@ DrawnProps Finder::take()
   tell(this->unlit_, "is unlit and shows no shadow", "are unlit and show no shadow");
   tell(this->notCasting_, "is translucent and casts nothing unless its key asks",
     "are translucent and cast nothing unless their keys ask");
+  tell(this->copied_, "is drawn into a framebuffer of its own and receives as if translucent",
+    "are drawn into framebuffers of their own and receive as if translucent");
   for (const auto& [why, count] : this->uncut_)
   {
     this->drawn_.notes.push_back("holes in textures are not cut out of shadows: " + why + " (" +

@@ -86,10 +86,13 @@ struct DrawnProps
   /// data and vtkGlyph3DMapper have any number, each polydata once. vtkMoleculeMapper has atoms and
   /// bonds.
   std::vector<DrawnBlock> blocks;
-  /// Actors whose translucent surfaces, or those that are seen through, receive, as VTK hands them
-  /// to a render pass.
-  std::vector<const vtkProp*> translucentReceivers;
-  std::vector<const vtkProp*> seenThrough; ///< those that are (isSeenThrough()), likewise
+  ///@{
+  /// Actors as VTK hands them to a render pass, each followed by its mapper unless it is a
+  /// vtkOpenGLActor: ParaView's actors draw by an inner one, which has the mapper.
+  std::vector<const void*> translucentReceivers; ///< that receive, or are seenThrough and receive
+  /// The picture of receivers holds what is behind them (isSeenThrough(), hasOwnFramebuffer()).
+  std::vector<const void*> seenThrough;
+  ///@}
   /// Kinds of props that are visible and lit but left out, each once.
   std::vector<std::string> leftOut;
   /// Sentences: each kind left out with its number of props, and effects that shadows of other

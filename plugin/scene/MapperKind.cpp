@@ -18,6 +18,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace gnomon
@@ -65,6 +66,16 @@ bool isSeenThrough(vtkActor* actor)
   return actor->GetForceOpaque() &&
     (actor->GetProperty()->GetOpacity() < 1.0 ||
       (actor->GetMapper() && actor->GetMapper()->HasTranslucentPolygonalGeometry()));
+}
+
+//------------------------------------------------------------------------------
+bool hasOwnFramebuffer(vtkMapper* mapper)
+{
+  constexpr std::array<const char*, 3> classes = { "vtkSurfaceLICMapper",
+    "vtkCompositeSurfaceLICMapper", "vtkOpenGLSurfaceProbeVolumeMapper" };
+  return std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") != 0 &&
+    std::any_of(
+      classes.begin(), classes.end(), [mapper](const char* name) { return mapper->IsA(name); });
 }
 
 //------------------------------------------------------------------------------

@@ -43,6 +43,10 @@ bool drawnAsSurface(vtkProperty* property, vtkMapper* mapper);
 /// count: their holes are in the snapshot (TextureCutouts.h).
 bool isSeenThrough(vtkActor* actor);
 
+/// True if a mapper draws into a framebuffer of its own and copies from there. Its shaders write to
+/// that one, so the receivers cannot have its pixels.
+bool hasOwnFramebuffer(vtkMapper* mapper);
+
 /// Run the pipeline before a mapper, as when it draws.
 void runInput(vtkMapper* mapper, MapperKind kind);
 

@@ -16,11 +16,10 @@ SnapshotChange OccluderCollector::collect(
   vtkRenderer* renderer, bool readsNormals, const OtherProcesses& others)
 {
   DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
-  this->lookup_.beginFrame(drawn.translucentReceivers);
+  this->lookup_.beginFrame(drawn.translucentReceivers, drawn.seenThrough);
   this->notes_ = std::move(drawn.notes);
   this->leftOut_ = std::move(drawn.leftOut);
   this->translucentReceivers_ = drawn.translucentReceivers.size();
-  this->seenThrough_ = drawn.seenThrough;
   std::vector<WantedSurface> wanted = wantedSurfaces(drawn, this->surfaces_.records());
   for (WantedSurface& surface : wanted)
   {

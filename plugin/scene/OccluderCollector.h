@@ -62,8 +62,11 @@ public:
 
   /// The number of DrawnProps::translucentReceivers, as of the last collect().
   std::size_t translucentReceivers() const { return this->translucentReceivers_; }
-  /// As in DrawnProps, of the last collect().
-  const std::vector<const vtkProp*>& seenThrough() const { return this->seenThrough_; }
+  ///@{
+  /// As in DrawnLookup, of the last collect().
+  bool isSeenThrough(vtkProp* prop) const { return this->lookup_.isSeenThrough(prop); }
+  bool anySeenThrough() const { return this->lookup_.anySeenThrough(); }
+  ///@}
 
   /// Memory that all this holds: the snapshot, and what is remembered of each surface and prop.
   std::size_t bytes() const;
@@ -86,7 +89,6 @@ private:
   DrawnLookup lookup_;
   PropMemory propMemory_;
   std::size_t translucentReceivers_ = 0;
-  std::vector<const vtkProp*> seenThrough_;
   std::vector<std::string> notes_;
   std::string noteOnBoxes_; ///< as of the last change
   std::vector<std::string> leftOut_;

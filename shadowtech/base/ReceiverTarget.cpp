@@ -14,14 +14,20 @@ void ReceiverTarget::begin(int width, int height, bool withPoints)
   {
     this->allocate(width, height, withPoints);
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
-  // The outputs are numbers, not colours: they must not be blended.
-  glDisablei(GL_BLEND, 1);
-  glDisablei(GL_BLEND, 2);
+  this->bind();
   const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
   const float farthest = 1.0f;
   glClearBufferfv(GL_COLOR, 1, nothing); // marks the points, which are not cleared, as invalid
   glClearBufferfv(GL_DEPTH, 0, &farthest);
+}
+
+//------------------------------------------------------------------------------
+void ReceiverTarget::bind()
+{
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
+  // The outputs are numbers, not colours: they must not be blended.
+  glDisablei(GL_BLEND, 1);
+  glDisablei(GL_BLEND, 2);
 }
 
 //------------------------------------------------------------------------------

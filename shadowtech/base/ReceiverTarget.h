@@ -25,6 +25,9 @@ public:
   /// @throws TextureMemoryError before anything is bound
   void begin(int width, int height, bool withPoints);
 
+  /// Bind the framebuffer again after a prop that may have bound another one.
+  void bind();
+
   /// Restore the framebuffers that were bound at begin().
   /// @param blending true if blending is on outside
   void end(bool blending);

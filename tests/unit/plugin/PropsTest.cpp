@@ -4,6 +4,7 @@
 
 #include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtk_versions/SharedBlocksMapper.h"
+#include "shadowtech/base/Gl.h"
 
 #include <vtkAssembly.h>
 #include <vtkCompositeDataDisplayAttributes.h>
@@ -19,13 +20,17 @@
 #include <vtkLODProp3D.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
+#include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLPolyDataMapper.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProp3DFollower.h>
 #include <vtkPropAssembly.h>
+#include <vtkPropCollection.h>
 #include <vtkProperty.h>
 #include <vtkQuadricLODActor.h>
 #include <vtkRenderWindowInteractor.h>
@@ -37,6 +42,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -97,6 +103,32 @@ public:
 };
 vtkStandardNewMacro(TimedMapper);
 
+/// A mapper that draws into a framebuffer of its own, switches blending and makes a texture.
+class ElsewhereMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static ElsewhereMapper* New();
+  vtkTypeMacro(ElsewhereMapper, vtkOpenGLPolyDataMapper);
+  void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override
+  {
+    auto* window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
+    vtkOpenGLState* state = window->GetState();
+    gnomon::GlTexture texture;
+    glBindTexture(GL_TEXTURE_2D, texture.create()); // to the active unit
+    vtkNew<vtkOpenGLFramebufferObject> framebuffer;
+    framebuffer->SetContext(window);
+    state->PushFramebufferBindings();
+    const int* const size = window->GetSize();
+    framebuffer->PopulateFramebuffer(size[0], size[1], true, 1, VTK_UNSIGNED_CHAR, true, 24, 0);
+    state->vtkglDisable(GL_BLEND);
+    this->Superclass::RenderPiece(renderer, actor);
+    state->vtkglEnable(GL_BLEND);
+    state->PopFramebufferBindings();
+    framebuffer->ReleaseGraphicsResources(window);
+  }
+};
+vtkStandardNewMacro(ElsewhereMapper);
+
 /// An interactor that never calls a window system.
 class QuietInteractor : public vtkRenderWindowInteractor
 {
@@ -122,6 +154,35 @@ TEST_P(Props, castUnlessToldOtherwise)
   square->SetScale(1.0, 1e-80, 1.0);
   EXPECT_FALSE(this->dark(2.5, 0.0));
   EXPECT_EQ(this->scene.report().droppedZeroArea, 2u);
+}
+
+//------------------------------------------------------------------------------
+/// A prop before the others leaves the receivers' state changed behind it.
+TEST_P(Props, oneThatBindsItsOwnFramebufferLeavesOthersRight)
+{
+  this->addSquare(true);
+  const Picture without = this->scene.render();
+  vtkNew<vtkPlaneSource> plane;
+  vtkNew<ElsewhereMapper> mapper;
+  mapper->SetInputConnection(plane->GetOutputPort());
+  vtkNew<vtkActor> elsewhere;
+  elsewhere->SetMapper(mapper);
+  vtkGnomonPropKeys::SetCasts(elsewhere, false);
+  vtkCollectionSimpleIterator iterator;
+  std::vector<vtkSmartPointer<vtkProp>> props;
+  vtkPropCollection* all = this->scene.renderer->GetViewProps();
+  all->InitTraversal(iterator);
+  while (vtkProp* prop = all->GetNextProp(iterator))
+  {
+    props.emplace_back(prop);
+  }
+  this->scene.renderer->RemoveAllViewProps();
+  this->scene.renderer->AddViewProp(elsewhere);
+  for (vtkProp* prop : props)
+  {
+    this->scene.renderer->AddViewProp(prop);
+  }
+  EXPECT_EQ(differingPixels(without, this->scene.render()), 0u);
 }
 
 //------------------------------------------------------------------------------
