@@ -226,12 +226,14 @@ public:
     int size[2];
     int origin[2];
     renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+    const double* const tile = renderer->GetRenderWindow()->GetTileViewport();
     double viewport[4];
     for (int axis = 0; axis < 2; ++axis)
     {
       const int last = origin[axis] + std::max(size[axis] / factor, 1);
-      viewport[axis] = this->before_[axis];
-      viewport[axis + 2] = static_cast<double>(last) / window[axis];
+      const double side = tile[axis + 2] - tile[axis];
+      viewport[axis] = std::max(this->before_[axis], tile[axis]);
+      viewport[axis + 2] = tile[axis] + side * last / window[axis];
     }
     renderer->SetViewport(viewport);
   }

@@ -142,7 +142,7 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
   }
   report.droppedNonFinite = occluders.droppedNonFinite;
   report.droppedZeroArea = occluders.droppedZeroArea;
-  this->frame_.size = sizeOf(s);
+  this->frame_.size = sizeOf(s, this->frame_.wishes.reductionFactor);
   const ShownView shown = shownView(s->GetRenderer(), occluders.frame);
   this->frame_.camera = shown.camera;
   this->frame_.space = { shown.centredFromView, shown.camera.pixelSide(this->frame_.size) };

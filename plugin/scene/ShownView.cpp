@@ -77,12 +77,13 @@ glm::dmat4 viewFromWorld(const glm::dmat4& vtkView, const glm::dmat4& projection
 } // namespace
 
 //------------------------------------------------------------------------------
-glm::ivec2 sizeOf(const vtkRenderState* s)
+glm::ivec2 sizeOf(const vtkRenderState* s, int reductionFactor)
 {
   glm::ivec2 size(0);
   if (auto* framebuffer = s->GetFrameBuffer())
   {
     framebuffer->GetLastSize(size.x, size.y);
+    size /= reductionFactor;
   }
   else
   {

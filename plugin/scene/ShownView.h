@@ -17,8 +17,9 @@ namespace gnomon
 {
 
 /// Return the size of a render state's picture, in pixels: the renderer's part of the window, or
-/// the whole framebuffer that an outer pass hands in.
-glm::ivec2 sizeOf(const vtkRenderState* s);
+/// the framebuffer that an outer pass hands in.
+/// @param reductionFactor by which the picture is smaller than that framebuffer
+glm::ivec2 sizeOf(const vtkRenderState* s, int reductionFactor = 1);
 
 /// Return the origin of that picture in the bound framebuffer, in pixels.
 glm::ivec2 originOf(const vtkRenderState* s);

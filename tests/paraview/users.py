@@ -1,6 +1,7 @@
 """Draw what ParaView's users draw, beside what plain ParaView shows of it.
 
     [mpirun -np N] pvbatch users.py CASE OUT
+    pvpython users.py CASE OUT PORT     of a server on this machine
 
 A case is a function of CASES. Pictures go to the folder OUT. Lines "row,CASE,PROCESSES,WHAT,FIGURE"
 are for the table of tests/paraview/run.sh.
@@ -9,7 +10,11 @@ are for the table of tests/paraview/run.sh.
 import pathlib
 import sys
 
-from paraview.simple import Calculator, Contour, Plane, Render, SaveScreenshot, Show, Sphere, Wavelet
+from paraview.simple import Box, Calculator, Connect, Contour, Plane, Render, SaveScreenshot
+from paraview.simple import Show, Sphere, Wavelet
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 import scenario
 
@@ -25,10 +30,30 @@ class Pictures:
         self.out = pathlib.Path(out)
         self.out.mkdir(parents=True, exist_ok=True)
 
+    def path(self, view, name):
+        kind = "plain" if view.GetXMLName() == "RenderView" else "shadows"
+        name = name.replace(" ", "-")
+        return str(self.out / f"{self.case}-{name}-{scenario.processes()}-{kind}.png")
+
     def take(self, view, name, size=SIZE):
-        path = str(self.out / f"{self.case}-{name}-{scenario.processes()}.png")
+        """Return a screenshot."""
+        path = self.path(view, name)
         SaveScreenshot(path, view, ImageResolution=list(size))
         return scenario.read_picture(path)
+
+    def shown(self, view, name):
+        """Return the picture that the window shows, on the first process."""
+        if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() > 0:
+            return None
+        window = vtkWindowToImageFilter()
+        window.SetInput(view.GetClientSideObject().GetRenderWindow())
+        window.ShouldRerenderOff()
+        window.ReadFrontBufferOff()
+        writer = vtkPNGWriter()
+        writer.SetFileName(self.path(view, name))
+        writer.SetInputConnection(window.GetOutputPort())
+        writer.Write()
+        return scenario.read_picture(self.path(view, name))
 
     def row(self, what, figure):
         print(f"row,{self.case},{scenario.processes()},{what},{figure}", flush=True)
@@ -70,7 +95,7 @@ def surface_lic(pictures):
                 display.Representation = "Surface LIC"
         look(view, (30, -70, 60), (0, 0, -4))
         scenario.add_light(view, "sun", (20, -30, 60))
-        return pictures.take(view, f"{kind}-{order}")
+        return pictures.take(view, order)
 
     plain = draw("RenderView", "first")
     first = in_shadow(draw("GnomonShadowView", "first"), plain)
@@ -81,11 +106,59 @@ def surface_lic(pictures):
     scenario.check("the order of props does not matter", others < 30, f"{others} pixels differ")
 
 
-CASES = {function.__name__: function for function in (surface_lic,)}
+def reduced(pictures):
+    """Pictures of fewer pixels than the view has: factors, passes, and ways to draw."""
+    looks = {
+        "plain": {},
+        "SSAO": {"UseAmbientOcclusion": 1},
+        "tone mapping": {"UseToneMapping": 1},
+        "FXAA": {"UseFXAA": 1},
+    }
+    box = Box(XLength=2, YLength=2, ZLength=2, Center=[0, 0, 2])
+    floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
+    for look_name, values in looks.items():
+        views = [scenario.make_view(kind, SIZE) for kind in ("RenderView", "GnomonShadowView")]
+        for view in views:
+            show(box, view)
+            show(floor, view)
+            look(view, (6, -14, 12), (0, 0, 0.5))
+            scenario.add_light(view, "sun", (-8, -3, 6))
+            for name, value in values.items():
+                setattr(view, name, value)
+        shares = {}
+        for factor in (1, 2, 3, 4):
+            ways = {"still": None, "interactive": None, "larger": (600, 450), "smaller": (260, 194)}
+            for way, size in ways.items():
+                pair = []
+                for view in views:
+                    view.StillRenderImageReductionFactor = 1 if way == "interactive" else factor
+                    view.ImageReductionFactor = factor
+                    name = f"{look_name}-{way}-{factor}"
+                    if size:
+                        pair.append(pictures.take(view, name, size))
+                        continue
+                    (view.SMProxy.InteractiveRender if way == "interactive" else view.StillRender)()
+                    pair.append(pictures.shown(view, name))
+                if pair[0] is not None:
+                    shares[factor, way] = in_shadow(pair[1], pair[0]).mean()
+        if not shares:
+            continue
+        of = shares[1, "still"]
+        wrong = {case: share for case, share in shares.items() if abs(share - of) > 0.25 * of}
+        figures = f"{100 * of:.1f} % of the pixels are in shadow"
+        figures += f", {len(shares) - len(wrong)} of {len(shares)} pictures show it {wrong or ''}"
+        pictures.row(look_name, f"{len(shares) - len(wrong)} of {len(shares)}")
+        scenario.check(f"reduced pictures, {look_name}", of > 0.01 and not wrong, figures)
+
+
+CASES = {function.__name__: function for function in (surface_lic, reduced)}
 
 
 def main():
-    case, out = sys.argv[1:]
+    case, out = sys.argv[1:3]
+    if len(sys.argv) > 3:
+        Connect("127.0.0.1", int(sys.argv[3]))
+        scenario.load_plugin(remote=True)
     scenario.load_plugin()
     CASES[case](Pictures(case, out))
     scenario.finish()
