@@ -39,12 +39,21 @@ struct EmbreeContext
 
 inline constexpr RTCSceneFlags queriesFilter = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 
+template <typename Arguments>
+void setArguments(Arguments& arguments, EmbreeContext& context)
+{
+  arguments.flags = context.filter
+    ? static_cast<RTCRayQueryFlags>(context.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER)
+    : context.flags;
+  arguments.filter = context.filter;
+  arguments.context = &context.context;
+}
+
 inline void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
 {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
-  arguments.flags = context.flags;
-  arguments.context = &context.context;
+  setArguments(arguments, context);
   rtcIntersect1(scene, &query, &arguments);
 }
 
@@ -52,11 +61,7 @@ inline RTCOccludedArguments occludedArguments(EmbreeContext& context)
 {
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
-  arguments.flags = context.filter
-    ? static_cast<RTCRayQueryFlags>(context.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER)
-    : context.flags;
-  arguments.filter = context.filter;
-  arguments.context = &context.context;
+  setArguments(arguments, context);
   return arguments;
 }
 
@@ -99,6 +104,7 @@ inline constexpr RTCSceneFlags queriesFilter = RTC_SCENE_FLAG_CONTEXT_FILTER_FUN
 
 inline void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
 {
+  context.context.filter = context.filter;
   rtcIntersect1(scene, &context.context, &query);
 }
 
