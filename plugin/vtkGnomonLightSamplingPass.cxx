@@ -6,7 +6,7 @@
 #include "plugin/frame/PictureTimer.h"
 #include "plugin/frame/PointLights.h"
 #include "plugin/frame/Progress.h"
-#include "plugin/scene/Hash.h"
+#include "lights/Hash.h"
 #include "plugin/scene/ShownScene.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PassContext.h"

@@ -2,7 +2,7 @@
 
 #include "lights/SettingsTable.h"
 #include "plugin/frame/Complaints.h"
-#include "plugin/frame/FrameWishes.h"
+#include "plugin/plan/FrameWishes.h"
 #include "plugin/frame/OtherFrames.h"
 #include "plugin/frame/PictureTimer.h"
 #include "plugin/frame/Progress.h"

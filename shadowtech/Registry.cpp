@@ -345,13 +345,6 @@ bool restsSoftly(const ShadowLight& light)
 } // namespace
 
 //------------------------------------------------------------------------------
-bool isAutomatic(const ShadowSettings& settings)
-{
-  const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
-  return name == automaticTechnique && settings.estimator.empty();
-}
-
-//------------------------------------------------------------------------------
 const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
 {
   const std::string name = nameOfTechnique(settings);

@@ -96,7 +96,11 @@ public:
 
 /// True if the settings leave the technique to the pass. Settings that name an estimator do not:
 /// plainTechnique then supplies everything else.
-bool isAutomatic(const ShadowSettings& settings);
+inline bool isAutomatic(const ShadowSettings& settings)
+{
+  const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
+  return name == automaticTechnique && settings.estimator.empty();
+}
 
 /// Return the estimator that settings select, for lights of any kind. If the settings leave the
 /// technique to the pass, it is that of hard shadows at rest.

@@ -3,7 +3,7 @@
 #include "FrameTiming.h"
 #include "Progress.h"
 
-#include "plugin/frame/CostModel.h"
+#include "plugin/plan/CostModel.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 

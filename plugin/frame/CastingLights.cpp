@@ -2,10 +2,7 @@
 
 #include "lights/LightPointSettings.h"
 #include "lights/SettingsTable.h"
-#include "plugin/frame/FrameWishes.h"
-#include "plugin/frame/MemoryBudget.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/tracing/EdgeSettings.h"
 
 #include <vtkLightCollection.h>
 #include <vtkRenderer.h>
@@ -32,12 +29,6 @@ int numberOf(const char* setting, const TechniqueInfo& info, const ShadowLight& 
   return value.empty() ? 0 : std::stoi(value);
 }
 
-/// Return the technique of lights that cannot have theirs.
-const char* fallbackTechnique(const FrameWishes& wishes)
-{
-  return canDrawMaps() && !wishes.isShared ? plainTechnique : "raytraced";
-}
-
 /// True if an estimator needs no newer OpenGL than 3.2: it draws on the CPU, its maps included.
 bool servesOldOpenGl(const TechniqueInfo& info)
 {
@@ -59,62 +50,32 @@ std::string techniquesOfOldOpenGl()
   return names;
 }
 
-/// Return the estimator of a light, and complete the light. If it traces no samples of an area, it
-/// shows the hard shadows of the area's centre.
-/// @throws CompositionError also if OpenGL is too old for it
-const EstimatorEntry& composeHere(ShadowLight& light)
+/// Complete a light. If its technique traces no samples of an area, it shows the hard shadows of the
+/// area's centre.
+/// @param drawsMaps true if OpenGL is new enough for techniques on the GPU
+Composition composeHere(ShadowLight light, bool drawsMaps)
 {
-  const EstimatorEntry& estimator = compose(light);
-  if (!canDrawMaps() && !servesOldOpenGl(estimator.info))
+  const EstimatorEntry* estimator = nullptr;
+  try
   {
-    throw CompositionError("'" + light.technique +
-      "' needs OpenGL 4.3, and this context has less; it suffices for " + techniquesOfOldOpenGl());
+    estimator = &compose(light);
   }
-  const TechniqueInfo& info = estimator.info;
+  catch (const CompositionError& error)
+  {
+    return { std::move(light), nullptr, error.what() };
+  }
+  const TechniqueInfo& info = estimator->info;
+  if (!drawsMaps && !servesOldOpenGl(info))
+  {
+    std::string refusal = "'" + light.technique +
+      "' needs OpenGL 4.3, and this context has less; it suffices for " + techniquesOfOldOpenGl();
+    return { std::move(light), nullptr, std::move(refusal) };
+  }
   if (info.evaluation == Evaluation::ScreenCpu && !info.has(lightSampleSettings()))
   {
     light.area.reset();
   }
-  return estimator;
-}
-
-/// Return a light's estimator, and complete the light. If its settings contradict each other or
-/// OpenGL's version, use the fallback technique with the default settings.
-const EstimatorEntry& composeIn(
-  ShadowLight& light, const FrameWishes& wishes, std::vector<std::string>& misfits)
-{
-  try
-  {
-    return composeHere(light);
-  }
-  catch (const CompositionError& error)
-  {
-    misfits.push_back(nameOf(light) + ": " + error.what() + ". It uses '" +
-      fallbackTechnique(wishes) + "' instead");
-  }
-  const int mapSizeTexels = light.mapSizeTexels;
-  static_cast<ShadowSettings&>(light) = {};
-  light.technique = fallbackTechnique(wishes);
-  light.mapSizeTexels = mapSizeTexels;
-  return compose(light);
-}
-
-/// Reduce a light's settings to OpenGL's limits, and note the effects.
-void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::string>& notes)
-{
-  const int samples = numberOf("map_samples", info, light);
-  if (samples > 1 && samples > mostMapSamples())
-  {
-    const std::string most = std::to_string(mostMapSamples());
-    notes.push_back(nameOf(light) + ": OpenGL supports at most " + most +
-      " samples per texel of a map, not " + std::to_string(samples));
-    findSetting("map_samples")->set(light, most);
-  }
-  if (light.texture && !info.seesTextures)
-  {
-    notes.push_back(nameOf(light) + ": '" + light.technique +
-      "' shows an even light of its texture's mean colour");
-  }
+  return { std::move(light), estimator, {} };
 }
 
 /// True if a light's technique has a setting. A light that leaves its technique to the pass has the
@@ -155,95 +116,11 @@ std::vector<std::string> findMisfits(
   return misfits;
 }
 
-/// Have a light's rays traced where several processes draw the picture: maps of one process know
-/// its own casters alone.
-void shareRays(ShadowLight& light, std::vector<std::string>& misfits)
-{
-  if (!isAutomatic(light) && light.technique != "raytraced")
-  {
-    misfits.push_back(nameOf(light) + ": '" + light.technique +
-      "' sees the casters of one process, and several draw this picture. It uses 'raytraced' "
-      "instead");
-  }
-  light.technique = "raytraced";
-  light.estimator.clear();
-  if (light.texture)
-  {
-    misfits.push_back(
-      nameOf(light) + ": several processes draw this picture, in which it has no texture");
-    light.texture.reset();
-  }
-}
-
-/// A light with its estimator.
-struct ComposedLight
-{
-  ShadowLight light;
-  const EstimatorEntry* estimator = nullptr;
-  std::optional<ShadowLight> asked; ///< as in CastingLight, like the next
-  int mostMapTexels = std::numeric_limits<int>::max();
-  std::string budgetReason; ///< as in LightReport
-};
-
 Bounds visibleBounds(vtkRenderer* renderer)
 {
   double bounds[6];
   renderer->ComputeVisiblePropBounds(bounds);
   return { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
-}
-
-/// Fit the lights to the memory budget.
-/// @param skipped receives lights without room for a shadow
-void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
-  const FrameWishes& wishes, std::vector<SkippedLight>& skipped, FrameReport& report)
-{
-  const Bounds seen = visibleBounds(renderer);
-  const int* const size = renderer->GetSize();
-  const std::size_t pixels = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
-  std::vector<LightNeed> needs;
-  for (const ComposedLight& of : lights)
-  {
-    needs.push_back(needOf(of.light, of.estimator->info, seen));
-  }
-  const bool mayBeInline = (wishes.route == RouteWish::Auto || wishes.route == RouteWish::Inline) &&
-    !wishes.keepVisibility;
-  const MemoryShares memory = shareMemory(needs, wishes.memoryBudget, pixels, mayBeInline);
-  const auto automatic = std::count_if(
-    lights.begin(), lights.end(), [](const ComposedLight& of) { return of.asked.has_value(); });
-
-  std::vector<ComposedLight> casting;
-  for (std::size_t i = 0; i < lights.size(); ++i)
-  {
-    ComposedLight& of = lights[i];
-    const LightShare& share = memory.lights[i];
-    if (share.way == LightShare::Way::None)
-    {
-      skipped.push_back(
-        { of.light.sceneIndex, "the memory budget has no room for an image of its visibility" });
-      continue;
-    }
-    if (of.asked)
-    {
-      of.mostMapTexels = largestMapIn(memory.left / static_cast<double>(automatic), of.light);
-    }
-    if (share.way == LightShare::Way::Rays)
-    {
-      of.light.mapSizeTexels =
-        std::min(of.light.mapSizeTexels, fewestTexels); // for translucent surfaces
-      of.light.technique = "raytraced";
-      of.light.estimator.clear();
-      of.estimator = &composeIn(of.light, wishes, report.misfits);
-      of.budgetReason =
-        of.asked ? "" : "the memory budget has no room for its map, so rays replace it";
-    }
-    else if (share.mapSizeTexels < of.light.mapSizeTexels)
-    {
-      of.light.mapSizeTexels = share.mapSizeTexels;
-      of.budgetReason = "the memory budget leaves it a coarser map";
-    }
-    casting.push_back(std::move(of));
-  }
-  lights = std::move(casting);
 }
 
 LightReport reportOfSkipped(const SkippedLight& skipped)
@@ -280,8 +157,7 @@ bool isOnCpu(const CastingLight& casting)
 //------------------------------------------------------------------------------
 std::size_t edgeSamplesOf(const CastingLight& casting)
 {
-  const bool smooths = casting.own->info().has(edgeSettings()) && !casting.light.area;
-  return smooths ? static_cast<std::size_t>(casting.light.of<EdgeSettings>().samples) : 1;
+  return edgeSamplesOf(casting.own->info(), casting.light);
 }
 
 //------------------------------------------------------------------------------
@@ -301,55 +177,57 @@ bool canDrawMaps()
 void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& defaults,
   const FrameWishes& wishes, TechniqueCache& ofView, FrameReport& report)
 {
-  LightSet set = this->manager_.collect(renderer, defaults, wishes.casting);
-  report.headlightIsAlone = set.headlightIsAlone;
-  report.misfits = findMisfits(set.lights, defaults);
+  const bool drawsMaps = canDrawMaps();
+  SceneLights scene;
+  scene.set = this->manager_.collect(renderer, defaults, wishes.casting);
+  scene.compose = this->compose_ = [drawsMaps](ShadowLight light)
+  { return composeHere(std::move(light), drawsMaps); };
+  scene.drawsMaps = drawsMaps;
+  const auto namesSamples = [](const ShadowSettings& settings)
+  { return settings.named.count("map_samples") > 0; };
+  if (drawsMaps &&
+    (namesSamples(defaults) ||
+      std::any_of(scene.set.lights.begin(), scene.set.lights.end(), namesSamples)))
+  {
+    scene.mostMapSamples = mostMapSamples();
+  }
+  if (wishes.memoryBudget > 0.0)
+  {
+    const int* const size = renderer->GetSize();
+    scene.pixels = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
+    scene.seenWorld = visibleBounds(renderer);
+  }
+  report.headlightIsAlone = scene.set.headlightIsAlone;
+  report.misfits = findMisfits(scene.set.lights, defaults);
   if (renderer->GetLights()->GetNumberOfItems() == 0)
   {
     report.notes.push_back("no light: VTK shades nothing, and nothing casts");
   }
-  if (wishes.isShared)
-  {
-    for (ShadowLight& light : set.lights)
-    {
-      shareRays(light, report.misfits);
-    }
-  }
 
-  std::vector<ComposedLight> composed;
-  for (ShadowLight& light : set.lights)
+  LightPlans plans = planLights(std::move(scene), wishes);
+  report.misfits.insert(report.misfits.end(), plans.misfits.begin(), plans.misfits.end());
+  report.notes.insert(report.notes.end(), plans.notes.begin(), plans.notes.end());
+  for (const LightPlan& plan : plans.lights)
   {
-    ComposedLight& of = composed.emplace_back();
-    of.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
-    of.estimator = &composeIn(light, wishes, report.misfits);
-    of.light = std::move(light);
-  }
-  if (wishes.memoryBudget > 0.0 && !wishes.isShared) // what each process sees differs
-  {
-    keepBudget(composed, renderer, wishes, set.skipped, report);
-  }
-  for (ComposedLight& of : composed)
-  {
-    settle(of.light, of.estimator->info, report.notes);
-    report.lights.push_back(reportOfCasting(of.light, of.estimator->info));
-    report.lights.back().budgetReason = of.budgetReason;
+    report.lights.push_back(reportOfCasting(plan.light, plan.estimator->info));
+    report.lights.back().budgetReason = plan.budgetReason;
   }
   std::transform(
-    set.skipped.begin(), set.skipped.end(), std::back_inserter(report.lights), reportOfSkipped);
+    plans.skipped.begin(), plans.skipped.end(), std::back_inserter(report.lights), reportOfSkipped);
   std::sort(report.lights.begin(), report.lights.end(),
     [](const LightReport& a, const LightReport& b) { return a.sceneIndex < b.sceneIndex; });
 
   this->ofView_ = &ofView;
   this->lights_.clear();
-  for (ComposedLight& of : composed)
+  for (LightPlan& plan : plans.lights)
   {
     CastingLight& casting = this->lights_.emplace_back();
-    casting.own = &this->cacheOf(of.light).of(of.light.sceneIndex, *of.estimator);
-    casting.identity = identityOf(of.light);
-    casting.channels = channelsOf(of.estimator->info, of.light);
-    casting.light = std::move(of.light);
-    casting.asked = std::move(of.asked);
-    casting.mostMapTexels = of.mostMapTexels;
+    casting.own = &this->cacheOf(plan.light).of(plan.light.sceneIndex, *plan.estimator);
+    casting.identity = identityOf(plan.light);
+    casting.channels = channelsOf(plan.estimator->info, plan.light);
+    casting.light = std::move(plan.light);
+    casting.asked = std::move(plan.asked);
+    casting.mostMapTexels = plan.mostMapTexels;
   }
   this->placeVisibility();
 }
@@ -380,18 +258,13 @@ void CastingLights::enter(const SceneFrame& frame, FrameReport& report)
 /// Assign layers, and bits to lights with hard shadows.
 void CastingLights::placeVisibility()
 {
-  const auto isHard = [](const CastingLight& casting)
-  {
-    return isOnCpu(casting) && casting.own->info().exact && !casting.light.area &&
-      !casting.light.texture && edgeSamplesOf(casting) == 1;
-  };
   this->layers_ = 0;
   this->bits_ = 0;
   for (CastingLight& casting : this->lights_)
   {
     casting.layer = 0;
     casting.bit = noBit;
-    if (isHard(casting) && this->bits_ < VisibilityLayers::mostBits)
+    if (isBit(casting.own->info(), casting.light) && this->bits_ < VisibilityLayers::mostBits)
     {
       casting.bit = this->bits_++;
     }
@@ -406,40 +279,30 @@ void CastingLights::placeVisibility()
 //------------------------------------------------------------------------------
 std::string CastingLights::takeMap(CastingLight& casting, int mapSizeTexels, FrameReport& report)
 {
-  ShadowLight light = *casting.asked;
-  light.technique = plainTechnique;
-  light.mapSizeTexels = mapSizeTexels;
-  return this->takeOther(casting, std::move(light), report);
+  return this->takeOther(casting, planAsMap(*casting.asked, mapSizeTexels, this->compose_), report);
 }
 
 //------------------------------------------------------------------------------
 std::string CastingLights::takeCentre(CastingLight& casting, FrameReport& report)
 {
-  ShadowLight light = *casting.asked;
-  light.area.reset();
-  return this->takeOther(casting, std::move(light), report);
+  return this->takeOther(casting, planAsCentre(*casting.asked, this->compose_), report);
 }
 
 //------------------------------------------------------------------------------
 /// Shade a light in this frame as if it were another one.
 /// @return why this is impossible, as a clause; empty on success
-std::string CastingLights::takeOther(CastingLight& casting, ShadowLight other, FrameReport& report)
+std::string CastingLights::takeOther(CastingLight& casting, Composition other, FrameReport& report)
 {
-  const EstimatorEntry* estimator = nullptr;
-  try
+  if (!other.estimator)
   {
-    estimator = &composeHere(other);
-  }
-  catch (const CompositionError& error)
-  {
-    return error.what();
+    return other.refusal;
   }
   if (!casting.resting)
   {
     casting.resting.emplace(CastingLight::Resting{ std::move(casting.light), casting.own });
   }
-  casting.own = &this->cacheOf(other).of(other.sceneIndex, *estimator);
-  casting.light = std::move(other);
+  casting.own = &this->cacheOf(other.light).of(other.light.sceneIndex, *other.estimator);
+  casting.light = std::move(other.light);
   this->tell(casting, report);
   return {};
 }

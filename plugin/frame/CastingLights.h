@@ -3,8 +3,9 @@
 #include "lights/LightManager.h"
 #include "lights/SceneFrame.h"
 #include "lights/vtkGnomonVersions.h"
-#include "plugin/frame/RayIdentity.h"
 #include "plugin/frame/TechniqueCache.h"
+#include "plugin/plan/LightPlans.h"
+#include "plugin/plan/RayIdentity.h"
 #include "shadowtech/base/VisibilityLayers.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
@@ -21,8 +22,6 @@ VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {
-
-struct FrameWishes;
 
 /// A light that casts in this frame, with the techniques that shade it.
 struct CastingLight
@@ -117,12 +116,13 @@ public:
   ///@}
 
 private:
-  std::string takeOther(CastingLight& casting, ShadowLight other, FrameReport& report);
+  std::string takeOther(CastingLight& casting, Composition other, FrameReport& report);
   void tell(CastingLight& casting, FrameReport& report);
   void placeVisibility();
   TechniqueCache& cacheOf(const ShadowLight& light);
 
   LightManager manager_;
+  Compose compose_;                  ///< of this frame's context
   TechniqueCache ofAllViews_;        ///< of lights whose maps serve all views
   TechniqueCache* ofView_ = nullptr; ///< of lights whose maps are fitted to the frame's camera
   std::vector<CastingLight> lights_; ///< by their index in the scene

@@ -1,6 +1,6 @@
 #include "plugin/frame/ReceiverDrawing.h"
 
-#include "plugin/scene/Hash.h"
+#include "lights/Hash.h"
 #include "plugin/scene/MapperKind.h"
 #include "plugin/scene/PropStamps.h"
 

@@ -1,7 +1,7 @@
 #include "plugin/frame/RenderManager.h"
 
+#include "lights/Hash.h"
 #include "plugin/frame/ReceiverDrawing.h"
-#include "plugin/scene/Hash.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/base/GlState.h"
@@ -197,112 +197,49 @@ bool RenderManager::chooseTechniques(bool moves, bool mayRefine)
 }
 
 //------------------------------------------------------------------------------
-/// Why a frame cannot be drawn before its visibility is known, as a clause; empty if it can.
-std::string RenderManager::whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const
+/// Plan how visibility reaches the picture, from what there is.
+PicturePlan RenderManager::planOfPicture(const vtkRenderState* s, bool drawnPlainly) const
 {
-  if (this->frame_.ranks)
+  vtkRenderer* const renderer = s->GetRenderer();
+  std::vector<PictureLight> lights;
+  for (const CastingLight& casting : this->frame_.lights)
   {
-    return "several processes draw the picture";
+    lights.push_back({ casting.light, casting.own->info() });
   }
-  if (this->frame_.lights.size() != 1)
+  PictureFacts facts;
+  facts.samples = samplesOfBoundFramebuffer();
+  facts.drawsMaps = canDrawMaps();
+  facts.drawnPlainly =
+    drawnPlainly && !renderer->GetUseSSAO() && !renderer->GetUseHiddenLineRemoval();
+  facts.seenThrough = this->collector_.anySeenThrough();
+  facts.translucent = this->collector_.translucentReceivers() > 0;
+  PropFacts props;
+  if (whyNotDeferred(lights, this->frame_.wishes, facts).empty())
   {
-    return "the picture is drawn without one light's shadows, and " +
-      std::to_string(this->frame_.lights.size()) + " lights cast";
+    facts.whyNoDeferred = DeferredPicture::whyUnsupported();
+    props = { anyPropHasOwnShaders(s), hasPartsOfBothKinds(s) };
   }
-  const CastingLight& casting = *this->frame_.lights.begin();
-  if (!isOnCpu(casting) || !casting.own->info().exact || casting.light.area)
-  {
-    return "'" + casting.light.technique + "' may leave pixels between light and shadow";
-  }
-  if (samplesOfBoundFramebuffer() > 1)
-  {
-    return "pixels have several samples";
-  }
-  vtkRenderer* renderer = s->GetRenderer();
-  if (!drawnPlainly || renderer->GetUseSSAO() || renderer->GetUseHiddenLineRemoval())
-  {
-    return "a render pass draws the props in its own way";
-  }
-  if (this->collector_.anySeenThrough())
-  {
-    return "the receivers lack a prop that is seen through or has a framebuffer of its own";
-  }
-  if (anyPropHasOwnShaders(s))
-  {
-    return "a prop may have shaders of its own, which need not light twice";
-  }
-  if (hasPartsOfBothKinds(s))
-  {
-    return "an assembly has parts that passes cannot reach";
-  }
-  return DeferredPicture::whyUnsupported();
+  return planPicture(lights, this->frame_.wishes, facts, props);
 }
 
 //------------------------------------------------------------------------------
 bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
 {
   FrameReport& report = this->frame_.report;
-  const int samples = samplesOfBoundFramebuffer();
-  RouteNeeds needs;
-  needs.keepVisibility = this->frame_.wishes.keepVisibility;
-  needs.lights = this->frame_.lights.size();
-  for (const CastingLight& casting : this->frame_.lights)
-  {
-    if (!casting.own->info().isPointwise())
-    {
-      needs.screenTechnique = casting.light.technique;
-    }
-    needs.headlightOnSamples |= casting.light.isHeadlight && samples > 1;
-    if (casting.own->info().isSlow && samples <= 1)
-    {
-      needs.slowTechnique = casting.light.technique;
-    }
-  }
-  needs.whyNotDeferred = this->whyNotDeferred(s, drawnPlainly);
-  const std::string& screenTechnique = needs.screenTechnique;
-  const RouteChoice choice = gnomon::chooseRoute(this->frame_.wishes.route, needs);
-  this->frame_.route = choice.route;
-  report.route = nameOf(choice.route);
-  report.routeReason = choice.reason;
-
-  const bool askTranslucent = this->collector_.translucentReceivers() > 0;
-  const bool fewLights =
-    this->frame_.route == Route::Inline || this->frame_.lights.size() <= mostInlineLights;
-  const bool translucentReceivers =
-    askTranslucent && fewLights && canDrawMaps() && !this->frame_.ranks;
-  this->shadesTranslucent_ = translucentReceivers;
-  if (askTranslucent && this->frame_.ranks)
-  {
-    report.notes.push_back(
-      "translucent surfaces show no shadows: their maps have the casters of one process");
-  }
-  else if (askTranslucent && !translucentReceivers)
-  {
-    report.notes.push_back(!fewLights
-        ? "translucent surfaces show no shadows of " + std::to_string(this->frame_.lights.size()) +
-          " lights; " + std::to_string(mostInlineLights) + " are the most"
-        : "translucent surfaces show no shadows: their maps take OpenGL 4.3");
-  }
-  if (!screenTechnique.empty() && translucentReceivers)
-  {
-    report.notes.push_back("translucent surfaces show the plain shadow map ('" +
-      std::string(plainTechnique) + "') of lights with '" + screenTechnique + "'");
-  }
-  if (this->frame_.route == Route::Image && samples > 1)
-  {
-    report.notes.push_back("The window has " + std::to_string(samples) +
-      " samples per pixel, and the image route one visibility, that of the surface at the pixel's "
-      "centre: what covers other samples has that of the nearest surface at a centre around. The "
-      "setting edge_samples smooths edges of shadows.");
-  }
+  const PicturePlan plan = this->planOfPicture(s, drawnPlainly);
+  this->frame_.route = plan.route.route;
+  this->shadesTranslucent_ = plan.shadesTranslucent;
+  report.route = nameOf(plan.route.route);
+  report.routeReason = plan.route.reason;
+  report.notes.insert(report.notes.end(), plan.notes.begin(), plan.notes.end());
 
   std::vector<ShadedLight> shaded;
   for (CastingLight& casting : this->frame_.lights)
   {
     casting.own->chooseFit(
-      casting.light, this->frame_.route, translucentReceivers, reportOf(report, casting.light));
+      casting.light, plan.route.route, plan.shadesTranslucent, reportOf(report, casting.light));
     const PointwiseTechnique* pointwise =
-      this->frame_.lights.pointwiseOn(casting, this->frame_.route, translucentReceivers);
+      this->frame_.lights.pointwiseOn(casting, plan.route.route, plan.shadesTranslucent);
     casting.shadesAtPoints = pointwise != nullptr;
     shaded.push_back({ casting.light, casting.channels, casting.layer, casting.bit, pointwise });
   }
@@ -313,11 +250,10 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
     namesTriangles = this->namesTriangles();
   }
   this->programs_.shaders.configure(
-    { this->frame_.route, this->readsPoints(), samples > 1, namesTriangles,
+    { this->frame_.route, this->readsPoints(), samplesOfBoundFramebuffer() > 1, namesTriangles,
       this->stageValues_.viewFromVtkView == glm::dmat4(1.0), this->collector_.anySeenThrough() },
     shaded);
-  return (this->frame_.wishes.route != RouteWish::Inline || screenTechnique.empty()) &&
-    (this->frame_.wishes.route != RouteWish::Deferred || needs.whyNotDeferred.empty());
+  return plan.isAsTold;
 }
 
 //------------------------------------------------------------------------------

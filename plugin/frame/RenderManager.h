@@ -6,6 +6,7 @@
 #include "plugin/frame/TechniqueChoice.h"
 #include "plugin/frame/TriangleNumbers.h"
 #include "plugin/frame/VisibilityStage.h"
+#include "plugin/plan/PicturePlan.h"
 #include "plugin/scene/OccluderCollector.h"
 #include "plugin/scene/PropStamps.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
@@ -134,7 +135,7 @@ private:
   bool readsPoints() const;
   std::size_t shownProps(const vtkRenderState* s);
   ValueKey receiversKey(const vtkRenderState* s);
-  std::string whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const;
+  PicturePlan planOfPicture(const vtkRenderState* s, bool drawnPlainly) const;
   void makeRoomForLayers();
   bool namesTriangles();
   void findStaleReceivers(const vtkRenderState* s);

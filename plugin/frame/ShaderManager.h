@@ -2,7 +2,7 @@
 
 #include "lights/ShadowLight.h"
 #include "lights/vtkGnomonVersions.h"
-#include "plugin/frame/Route.h"
+#include "plugin/plan/Route.h"
 #include "plugin/scene/DrawnLookup.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/VisibilityLayers.h"

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "plugin/frame/CostModel.h"
 #include "plugin/frame/Frame.h"
-#include "plugin/frame/Slowness.h"
 #include "plugin/frame/VisibilityStage.h"
+#include "plugin/plan/CostModel.h"
+#include "plugin/plan/Slowness.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/probing/Probes.h"

@@ -1,7 +1,7 @@
 #include "plugin/scene/DrawnLookup.h"
 
+#include "lights/Hash.h"
 #include "plugin/scene/DrawnProps.h"
-#include "plugin/scene/Hash.h"
 #include "plugin/scene/MapperInternals.h"
 #include "plugin/scene/MapperKind.h"
 

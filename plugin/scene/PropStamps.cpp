@@ -1,8 +1,8 @@
 #include "plugin/scene/PropStamps.h"
 
+#include "lights/Hash.h"
 #include "plugin/scene/ActorInternals.h"
 #include "plugin/scene/ForgetUnasked.h"
-#include "plugin/scene/Hash.h"
 #include "plugin/scene/MapperKind.h"
 #include "plugin/vtkGnomonPropKeys.h"
 

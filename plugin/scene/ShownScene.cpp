@@ -1,7 +1,7 @@
 #include "plugin/scene/ShownScene.h"
 
+#include "lights/Hash.h"
 #include "lights/LightManager.h"
-#include "plugin/scene/Hash.h"
 #include "plugin/scene/PropStamps.h"
 
 #include <vtkLight.h>

@@ -1,7 +1,7 @@
 #include "plugin/scene/ShownView.h"
 
+#include "lights/Hash.h"
 #include "plugin/scene/DrawnProps.h"
-#include "plugin/scene/Hash.h"
 
 #include <vtkCamera.h>
 #include <vtkFrameBufferObjectBase.h>

@@ -14,7 +14,7 @@
 #include "Report.h"
 #include "VtkMessages.h"
 
-#include "plugin/frame/BakeBackoff.h"
+#include "plugin/plan/BakeBackoff.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "shadowtech/Registry.h"
 

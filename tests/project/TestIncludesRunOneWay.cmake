@@ -42,8 +42,9 @@ folder(plugin/vtk_versions lights shadowtech/base plugin/window)
 folder(plugin/scene lights shadowtech/base plugin/vtk_versions plugin/window)
 folder(plugin/data lights shadowtech/base shadowtech/tracing plugin/scene)
 folder(plugin/ranks lights shadowtech/base)
-folder(plugin/frame ${shared} shadowtech plugin/ranks plugin/scene plugin/window)
-folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/ranks plugin/scene plugin/vtk_versions plugin/window)
+folder(plugin/plan lights shadowtech shadowtech/base shadowtech/tracing)
+folder(plugin/frame ${shared} shadowtech plugin/plan plugin/ranks plugin/scene plugin/window)
+folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/plan plugin/ranks plugin/scene plugin/vtk_versions plugin/window)
 folder(plugin/paraview/GnomonShadows/views plugin)
 
 # Public headers of plugin/ that its folders may include: they include nothing of it.

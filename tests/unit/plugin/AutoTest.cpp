@@ -4,8 +4,8 @@
 
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/frame/CostModel.h"
-#include "plugin/frame/Slowness.h"
+#include "plugin/plan/CostModel.h"
+#include "plugin/plan/Slowness.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkObjectFactory.h>

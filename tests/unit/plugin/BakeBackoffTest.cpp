@@ -1,6 +1,6 @@
 // When optional maps are baked, over sequences of changing and resting frames.
 
-#include "plugin/frame/BakeBackoff.h"
+#include "plugin/plan/BakeBackoff.h"
 
 #include <gmock/gmock.h>
 

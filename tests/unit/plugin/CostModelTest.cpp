@@ -1,4 +1,4 @@
-#include "plugin/frame/CostModel.h"
+#include "plugin/plan/CostModel.h"
 
 #include "plugin/vtkGnomonShadowPass.h"
 

@@ -3,7 +3,7 @@
 #include "PassScene.h"
 
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/frame/MemoryBudget.h"
+#include "plugin/plan/MemoryBudget.h"
 #include "shadowtech/Registry.h"
 
 #include <gmock/gmock.h>

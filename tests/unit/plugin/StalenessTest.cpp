@@ -3,7 +3,7 @@
 #include "PassScene.h"
 
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/frame/BakeBackoff.h"
+#include "plugin/plan/BakeBackoff.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkPoints.h>

@@ -5,7 +5,7 @@
 #include "PassScene.h"
 
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/frame/CostModel.h"
+#include "plugin/plan/CostModel.h"
 #include "shadowtech/base/Gl.h"
 
 #include <vtkLightCollection.h>

@@ -1,9 +1,9 @@
-#include "plugin/frame/MemoryBudget.h"
+#include "plugin/plan/MemoryBudget.h"
 
 #include "lights/LightViews.h"
-#include "plugin/frame/Route.h"
+#include "plugin/plan/LightPlans.h"
+#include "plugin/plan/Route.h"
 #include "shadowtech/base/VisibilityLayers.h"
-#include "shadowtech/tracing/EdgeSettings.h"
 
 #include <glm/glm.hpp>
 
@@ -145,8 +145,7 @@ LightNeed needOf(const ShadowLight& light, const TechniqueInfo& info, const Boun
   need.bytesPerPixel = info.bytesPerPixel;
   need.channels = light.texture ? 3 : 1;                                       // rays see textures
   need.isPointwise = info.isPointwise() && !info.isSlow && !light.isHeadlight; // others need images
-  need.isHard =
-    info.exact && !light.area && !light.texture && light.of<EdgeSettings>().samples == 1;
+  need.isHard = isBit(info, light);
   return need;
 }
 

@@ -1,4 +1,4 @@
-#include "plugin/frame/Slowness.h"
+#include "plugin/plan/Slowness.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plugin/frame/FrameWishes.h"
+#include "plugin/plan/FrameWishes.h"
 
 #include <cstddef>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lights/LightManager.h"
-#include "plugin/frame/CostModel.h"
+#include "plugin/plan/CostModel.h"
 
 #include <optional>
 

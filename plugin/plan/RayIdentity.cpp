@@ -1,6 +1,6 @@
-#include "plugin/frame/RayIdentity.h"
+#include "plugin/plan/RayIdentity.h"
 
-#include "plugin/scene/Hash.h"
+#include "lights/Hash.h"
 
 namespace gnomon
 {

@@ -1,4 +1,4 @@
-#include "plugin/frame/BakeBackoff.h"
+#include "plugin/plan/BakeBackoff.h"
 
 #include <algorithm>
 

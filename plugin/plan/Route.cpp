@@ -1,4 +1,4 @@
-#include "plugin/frame/Route.h"
+#include "plugin/plan/Route.h"
 
 namespace gnomon
 {

@@ -1,0 +1,201 @@
+#include "plugin/plan/LightPlans.h"
+
+#include "plugin/plan/MemoryBudget.h"
+#include "shadowtech/tracing/EdgeSettings.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Return the technique of lights that cannot have theirs.
+const char* fallbackTechnique(const SceneLights& scene, const FrameWishes& wishes)
+{
+  return scene.drawsMaps && !wishes.isShared ? plainTechnique : "raytraced";
+}
+
+/// Have a light's rays traced, over several processes.
+void shareRays(ShadowLight& light, std::vector<std::string>& misfits)
+{
+  if (!isAutomatic(light) && light.technique != "raytraced")
+  {
+    misfits.push_back(nameOf(light) + ": '" + light.technique +
+      "' sees the casters of one process, and several draw this picture. It uses 'raytraced' "
+      "instead");
+  }
+  light.technique = "raytraced";
+  light.estimator.clear();
+  if (light.texture)
+  {
+    misfits.push_back(
+      nameOf(light) + ": several processes draw this picture, in which it has no texture");
+    light.texture.reset();
+  }
+}
+
+/// Complete a plan's light, as it is or with the fallback technique.
+void compose(LightPlan& plan, const SceneLights& scene, const FrameWishes& wishes,
+  std::vector<std::string>& misfits)
+{
+  Composition composition = scene.compose(plan.light);
+  if (!composition.estimator)
+  {
+    const char* const fallback = fallbackTechnique(scene, wishes);
+    misfits.push_back(
+      nameOf(plan.light) + ": " + composition.refusal + ". It uses '" + fallback + "' instead");
+    const int mapSizeTexels = plan.light.mapSizeTexels;
+    static_cast<ShadowSettings&>(plan.light) = {};
+    plan.light.technique = fallback;
+    plan.light.mapSizeTexels = mapSizeTexels;
+    composition = scene.compose(plan.light);
+  }
+  plan.light = std::move(composition.light);
+  plan.estimator = composition.estimator;
+}
+
+/// Fit the lights to the memory budget.
+void keepBudget(LightPlans& plans, const SceneLights& scene, const FrameWishes& wishes)
+{
+  std::vector<LightNeed> needs;
+  for (const LightPlan& plan : plans.lights)
+  {
+    needs.push_back(needOf(plan.light, plan.estimator->info, scene.seenWorld));
+  }
+  const bool mayBeInline = (wishes.route == RouteWish::Auto || wishes.route == RouteWish::Inline) &&
+    !wishes.keepVisibility;
+  const MemoryShares memory = shareMemory(needs, wishes.memoryBudget, scene.pixels, mayBeInline);
+  const auto automatic = std::count_if(plans.lights.begin(), plans.lights.end(),
+    [](const LightPlan& plan) { return plan.asked.has_value(); });
+
+  std::vector<LightPlan> casting;
+  for (std::size_t i = 0; i < plans.lights.size(); ++i)
+  {
+    LightPlan& plan = plans.lights[i];
+    const LightShare& share = memory.lights[i];
+    if (share.way == LightShare::Way::None)
+    {
+      plans.skipped.push_back(
+        { plan.light.sceneIndex, "the memory budget has no room for an image of its visibility" });
+      continue;
+    }
+    if (plan.asked)
+    {
+      plan.mostMapTexels = largestMapIn(memory.left / static_cast<double>(automatic), plan.light);
+    }
+    if (share.way == LightShare::Way::Rays)
+    {
+      plan.light.mapSizeTexels =
+        std::min(plan.light.mapSizeTexels, fewestTexels); // for translucent surfaces
+      plan.light.technique = "raytraced";
+      plan.light.estimator.clear();
+      compose(plan, scene, wishes, plans.misfits);
+      plan.budgetReason =
+        plan.asked ? "" : "the memory budget has no room for its map, so rays replace it";
+    }
+    else if (share.mapSizeTexels < plan.light.mapSizeTexels)
+    {
+      plan.light.mapSizeTexels = share.mapSizeTexels;
+      plan.budgetReason = "the memory budget leaves it a coarser map";
+    }
+    casting.push_back(std::move(plan));
+  }
+  plans.lights = std::move(casting);
+}
+
+/// Reduce a light's settings to OpenGL's limits, and note the effects.
+void settle(LightPlan& plan, const SceneLights& scene, std::vector<std::string>& notes)
+{
+  ShadowLight& light = plan.light;
+  for (const SettingsTable* table : plan.estimator->info.settings)
+  {
+    for (const Setting& setting : table->settings)
+    {
+      const int most = scene.mostMapSamples;
+      if (setting.name == "map_samples" && std::stoi(setting.get(light)) > std::max(most, 1))
+      {
+        notes.push_back(nameOf(light) + ": OpenGL supports at most " + std::to_string(most) +
+          " samples per texel of a map, not " + setting.get(light));
+        setting.set(light, std::to_string(most));
+      }
+    }
+  }
+  if (light.texture && !plan.estimator->info.seesTextures)
+  {
+    notes.push_back(nameOf(light) + ": '" + light.technique +
+      "' shows an even light of its texture's mean colour");
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool isHard(const TechniqueInfo& info, const ShadowLight& light)
+{
+  return info.evaluation == Evaluation::ScreenCpu && info.exact && !light.area;
+}
+
+//------------------------------------------------------------------------------
+std::size_t edgeSamplesOf(const TechniqueInfo& info, const ShadowLight& light)
+{
+  const bool smooths = info.has(edgeSettings()) && !light.area;
+  return smooths ? static_cast<std::size_t>(light.of<EdgeSettings>().samples) : 1;
+}
+
+//------------------------------------------------------------------------------
+bool isBit(const TechniqueInfo& info, const ShadowLight& light)
+{
+  return isHard(info, light) && !light.texture && edgeSamplesOf(info, light) == 1;
+}
+
+//------------------------------------------------------------------------------
+LightPlans planLights(SceneLights scene, const FrameWishes& wishes)
+{
+  LightPlans plans;
+  plans.skipped = std::move(scene.set.skipped);
+  for (ShadowLight& light : scene.set.lights)
+  {
+    if (wishes.isShared)
+    {
+      shareRays(light, plans.misfits);
+    }
+  }
+  for (ShadowLight& light : scene.set.lights)
+  {
+    LightPlan& plan = plans.lights.emplace_back();
+    plan.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
+    plan.light = std::move(light);
+    compose(plan, scene, wishes, plans.misfits);
+  }
+  if (wishes.memoryBudget > 0.0 && !wishes.isShared) // what each process sees differs
+  {
+    keepBudget(plans, scene, wishes);
+  }
+  for (LightPlan& plan : plans.lights)
+  {
+    settle(plan, scene, plans.notes);
+  }
+  return plans;
+}
+
+//------------------------------------------------------------------------------
+Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const Compose& compose)
+{
+  ShadowLight light = asked;
+  light.technique = plainTechnique;
+  light.mapSizeTexels = mapSizeTexels;
+  return compose(std::move(light));
+}
+
+//------------------------------------------------------------------------------
+Composition planAsCentre(const ShadowLight& asked, const Compose& compose)
+{
+  ShadowLight light = asked;
+  light.area.reset();
+  return compose(std::move(light));
+}
+
+} // namespace gnomon
