@@ -277,53 +277,10 @@ void CastingLights::placeVisibility()
 }
 
 //------------------------------------------------------------------------------
-std::string CastingLights::takeMap(CastingLight& casting, int mapSizeTexels, FrameReport& report)
+void CastingLights::take(CastingLight& casting, Composition other, FrameReport& report)
 {
-  return this->takeOther(casting, planAsMap(*casting.asked, mapSizeTexels, this->compose_), report);
-}
-
-//------------------------------------------------------------------------------
-std::string CastingLights::takeCentre(CastingLight& casting, FrameReport& report)
-{
-  return this->takeOther(casting, planAsCentre(*casting.asked, this->compose_), report);
-}
-
-//------------------------------------------------------------------------------
-/// Shade a light in this frame as if it were another one.
-/// @return why this is impossible, as a clause; empty on success
-std::string CastingLights::takeOther(CastingLight& casting, Composition other, FrameReport& report)
-{
-  if (!other.estimator)
-  {
-    return other.refusal;
-  }
-  if (!casting.resting)
-  {
-    casting.resting.emplace(CastingLight::Resting{ std::move(casting.light), casting.own });
-  }
-  casting.own = &this->cacheOf(other.light).of(other.light.sceneIndex, *other.estimator);
+  casting.own = &this->techniqueOf(other);
   casting.light = std::move(other.light);
-  this->tell(casting, report);
-  return {};
-}
-
-//------------------------------------------------------------------------------
-void CastingLights::takeResting(CastingLight& casting, FrameReport& report)
-{
-  if (!casting.resting)
-  {
-    return;
-  }
-  casting.own = casting.resting->technique;
-  casting.light = std::move(casting.resting->light);
-  casting.resting.reset();
-  this->tell(casting, report);
-}
-
-//------------------------------------------------------------------------------
-/// Note that another technique shades a light in this frame.
-void CastingLights::tell(CastingLight& casting, FrameReport& report)
-{
   casting.identity = identityOf(casting.light);
   casting.channels = channelsOf(casting.own->info(), casting.light);
   reportOf(report, casting.light) = reportOfCasting(casting.light, casting.own->info());

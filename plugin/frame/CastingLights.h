@@ -37,19 +37,13 @@ struct CastingLight
   bool shadesAtPoints = false; ///< true if shaders call a technique for it
   bool isStale = true;         ///< image route: true if this frame computes its visibility
   bool mayKeepTiles = false;   ///< and true if the changes may leave some tiles valid
+  std::optional<double> tracedShare = std::nullopt; ///< VisibilityValue::tracedShare
   /// Samples of the first frame of an area light that may refine at rest; 0: all.
   int firstSamples = 0;
   /// The largest map that a memory budget allows a light that leaves its technique to the pass.
   int mostMapTexels = std::numeric_limits<int>::max();
   /// The request of a light that leaves its technique to the pass; none for others.
   std::optional<ShadowLight> asked = std::nullopt;
-  /// The light with its resting technique while another shades it.
-  struct Resting
-  {
-    ShadowLight light;
-    LightTechnique* technique;
-  };
-  std::optional<Resting> resting = std::nullopt;
 };
 
 /// True if a light's technique traces from receivers on the CPU.
@@ -73,20 +67,31 @@ public:
   /// Bring the lights into the scene's frame. Those that cannot shine there are skipped.
   void enter(const SceneFrame& frame, FrameReport& report);
 
-  ///@{
-  /// Shade a light that leaves its technique to the pass by a plain map in this frame, by exact
-  /// hard shadows of its area's centre, or by its resting technique.
-  /// @return why this is impossible, as a clause; empty on success
-  std::string takeMap(CastingLight& casting, int mapSizeTexels, FrameReport& report);
-  std::string takeCentre(CastingLight& casting, FrameReport& report);
-  void takeResting(CastingLight& casting, FrameReport& report);
-  ///@}
+  /// Shade a light by another composition in this frame.
+  void take(CastingLight& casting, Composition other, FrameReport& report);
 
   /// Return the technique by which the shader computes a light's visibility on a route; null if it
   /// only fetches.
   /// @param translucentReceivers true if translucent surfaces receive
   const PointwiseTechnique* pointwiseOn(
     CastingLight& casting, Route route, bool translucentReceivers);
+
+  /// Return a light as a map or its area's centre shows it (planAsMap(), planAsCentre()).
+  Composition asMap(const CastingLight& casting, int mapSizeTexels) const
+  {
+    return planAsMap(*casting.asked, mapSizeTexels, this->compose_);
+  }
+  Composition asCentre(const CastingLight& casting) const
+  {
+    return planAsCentre(*casting.asked, this->compose_);
+  }
+  /// Return a light's cached technique of an estimator.
+  LightTechnique& techniqueOf(const Composition& composition)
+  {
+    return this->cacheOf(composition.light)
+      .of(composition.light.sceneIndex, *composition.estimator);
+  }
+  const Compose& compose() const { return this->compose_; }
 
   /// End a frame: drop cached techniques that a later frame will not use.
   void endFrame();
@@ -116,8 +121,6 @@ public:
   ///@}
 
 private:
-  std::string takeOther(CastingLight& casting, Composition other, FrameReport& report);
-  void tell(CastingLight& casting, FrameReport& report);
   void placeVisibility();
   TechniqueCache& cacheOf(const ShadowLight& light);
 

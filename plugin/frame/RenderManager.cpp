@@ -185,10 +185,10 @@ bool RenderManager::chooseTechniques(bool moves, bool mayRefine)
   this->frame_.moves = moves;
   this->frame_.mayRefine = mayRefine;
   this->choice_.choose(
-    [this](CastingLight& casting)
+    [this](const CastingLight& casting, const ShadowLight& map, LightTechnique& technique)
     {
-      casting.own->updateMaps(
-        casting.light, this->mapStage(casting), reportOf(this->frame_.report, casting.light));
+      LightReport ofMap; // the light's own is that of the technique that is chosen
+      technique.updateMaps(map, this->mapStage(casting), ofMap);
     });
   this->frame_.endStage("choice");
   return moves &&
@@ -615,7 +615,7 @@ void RenderManager::endFrame(const vtkRenderState* s)
     }
   }
   report.wallMilliseconds = steadyMilliseconds() - this->frame_.start;
-  this->choice_.endFrame(report.wallMilliseconds);
+  this->choice_.endFrame(report.wallMilliseconds, report.newPrograms == 0 && report.bvhBuilds == 0);
 }
 
 //------------------------------------------------------------------------------

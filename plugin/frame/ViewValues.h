@@ -56,10 +56,11 @@ struct ReceiversValue
 /// The visibility stage's value for one light. The image itself is in the view's layers.
 struct VisibilityValue
 {
-  std::optional<ValueKey> key;    ///< none: there is no value
-  int samples = 0;                ///< of an area light's image while it refines
-  LightReport report;             ///< the light's report from the frame that computed it
-  std::vector<std::string> notes; ///< its notes (FrameReport::notes)
+  std::optional<ValueKey> key;       ///< none: there is no value
+  int samples = 0;                   ///< of an area light's image while it refines
+  LightReport report;                ///< the light's report from the frame that computed it
+  std::optional<double> tracedShare; ///< of its tiles, the part that had rays; none: not counted
+  std::vector<std::string> notes;    ///< its notes (FrameReport::notes)
   bool classified = false;
   std::vector<std::uint8_t> classes; ///< of each pixel, if `classified`
   ///@{

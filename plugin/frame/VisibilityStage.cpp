@@ -139,6 +139,7 @@ void VisibilityStage::findStale()
       LightReport& report = reportOf(this->frame_.report, casting.light);
       report = value->report;
       report.sceneIndex = casting.light.sceneIndex;
+      casting.tracedShare = value->tracedShare;
     }
     else
     {
@@ -468,6 +469,7 @@ void VisibilityStage::fill(
   CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value, LightReport& report)
 {
   value.notes.clear();
+  value.tracedShare.reset();
   if (!isOnCpu(casting))
   {
     value.dropTiles();
@@ -527,7 +529,7 @@ void VisibilityStage::trace(
 
   if (verdicts)
   {
-    verdicts->tell(light, report);
+    casting.tracedShare = value.tracedShare = verdicts->tell(light, report);
   }
   casting.own->tellRays(!verdicts || verdicts->needManyRays());
   const bool isDeferred = this->frame_.route == Route::Deferred;

@@ -6,11 +6,11 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/VisibilityLayers.h"
+#include "shadowtech/probing/ProbeCounts.h"
 #include "shadowtech/tracing/CasterHits.h"
 
 #include <glm/glm.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,54 +22,14 @@ struct Occluders;
 class ShaderLibrary;
 class EmbreeTracer;
 
-/// A count of wrong answers of a cheap visibility.
-struct WrongProbes
-{
-  std::size_t asked = 0; ///< points that face the light
-  std::size_t wrong = 0; ///< those where visibility is off by more than 0.5
-
-  double share() const
-  {
-    return static_cast<double>(this->wrong) / static_cast<double>(std::max<std::size_t>(asked, 1));
-  }
-
-  ///@{
-  /// Return a bound of the share of wrong pixels in the population of which these are a sample.
-  /// The share is beyond it in one case of forty: Wilson's interval (Wilson 1927) with z = 2.
-  /// Without points the bounds are 0 and 1. Sampling until one is clear makes it wrong more often.
-  double leastShare() const;
-  double mostShare() const;
-  ///@}
-};
-
-/// A sum of the squared errors of an area light's visibility.
-struct SquaredErrors
-{
-  std::size_t points = 0;    ///< that face the light
-  double sum = 0.0;          ///< of the squares, means over the visibility's channels
-  double sumOfSquares = 0.0; ///< of these again
-  double expected = 0.0;     ///< what a square in a penumbra may be; rare ones may be missed
-
-  void add(const SquaredErrors& others);
-  ///@{
-  /// Return a bound of the root mean square error of the population of which these are a sample:
-  /// Wilson's, as if all squares but zeros were of one size, at least the expected one. Without
-  /// points both are 0. The upper one has z = 3, as each of many looks may pass it by chance.
-  double leastRms() const { return this->rms(-2.0); }
-  double mostRms() const { return this->rms(3.0); }
-  ///@}
-
-private:
-  double rms(double z) const;
-};
-
 /// Compares a cheap visibility with traced visibility at some pixels, before the picture is drawn.
 /// Camera rays find the receivers. They miss surfaces that do not cast, and hit the surface behind.
 class Probes
 {
 public:
   static constexpr int across = 64; ///< parts along each side of the picture
-  static constexpr std::size_t count = std::size_t(across) * across; ///< of the points of a look
+  static constexpr std::size_t count = probesOfALook;
+  static_assert(count == std::size_t(across) * across);
 
   /// Find the points, as many in each part of the picture that is aimed at.
   /// @param number another number moves the points within their parts

@@ -362,7 +362,7 @@ void TileVerdicts::classifyAllDark(std::vector<std::uint8_t>& classes) const
 }
 
 //------------------------------------------------------------------------------
-void TileVerdicts::tell(const ShadowLight& light, LightReport& report) const
+double TileVerdicts::tell(const ShadowLight& light, LightReport& report) const
 {
   std::vector<std::uint8_t> traced(this->darkTiles_.size(), 0);
   bool hides = false;
@@ -387,6 +387,8 @@ void TileVerdicts::tell(const ShadowLight& light, LightReport& report) const
     : light.kind == LightKind::Spot ? "its cone reaches nothing visible"
     : light.box                     ? "its box reaches nothing visible"
                                     : "nothing is visible";
+  return static_cast<double>(report.tilesTraced) /
+    static_cast<double>(std::max<std::size_t>(this->darkTiles_.size(), 1));
 }
 
 } // namespace gnomon

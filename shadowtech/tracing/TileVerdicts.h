@@ -53,7 +53,8 @@ public:
   ///@}
 
   /// Report the counts of tiles, and the reason if no ray was needed.
-  void tell(const ShadowLight& light, LightReport& report) const;
+  /// @return the share of tiles that have rays
+  double tell(const ShadowLight& light, LightReport& report) const;
 
 private:
   Certainty ofPixel(std::size_t column, std::size_t row) const

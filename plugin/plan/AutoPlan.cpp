@@ -1,0 +1,517 @@
+#include "plugin/plan/AutoPlan.h"
+
+#include "lights/LightViews.h"
+#include "plugin/plan/Route.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Maps are used only if rays take more than this factor longer.
+constexpr double nearlyAsFast = 1.3;
+
+/// Least and most moving frames until rays and maps may switch.
+constexpr int leastPatience = 30;
+constexpr int mostPatience = 960;
+
+/// Frames between probes of a map, if it is reused and if each frame bakes it.
+constexpr int framesPerProbe = 16;
+constexpr int framesPerProbeOfMoved = 4;
+
+/// The largest side to which an error limit enlarges a map.
+constexpr int mostTexels = 4096;
+
+/// Samples of area lights in motion, tried in turn; then 16, 32, 64... Up to 16 a frame takes at
+/// most 1.25 times as long as with the number before (soft-window: 24 to 52 ms).
+constexpr std::array<int, 5> fewSamples = { 4, 6, 8, 10, 12 };
+
+/// Return the samples of an area light at a step of its choice, from the second step on.
+int samplesOf(int step)
+{
+  const auto next = static_cast<std::size_t>(step - 1);
+  return next < fewSamples.size() ? fewSamples[next] : 16 << (next - fewSamples.size());
+}
+
+/// Return by how many steps a map's side is to be halved, as its probes say: wrong pixels lie along
+/// edges, and their number is in proportion to the texels' width. As many probes as there may be
+/// are to prove the smaller map if they go on like these, with twice as many wrong, to be safe.
+int spareSteps(const WrongProbes& probes, int step, double limit)
+{
+  WrongProbes expected{ mostLooks * probes.asked, 2 * mostLooks * probes.wrong };
+  int spare = 0;
+  for (; spare < step; ++spare)
+  {
+    expected.wrong = std::min(2 * expected.wrong, expected.asked);
+    if (expected.mostShare() > limit)
+    {
+      break;
+    }
+  }
+  return spare;
+}
+
+std::string percent(double share)
+{
+  const std::string text = std::to_string(100.0 * share);
+  return text.substr(0, text.find('.') + 3) + " %";
+}
+
+/// Thrown where the plan needs evidence that it has not got.
+struct Needs
+{
+  EvidenceRequest request;
+};
+
+/// Makes one plan; its members are the plan's inputs, and the history that it leaves.
+class Planner
+{
+public:
+  Planner(const AutoFacts& facts, const FrameWishes& wishes, const AutoHistory& history,
+    const std::vector<Evidence>& evidence)
+    : facts_(facts)
+    , wishes_(wishes)
+    , evidence_(evidence)
+    , history_(history)
+  {
+  }
+
+  AutoPlan plan();
+
+private:
+  FrameCounters takeChanges();
+  void rest();
+  std::string move(const FrameCounters& counters, std::vector<AutoChoice>& choices);
+  std::string whyNoMaps() const;
+  std::string whyRaysAreFast(double byMaps, double byRays) const;
+  std::string tryMap(const AutoLight& light, AutoChoice& choice);
+  void takeSamples(const AutoLight& light, AutoChoice& choice);
+  const Evidence& evidenceFor(const EvidenceRequest& request);
+  AutoHistory::Light& historyOf(const AutoLight& light)
+  {
+    return this->history_.lights[light.light.sceneIndex];
+  }
+
+  const AutoFacts& facts_;
+  const FrameWishes& wishes_;
+  const std::vector<Evidence>& evidence_;
+  std::size_t evidenceUsed_ = 0;
+  AutoHistory history_;
+};
+
+bool isSoft(const AutoLight& light)
+{
+  return light.light.area || light.light.texture;
+}
+
+//------------------------------------------------------------------------------
+AutoPlan Planner::plan()
+{
+  AutoPlan plan;
+  std::vector<AutoChoice> choices;
+  for (const AutoLight& light : this->facts_.lights)
+  {
+    if (light.asked)
+    {
+      choices.push_back({ light.light.sceneIndex });
+    }
+  }
+  const auto each = [&](bool soft, const auto& work)
+  {
+    auto choice = choices.begin();
+    for (const AutoLight& light : this->facts_.lights)
+    {
+      if (light.asked)
+      {
+        if (isSoft(light) == soft)
+        {
+          work(light, *choice);
+        }
+        ++choice;
+      }
+    }
+  };
+  if (choices.empty())
+  {
+    plan.history = std::move(this->history_);
+    return plan;
+  }
+  bool anySoft = false;
+  each(true, [&](const AutoLight&, AutoChoice&) { anySoft = true; });
+  const FrameCounters counters = this->takeChanges();
+  if (!this->facts_.moves)
+  {
+    // An area light's first frame at rest shows as many samples as the motion.
+    each(true,
+      [&](const AutoLight& light, AutoChoice& choice)
+      { choice.firstSamples = this->facts_.mayRefine ? this->historyOf(light).samples : 0; });
+    this->rest();
+    plan.choice = "the picture rests: exact";
+  }
+  else if (anySoft)
+  {
+    each(
+      true, [&](const AutoLight& light, AutoChoice& choice) { this->takeSamples(light, choice); });
+    plan.choice = "the picture moves: rays, as area lights are traced in any case";
+  }
+  else
+  {
+    plan.choice = this->move(counters, choices);
+  }
+  plan.choices = std::move(choices);
+  plan.history = std::move(this->history_);
+  return plan;
+}
+
+//------------------------------------------------------------------------------
+/// Return the present counts, and note what changed since the last frame.
+FrameCounters Planner::takeChanges()
+{
+  const AutoFacts& facts = this->facts_;
+  AutoHistory& history = this->history_;
+  FrameCounters counters;
+  // The first frame's casters have not moved.
+  counters.castersMoved = history.casters.first != 0 && facts.casters != history.casters;
+  counters.viewMoved = counters.castersMoved || facts.view != history.view;
+  counters.triangles = facts.triangles;
+  counters.drawn = facts.drawn;
+  counters.pixels = facts.pixels;
+
+  std::map<int, AutoHistory::Light> known;
+  for (const AutoLight& of : facts.lights)
+  {
+    const ShadowLight& light = of.light;
+    AutoHistory::Light choice = history.lights[light.sceneIndex];
+    const AutoHistory::Request request{ light.area.has_value(), light.mapSizeTexels,
+      light.lightSamples, light.area ? this->wishes_.maximumSoftError : this->wishes_.maximumError,
+      light.area ? light.area->radius() : 0.0 };
+    const bool isAlike = request.isLike(choice.request);
+    if (!isAlike)
+    {
+      choice = AutoHistory::Light{};
+      choice.request = request;
+    }
+    const bool moved = counters.castersMoved || (isAlike && choice.identity != of.identity);
+    choice.identity = of.identity;
+    choice.tracedShare = moved ? 1.0 : choice.tracedShare;
+    choice.sinceProbed += moved ? framesPerProbe / framesPerProbeOfMoved : 1;
+    counters.lights += of.asked && !isSoft(of) ? 1 : 0;
+    if (of.asked && !light.area)
+    {
+      const auto side = static_cast<std::size_t>(light.mapSizeTexels) << choice.step;
+      const std::size_t views = static_cast<std::size_t>(std::max(mostViews(light), 1));
+      counters.texels = std::max(counters.texels, side * side * views);
+      counters.tracedLights += choice.tracedShare;
+      counters.movedLights += moved ? 1 : 0;
+      counters.newMaps += !moved && !choice.isProbed ? 1 : 0;
+    }
+    known[light.sceneIndex] = choice;
+  }
+  history.lights = std::move(known); // drops lights that are gone
+  history.view = facts.view;
+  history.casters = facts.casters;
+  return counters;
+}
+
+//------------------------------------------------------------------------------
+/// Reset the hysteresis. The next motion proves its choices again.
+void Planner::rest()
+{
+  this->history_.patience = 0;
+  this->history_.byRays = 0;
+  this->history_.byMaps = 0;
+  for (auto& [sceneIndex, light] : this->history_.lights)
+  {
+    light.step = light.request.isSoft ? 0 : light.step;
+    light.isProbed = false;
+    light.probe = {};
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Choose between maps and rays for lights with hard shadows.
+/// @return the report's sentence
+std::string Planner::move(const FrameCounters& counters, std::vector<AutoChoice>& choices)
+{
+  AutoHistory& history = this->history_;
+  const double byMaps = costByMaps(counters, this->facts_.factors);
+  const double byRays = costByRays(counters, this->facts_.factors);
+  const double budget = this->wishes_.timeBudget;
+  std::string whyRays = this->whyNoMaps();
+  const bool mayHaveMaps = whyRays.empty();
+  const bool waits = history.byRays > 0 && history.byRays < history.patience;
+  if (mayHaveMaps && waits && !history.whyRays.empty())
+  {
+    whyRays = history.whyRays;
+  }
+  else if (mayHaveMaps)
+  {
+    whyRays = this->whyRaysAreFast(byMaps, byRays);
+    if (!whyRays.empty() && budget == 0.0)
+    {
+      history.patience = std::max(history.patience, leastPatience);
+      history.byRays = 0;
+    }
+  }
+  auto choice = choices.begin();
+  for (const AutoLight& light : this->facts_.lights)
+  {
+    if (light.asked && whyRays.empty())
+    {
+      whyRays = this->tryMap(light, *choice);
+      if (!whyRays.empty())
+      {
+        history.patience = std::clamp(2 * history.patience, leastPatience, mostPatience);
+        history.byRays = 0;
+      }
+    }
+    choice += light.asked ? 1 : 0;
+  }
+  const bool takesMaps = whyRays.empty();
+  history.whyRays = mayHaveMaps ? whyRays : "";
+  history.byMaps = takesMaps ? history.byMaps + 1 : 0;
+  history.byRays = takesMaps ? 0 : history.byRays + 1;
+  history.patience = history.byMaps >= leastPatience ? 0 : history.patience;
+  std::string text = "the picture moves: ";
+  if (takesMaps)
+  {
+    text += "maps, which keep the error of " + percent(this->wishes_.maximumError);
+  }
+  else
+  {
+    for (AutoChoice& of : choices)
+    {
+      of.way = AutoChoice::Way::Resting;
+      history.lights[of.sceneIndex].isProbed = false; // the next map is proved before it is shown
+      history.lights[of.sceneIndex].probe = {};
+    }
+    text += "rays, as " + whyRays;
+  }
+  if (budget > 0.0)
+  {
+    const double expected =
+      takesMaps ? history.slowness.ofMaps() * byMaps : history.slowness.ofRays() * byRays;
+    text += expected > budget ? "; the time budget is not kept" : "";
+    history.slowness.begin(takesMaps, takesMaps ? byMaps : byRays);
+  }
+  return text;
+}
+
+//------------------------------------------------------------------------------
+/// Return why lights with hard shadows cannot use maps in this frame, as a clause; empty if they
+/// may.
+std::string Planner::whyNoMaps() const
+{
+  const std::vector<AutoLight>& lights = this->facts_.lights;
+  if (this->wishes_.route == RouteWish::Image || this->wishes_.route == RouteWish::Deferred)
+  {
+    return "the route is asked for";
+  }
+  if (this->wishes_.keepVisibility)
+  {
+    return "the visibility is kept";
+  }
+  if (WrongProbes{ mostLooks * probesOfALook, 0 }.mostShare() > this->wishes_.maximumError)
+  {
+    return "probes cannot show an error as small as the limit";
+  }
+  if (this->facts_.severalViews)
+  {
+    return "several views are drawn and must look alike";
+  }
+  if (lights.size() > mostInlineLights)
+  {
+    return "shaders can read the maps of at most " + std::to_string(mostInlineLights) +
+      " lights, not " + std::to_string(lights.size());
+  }
+  if (std::any_of(lights.begin(), lights.end(),
+        [](const AutoLight& light) { return !light.asked && !light.info.isPointwise(); }))
+  {
+    return "another light's technique works on the whole screen";
+  }
+  return this->facts_.unseenReceiver
+    ? "a surface shows shadows but casts none, or shader code moves it, so probes miss it"
+    : "";
+}
+
+//------------------------------------------------------------------------------
+/// Return why rays are used though maps may be, as a clause; empty if they are not.
+/// @param byMaps, byRays modelled milliseconds
+std::string Planner::whyRaysAreFast(double byMaps, double byRays) const
+{
+  const double budget = this->wishes_.timeBudget;
+  if (budget == 0.0)
+  {
+    return byRays <= nearlyAsFast * byMaps ? "they take nearly as little time as maps" : "";
+  }
+  // After maps, rays return only with time to spare, and after some frames.
+  constexpr double spared = 0.85;
+  const int mapFrames = this->history_.byMaps;
+  const bool stay = mapFrames > 0 && mapFrames < leastPatience;
+  const double least = mapFrames > 0 ? spared * budget : budget;
+  const bool fits = this->history_.slowness.ofRays() * byRays <= least || byRays <= byMaps;
+  return !stay && fits ? "they keep the time budget" : "";
+}
+
+//------------------------------------------------------------------------------
+/// Shade a light by a map, the coarsest from the present step on that keeps the error. Before a
+/// motion shows a map, it may be a coarser one, too.
+/// @return why there is none, as a clause; empty on success
+std::string Planner::tryMap(const AutoLight& light, AutoChoice& choice)
+{
+  const double limit = this->wishes_.maximumError;
+  AutoHistory::Light& known = this->historyOf(light);
+  const int asked = light.asked->mapSizeTexels;
+  if (asked > light.mostMapTexels)
+  {
+    return "the memory budget has no room for maps";
+  }
+  int mostSteps = 0;
+  while (asked << (mostSteps + 1) <= std::min(mostTexels, light.mostMapTexels))
+  {
+    ++mostSteps;
+  }
+  const bool isShown = known.isProbed;
+  bool hasShrunk = false;
+  for (;;)
+  {
+    const int side = asked << known.step;
+    const Composition map = planAsMap(*light.asked, side, this->facts_.compose);
+    if (!map.estimator)
+    {
+      return map.refusal;
+    }
+    choice.way = AutoChoice::Way::Map;
+    choice.mapSizeTexels = side;
+    if (known.isProbed && known.sinceProbed < framesPerProbe)
+    {
+      return {};
+    }
+    const Evidence& evidence =
+      this->evidenceFor({ light.light.sceneIndex, side, 0, limit, known.probe, known.isProbed });
+    if (!evidence.failure.empty())
+    {
+      return evidence.failure;
+    }
+    if (!evidence.isClear)
+    {
+      known.probe = evidence.probe;
+      return {};
+    }
+    known.probe = {};
+    const WrongProbes wrong = evidence.probe.found;
+    known.sinceProbed = 0;
+    // If no point of all looks faces the light, hardly one pixel in 4,000 does.
+    if (wrong.asked == 0 || wrong.mostShare() <= limit)
+    {
+      const int spare = isShown || hasShrunk ? 0 : spareSteps(wrong, known.step, limit);
+      known.isProbed = spare == 0;
+      if (known.isProbed)
+      {
+        return {};
+      }
+      known.step -= spare;
+      hasShrunk = true;
+      continue;
+    }
+    known.isProbed = false;
+    if (wrong.wrong == 0)
+    {
+      return "only " + std::to_string(wrong.asked) +
+        " of the probed pixels face the light, too few to show the error";
+    }
+    if (known.step == mostSteps)
+    {
+      return "of " + std::to_string(wrong.asked) + " pixels " + std::to_string(wrong.wrong) +
+        " are wrong with a map of " + std::to_string(side) + " texels";
+    }
+    const double factor = std::max(wrong.share() / limit, 2.0); // as in spareSteps()
+    known.step = std::min(known.step + static_cast<int>(std::log2(factor)), mostSteps);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Choose the first step of an area light, from the present one on, that keeps the error: hard
+/// shadows of its centre, or its fewest samples.
+void Planner::takeSamples(const AutoLight& light, AutoChoice& choice)
+{
+  const double limit = this->wishes_.maximumSoftError;
+  AutoHistory::Light& known = this->historyOf(light);
+  known.samples = 0;
+  if (!light.light.area || limit == 0.0)
+  {
+    return;
+  }
+  const int all = light.light.lightSamples;
+  for (;; ++known.step)
+  {
+    const bool isHard = known.step == 0;
+    known.samples = std::min(samplesOf(std::max(known.step, 1)), all);
+    if (isHard &&
+      (light.light.texture || !planAsCentre(*light.asked, this->facts_.compose).estimator))
+    {
+      continue;
+    }
+    choice.way = isHard ? AutoChoice::Way::Centre : AutoChoice::Way::Resting;
+    choice.lightSamples = isHard ? 0 : known.samples;
+    const bool hasAll = !isHard && known.samples == all;
+    if (hasAll || (known.isProbed && known.sinceProbed < framesPerProbe))
+    {
+      return;
+    }
+    known.sinceProbed = 0;
+    known.isProbed =
+      this->evidenceFor({ light.light.sceneIndex, 0, choice.lightSamples, limit, {}, false })
+        .keepsError;
+    if (known.isProbed)
+    {
+      return;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Return the answer to a request: a plan that is made again asks the same, in the same order.
+/// @throws Needs if there is none yet
+const Evidence& Planner::evidenceFor(const EvidenceRequest& request)
+{
+  if (this->evidenceUsed_ == this->evidence_.size())
+  {
+    throw Needs{ request };
+  }
+  return this->evidence_[this->evidenceUsed_++];
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool AutoHistory::Request::isLike(const Request& other) const
+{
+  const auto [least, most] = std::minmax(this->areaRadius, other.areaRadius);
+  return this->isSoft == other.isSoft && this->mapSizeTexels == other.mapSizeTexels &&
+    this->lightSamples == other.lightSamples && this->errorLimit == other.errorLimit &&
+    most <= 1.1 * least;
+}
+
+//------------------------------------------------------------------------------
+AutoPlan planAuto(const AutoFacts& facts, const FrameWishes& wishes, const AutoHistory& history,
+  const std::vector<Evidence>& evidence)
+{
+  try
+  {
+    return Planner(facts, wishes, history, evidence).plan();
+  }
+  catch (const Needs& needs)
+  {
+    AutoPlan plan;
+    plan.needs = needs.request;
+    return plan;
+  }
+}
+
+} // namespace gnomon
