@@ -198,6 +198,11 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
     scene.seenWorld = visibleBounds(renderer);
   }
   report.headlightIsAlone = scene.set.headlightIsAlone;
+  if (scene.set.headlightIsAlone)
+  {
+    report.notes.push_back("no shadow can be seen: all light comes from the camera. Add a light "
+                           "from the side");
+  }
   report.misfits = findMisfits(scene.set.lights, defaults);
   if (renderer->GetLights()->GetNumberOfItems() == 0)
   {

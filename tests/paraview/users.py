@@ -10,8 +10,8 @@ are for the table of tests/paraview/run.sh.
 import pathlib
 import sys
 
-from paraview.simple import Box, Calculator, Connect, Contour, Plane, Render, SaveScreenshot
-from paraview.simple import Show, Sphere, Wavelet
+from paraview.simple import Box, Calculator, Connect, Contour, Plane, Render, Ruler
+from paraview.simple import SaveScreenshot, Show, Sphere, StreamTracer, Wavelet
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
@@ -151,7 +151,45 @@ def reduced(pictures):
         scenario.check(f"reduced pictures, {look_name}", of > 0.01 and not wrong, figures)
 
 
-CASES = {function.__name__: function for function in (surface_lic, reduced)}
+def annotations(pictures):
+    """What shows no shadow by nature is noted in the report, and opens no window of warnings."""
+
+    def draw(kind):
+        view = scenario.make_view(kind, SIZE)
+        view.CenterAxesVisibility = 1
+        view.OrientationAxesVisibility = 1
+        view.AxesGrid.Visibility = 1
+        show(floor, view)
+        show(lines, view)
+        show(ball, view)
+        Show(ruler, view)
+        look(view, (30, -70, 60), (0, 0, -4))
+        return view
+
+    wavelet = Wavelet(WholeExtent=[-10, 10, -10, 10, -10, 10])
+    flow = Calculator(Input=wavelet, Function="coordsY*iHat-coordsX*jHat+0.3*kHat")
+    flow.ResultArrayName = "flow"
+    lines = StreamTracer(Input=flow, SeedType="Point Cloud", Vectors=["POINTS", "flow"])
+    floor = Plane(Origin=[-25, -25, -12], Point1=[25, -25, -12], Point2=[-25, 25, -12])
+    ball = Sphere(Radius=5.0, ThetaResolution=32, PhiResolution=32)
+    ruler = Ruler(Point1=[-20, -20, -11], Point2=[20, -20, -11])
+    plain, view = draw("RenderView"), draw("GnomonShadowView")
+    for of in (plain, view):
+        scenario.add_light(of, "sun", (20, -30, 60))
+    dark = in_shadow(pictures.take(view, "sun"), pictures.take(plain, "sun")).mean()
+    scenario.check("a ball among annotations casts", 0.003 < dark < 0.1, f"{100 * dark:.1f} %")
+    pictures.row("pixels in shadow", f"{100 * dark:.1f} %")
+    notes = "; ".join(scenario.report(view)["notes"])
+    for text in ("vtkPVGridAxes3DActor", "lines or points"):
+        scenario.check(f"the report notes {text}", text in notes, notes)
+    for coords in ("Headlight", "Ambient"):
+        view.AdditionalLights[0].Coords = coords
+        Render(view)
+        notes = "; ".join(scenario.report(view)["notes"])
+        scenario.check(f"the report notes a lone {coords}", "from the side" in notes, notes)
+
+
+CASES = {function.__name__: function for function in (surface_lic, reduced, annotations)}
 
 
 def main():

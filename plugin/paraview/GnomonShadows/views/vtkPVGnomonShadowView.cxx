@@ -1,6 +1,7 @@
 #include "vtkPVGnomonShadowView.h"
 
 #include "vtkCameraPass.h"
+#include "vtkCommand.h"
 #include "vtkGnomonShadowPass.h"
 #include "vtkImageData.h"
 #include "vtkImageProcessingPass.h"
@@ -66,6 +67,9 @@ void setSetting(vtkGnomonShadowPass* pass, const char* name, Value value)
 vtkPVGnomonShadowView::vtkPVGnomonShadowView()
 {
   this->Pass->SetTechnique("raytraced");
+  // An observer keeps the pass's warnings from ParaView's output window, which opens on each
+  // process. The report has them as notes.
+  this->Pass->AddObserver(vtkCommand::WarningEvent, this, &vtkPVGnomonShadowView::LeaveToReport);
 }
 
 //----------------------------------------------------------------------------

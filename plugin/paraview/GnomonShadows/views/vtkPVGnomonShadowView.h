@@ -78,6 +78,7 @@ private:
   void operator=(const vtkPVGnomonShadowView&) = delete;
 
   void TellOnce(const char* why);
+  void LeaveToReport() {}
 
   vtkNew<vtkGnomonShadowPass> Pass;
   std::string Told; ///< the last warning
