@@ -27,7 +27,10 @@ def draw(data, path):
     return view
 
 
-def compare(path, batch_path):
+def compare(view, path, batch_path):
+    report = scenario.report(view)
+    passes = report["processes"] == 3 and report["route"] == "image"
+    scenario.check("the client has the server's report", passes, f"route '{report['route']}'")
     ours, batch = scenario.read_picture(path), scenario.read_picture(batch_path)
     differ = int((ours != batch).any(axis=2).sum()) if ours.shape == batch.shape else ours.size
     scenario.check("the client's picture is the batch's", differ == 0, f"{differ} pixels differ")
@@ -50,7 +53,7 @@ def main():
         scenario.load_plugin(remote=True)
     view = draw(data, path)
     if is_client:
-        compare(path, sys.argv[3])
+        compare(view, path, sys.argv[3])
     else:
         report = scenario.report(view)
         passes = report["processes"] == 3 and report["route"] == "image"

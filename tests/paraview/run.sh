@@ -147,10 +147,10 @@ logged packages install_inside "$root" \
 inside "$root" dpkg-query -W -f '${Package} ${Version}\n' paraview openmpi-bin libgl1-mesa-dri
 
 echo "$SECONDS s: building"
-logged configure inside "$root" cmake -S /src/plugin/paraview -B /build -G Ninja \
+logged configure inside "$root" cmake -S /src/plugin/paraview -B /build/paraview \
   -D GNOMON_WARNINGS_AS_ERRORS=ON
-logged build inside "$root" cmake --build /build
-plugin=/build/lib/paraview-5.11/plugins/GnomonShadows/GnomonShadows.so
+logged build inside "$root" cmake --build /build/paraview --parallel
+plugin=/build/paraview/lib/paraview-5.11/plugins/GnomonShadows/GnomonShadows.so
 rm -rf "${root:?}$work"
 inside "$root" mkdir -p "$data"
 

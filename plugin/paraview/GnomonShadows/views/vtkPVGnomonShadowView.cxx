@@ -6,7 +6,9 @@
 #include "vtkImageData.h"
 #include "vtkImageProcessingPass.h"
 #include "vtkMultiProcessController.h"
+#include "vtkMultiProcessStream.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVSession.h"
 #include "vtkPVSynchronizedRenderer.h"
 #include "vtkProcessModule.h"
 #include "vtkRenderer.h"
@@ -38,13 +40,19 @@ vtkMultiProcessController* processesOf(vtkPVSynchronizedRenderer* renderers)
                                               : nullptr;
 }
 
+/// True if the processes of a server draw the view, or those of a batch.
+bool isDistributed(vtkPVRenderView* view, bool interactive)
+{
+  return interactive && view->GetUseLODForInteractiveRender()
+    ? view->GetUseDistributedRenderingForLODRender()
+    : view->GetUseDistributedRenderingForRender();
+}
+
 /// True on a client whose server draws the view.
 bool isDrawnByServer(vtkPVRenderView* view, bool interactive)
 {
-  const bool isRemote = interactive && view->GetUseLODForInteractiveRender()
-    ? view->GetUseDistributedRenderingForLODRender()
-    : view->GetUseDistributedRenderingForRender();
-  return isRemote && vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
+  return isDistributed(view, interactive) &&
+    vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
 }
 
 /// Set a setting that differs. Setting one that the technique lacks is an error, also to its
@@ -145,6 +153,37 @@ void vtkPVGnomonShadowView::Render(bool interactive, bool skipRendering)
       writer->Write();
     }
   }
+  if (!skipRendering)
+  {
+    this->ShareReport(isDistributed(this, interactive));
+  }
+}
+
+//----------------------------------------------------------------------------
+/// Hand the report of a server's first process to the client, whose property it is.
+void vtkPVGnomonShadowView::ShareReport(bool isDistributed)
+{
+  constexpr int tag = 59170;
+  this->ServersReport.clear();
+  vtkPVSession* const session = isDistributed ? this->GetSession() : nullptr;
+  if (!session)
+  {
+    return;
+  }
+  const bool isClient = vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
+  vtkMultiProcessController* const other =
+    session->GetController(isClient ? vtkPVSession::RENDER_SERVER_ROOT : vtkPVSession::CLIENT);
+  vtkMultiProcessStream stream;
+  if (other && isClient)
+  {
+    other->Receive(stream, 1, tag);
+    stream >> this->ServersReport;
+  }
+  else if (other) // null on a server's other processes and in a batch
+  {
+    stream << this->Pass->GetReportText();
+    other->Send(stream, 1, tag);
+  }
 }
 
 //----------------------------------------------------------------------------
@@ -187,7 +226,8 @@ void vtkPVGnomonShadowView::SetVisibilityFile(const char* path)
 //----------------------------------------------------------------------------
 const char* vtkPVGnomonShadowView::GetReportText()
 {
-  this->ReportText = this->Pass->GetReportText();
+  this->ReportText =
+    this->ServersReport.empty() ? this->Pass->GetReportText() : this->ServersReport;
   return this->ReportText.c_str();
 }
 

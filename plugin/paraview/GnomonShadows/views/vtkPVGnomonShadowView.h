@@ -57,7 +57,8 @@ public:
   void SetVisibilityFile(const char* path);
 
   /**
-   * What this process's last frame did, in JSON; valid until the next call.
+   * What the last frame did, in JSON; valid until the next call. On a client, it is the report of
+   * the server's first process.
    */
   const char* GetReportText();
 
@@ -79,11 +80,13 @@ private:
 
   void TellOnce(const char* why);
   void LeaveToReport() {}
+  void ShareReport(bool isDistributed);
 
   vtkNew<vtkGnomonShadowPass> Pass;
   std::string Told; ///< the last warning
   std::string VisibilityFile;
   std::string ReportText;
+  std::string ServersReport; ///< on a client, of the last frame if its server drew it
 };
 
 #endif
