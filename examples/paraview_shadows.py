@@ -4,7 +4,7 @@ import sys
 
 from paraview.simple import AddLight, Contour, CreateView, Plane, SaveScreenshot, Show, Wavelet
 
-view = CreateView("GnomonShadowView")
+view = CreateView("RenderView", ShowShadows=1)
 view.ViewSize, view.UseLight = [800, 600], 0
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [25, -45, 40], [0, 0, -3], [0, 0, 1]
 sun = AddLight(view=view)

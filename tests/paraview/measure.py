@@ -109,7 +109,7 @@ def main():
     wavelet = Wavelet(WholeExtent=[-69, 69, -69, 69, -69, 69])
     contour = Contour(Input=wavelet, ContourBy=["POINTS", "RTData"])
     contour.Isosurfaces = [-60.0 + 26.0 * number for number in range(10)]
-    views = [scenario.make_view(kind, SIZE) for kind in ("GnomonShadowView", "RenderView")]
+    views = [scenario.make_view(shadows, SIZE) for shadows in (True, False)]
     for view in views:
         Show(contour, view).ColorArrayName = ["POINTS", ""]
         Render(view)

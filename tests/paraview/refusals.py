@@ -18,8 +18,8 @@ def picture(view, path):
     return scenario.read_picture(path)
 
 
-def make(kind, data):
-    view = scenario.make_view(kind)
+def make(shadows, data):
+    view = scenario.make_view(shadows)
     scenario.show_parts(view, data, "bunny-random", 3)
     Render(view)
     scenario.set_camera(view, (1.4, -2.5, 2.1), (0, 0, 0.4))
@@ -34,7 +34,7 @@ def differ(one, other):
 def main():
     data, out = sys.argv[1:]
     scenario.load_plugin()
-    view, plain = make("GnomonShadowView", data), make("RenderView", data)
+    view, plain = make(True, data), make(False, data)
     shadows = picture(view, f"{out}/refusals-shadows.png")
     without = picture(plain, f"{out}/refusals-plain.png")
     scenario.check("shadows are drawn", differ(shadows, without) > 1000)

@@ -176,13 +176,13 @@ scenario random-alone batch 1 random_changes.py alone "$data" "$work/random"
 scenario selections batch 3 selects.py "$data"
 scenario batch-picture batch 3 picture.py "$data" "$work/batch.png"
 scenario client beside_server 3 "" picture.py "$data" "$work/client.png" "$work/batch.png"
-for case in surface_lic reduced annotations; do
+for case in surface_lic reduced annotations views; do
   for processes in 1 2 3; do
     scenario "users-$case-$processes" batch "$processes" users.py "$case" "$work/users"
   done
 done
 scenario users-reduced-client beside_server 2 "" users.py reduced "$work/users"
-expected="Tile displays and CAVEs have no shadows|Warning: In vtkPVGnomonShadowView"
+expected="Tile displays and CAVEs have no shadows|Warning: In vtkPVGnomonShadows"
 scenario tiles beside_server 2 "--tdx 2 --tdy 1" tiles.py
 expect tiles 3 "Tile displays and CAVEs have no shadows"
 expected="'pcf' sees the casters of one process|the processes have different lights"

@@ -46,9 +46,10 @@ def load_plugin(remote=False):
     LoadPlugin(PLUGIN, remote=remote, ns=globals())
 
 
-def make_view(kind="GnomonShadowView", size=(200, 150)):
+def make_view(shadows=True, size=(200, 150), kind="RenderView"):
     """Return a view without lights, annotations and levels of detail."""
     view = CreateView(kind)
+    view.ShowShadows = int(shadows)
     view.ViewSize = list(size)
     view.UseLight = 0
     view.OrientationAxesVisibility = 0

@@ -8,10 +8,13 @@ are for the table of tests/paraview/run.sh.
 """
 
 import pathlib
+import re
 import sys
 
-from paraview.simple import Box, Calculator, Connect, Contour, Plane, Render, Ruler
-from paraview.simple import SaveScreenshot, Show, Sphere, StreamTracer, Wavelet
+from paraview import servermanager
+from paraview.simple import Box, Calculator, Connect, Contour, CreateView, Delete, FindSource
+from paraview.simple import GetActiveViewOrCreate, LoadState, Plane, Render, ResetSession, Ruler
+from paraview.simple import SaveScreenshot, SaveState, Show, Sphere, StreamTracer, Wavelet
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
@@ -31,7 +34,7 @@ class Pictures:
         self.out.mkdir(parents=True, exist_ok=True)
 
     def path(self, view, name):
-        kind = "plain" if view.GetXMLName() == "RenderView" else "shadows"
+        kind = "shadows" if getattr(view, "ShowShadows", 0) else "plain"
         name = name.replace(" ", "-")
         return str(self.out / f"{self.case}-{name}-{scenario.processes()}-{kind}.png")
 
@@ -86,8 +89,8 @@ def surface_lic(pictures):
     floor = Plane(Origin=[-25, -25, -12], Point1=[25, -25, -12], Point2=[-25, 25, -12])
     ball = Sphere(Radius=2.0, Center=[3, -6, 14], ThetaResolution=32, PhiResolution=32)
 
-    def draw(kind, order):
-        view = scenario.make_view(kind, SIZE)
+    def draw(shadows, order):
+        view = scenario.make_view(shadows, SIZE)
         for source in (contour, floor, ball) if order == "first" else (floor, ball, contour):
             display = show(source, view)
             if source == contour:
@@ -97,9 +100,9 @@ def surface_lic(pictures):
         scenario.add_light(view, "sun", (20, -30, 60))
         return pictures.take(view, order)
 
-    plain = draw("RenderView", "first")
-    first = in_shadow(draw("GnomonShadowView", "first"), plain)
-    last = in_shadow(draw("GnomonShadowView", "last"), plain)
+    plain = draw(False, "first")
+    first = in_shadow(draw(True, "first"), plain)
+    last = in_shadow(draw(True, "last"), plain)
     pictures.row("pixels in shadow", int(last.sum()))
     scenario.check("a LIC casts", 1000 < last.sum() < 6000, f"{last.sum()} pixels in shadow")
     others = int((first != last).sum())
@@ -117,7 +120,7 @@ def reduced(pictures):
     box = Box(XLength=2, YLength=2, ZLength=2, Center=[0, 0, 2])
     floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
     for look_name, values in looks.items():
-        views = [scenario.make_view(kind, SIZE) for kind in ("RenderView", "GnomonShadowView")]
+        views = [scenario.make_view(shadows, SIZE) for shadows in (False, True)]
         for view in views:
             show(box, view)
             show(floor, view)
@@ -154,8 +157,8 @@ def reduced(pictures):
 def annotations(pictures):
     """What shows no shadow by nature is noted in the report, and opens no window of warnings."""
 
-    def draw(kind):
-        view = scenario.make_view(kind, SIZE)
+    def draw(shadows):
+        view = scenario.make_view(shadows, SIZE)
         view.CenterAxesVisibility = 1
         view.OrientationAxesVisibility = 1
         view.AxesGrid.Visibility = 1
@@ -173,7 +176,7 @@ def annotations(pictures):
     floor = Plane(Origin=[-25, -25, -12], Point1=[25, -25, -12], Point2=[-25, 25, -12])
     ball = Sphere(Radius=5.0, ThetaResolution=32, PhiResolution=32)
     ruler = Ruler(Point1=[-20, -20, -11], Point2=[20, -20, -11])
-    plain, view = draw("RenderView"), draw("GnomonShadowView")
+    plain, view = draw(False), draw(True)
     for of in (plain, view):
         scenario.add_light(of, "sun", (20, -30, 60))
     dark = in_shadow(pictures.take(view, "sun"), pictures.take(plain, "sun")).mean()
@@ -189,7 +192,71 @@ def annotations(pictures):
         scenario.check(f"the report notes a lone {coords}", "from the side" in notes, notes)
 
 
-CASES = {function.__name__: function for function in (surface_lic, reduced, annotations)}
+def views(pictures):
+    """Views of all kinds have the shadows, and sources find them; a state without them gains them."""
+    box = Box(XLength=2, YLength=2, ZLength=2, Center=[0, 0, 2])
+    floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
+
+    def fill(view):
+        show(box, view)
+        show(floor, view)
+        look(view, (6, -14, 12), (0, 0, 0.5))
+        scenario.add_light(view, "sun", (-8, -3, 6))
+
+    def switch(view, value):
+        view.ShowShadows = value
+
+    def check(name, view, switch=switch):
+        pair = []
+        for value in (0, 1):
+            switch(view, value)
+            pair.append(pictures.take(view, f"{name}-{value}"))
+        share = in_shadow(pair[1], pair[0]).mean()
+        pictures.row(name, f"{100 * share:.1f} %")
+        scenario.check(f"{name} shows shadows", 0.01 < share < 0.2, f"{100 * share:.1f} % of it")
+
+    view = scenario.make_view(False, SIZE)
+    fill(view)
+    check("a render view", view)
+    ruler = Ruler(Point1=[-4, -4, 0.1], Point2=[4, -4, 0.1])
+    kind = Show(ruler, view).GetXMLName()
+    scenario.check("a ruler is a ruler", kind == "RulerSourceRepresentation", kind)
+    Delete(ruler)
+    view.ShowShadows = 0
+    if vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses() == 1:
+        state = pathlib.Path(pictures.out / "state.pvsm")
+        SaveState(str(state))
+        text = state.read_text()
+        for name in ("ShowShadows", "Technique", "LightSize", "LightSamples", "EdgeSamples"):
+            text = re.sub(rf'<Property name="{name}".*?</Property>', "", text, flags=re.S)
+        state.write_text(text)
+        ResetSession()
+        LoadState(str(state))
+        check("a state of plain ParaView", GetActiveViewOrCreate("RenderView"))
+        box = FindSource("Box1")
+        floor = FindSource("Plane1")
+    for kind in ("RenderViewWithEDL", "OrthographicSliceView"):
+        view = scenario.make_view(False, SIZE, kind)
+        fill(view)
+        if kind == "RenderViewWithEDL":
+            check(kind, view)
+        Delete(view)
+    view = CreateView("ComparativeRenderView")
+    view.ViewSize = list(SIZE)
+    view.UseLight = 1
+    view.OrientationAxesVisibility = view.CenterAxesVisibility = 0
+    show(box, view)
+    show(floor, view)
+    look(view, (6, -14, 12), (0, 0, 0.5))
+    root = view.SMProxy.GetRootView()
+
+    def switch_root(_, value):
+        servermanager._getPyProxy(root).ShowShadows = value
+
+    check("a comparative view", view, switch_root)
+
+
+CASES = {function.__name__: function for function in (surface_lic, reduced, annotations, views)}
 
 
 def main():

@@ -1,4 +1,4 @@
-#include "vtkPVGnomonShadowView.h"
+#include "vtkPVGnomonShadows.h"
 
 #include "vtkCameraPass.h"
 #include "vtkCommand.h"
@@ -8,16 +8,17 @@
 #include "vtkMultiProcessController.h"
 #include "vtkMultiProcessStream.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
 #include "vtkPVSession.h"
-#include "vtkPVSynchronizedRenderer.h"
 #include "vtkProcessModule.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkXMLImageDataWriter.h"
 
 #include <limits>
 #include <sstream>
 
-vtkStandardNewMacro(vtkPVGnomonShadowView);
+vtkStandardNewMacro(vtkPVGnomonShadows);
 
 namespace
 {
@@ -32,27 +33,29 @@ vtkCameraPass* findCameraPass(vtkRenderPass* pass)
   return vtkCameraPass::SafeDownCast(pass);
 }
 
-/// Return the processes that draw a distributed view; null if this one draws alone.
-vtkMultiProcessController* processesOf(vtkPVSynchronizedRenderer* renderers)
+bool isClient()
 {
-  const bool isClient = vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
-  return renderers->GetEnabled() && !isClient ? vtkMultiProcessController::GetGlobalController()
-                                              : nullptr;
+  return vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
+}
+
+/// True if a view draws for interaction: it then asks its window for speed.
+bool isInteractive(vtkPVRenderView* view)
+{
+  return view->GetRenderWindow()->GetDesiredUpdateRate() > 1.0;
 }
 
 /// True if the processes of a server draw the view, or those of a batch.
-bool isDistributed(vtkPVRenderView* view, bool interactive)
+bool isDistributed(vtkPVRenderView* view)
 {
-  return interactive && view->GetUseLODForInteractiveRender()
+  return isInteractive(view) && view->GetUseLODForInteractiveRender()
     ? view->GetUseDistributedRenderingForLODRender()
     : view->GetUseDistributedRenderingForRender();
 }
 
 /// True on a client whose server draws the view.
-bool isDrawnByServer(vtkPVRenderView* view, bool interactive)
+bool isDrawnByServer(vtkPVRenderView* view)
 {
-  return isDistributed(view, interactive) &&
-    vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
+  return isClient() && isDistributed(view);
 }
 
 /// Set a setting that differs. Setting one that the technique lacks is an error, also to its
@@ -72,36 +75,58 @@ void setSetting(vtkGnomonShadowPass* pass, const char* name, Value value)
 } // namespace
 
 //----------------------------------------------------------------------------
-vtkPVGnomonShadowView::vtkPVGnomonShadowView()
+vtkPVGnomonShadows::vtkPVGnomonShadows()
 {
+  this->SetNumberOfInputPorts(0);
   this->Pass->SetTechnique("raytraced");
   // An observer keeps the pass's warnings from ParaView's output window, which opens on each
   // process. The report has them as notes.
-  this->Pass->AddObserver(vtkCommand::WarningEvent, this, &vtkPVGnomonShadowView::LeaveToReport);
+  this->Pass->AddObserver(vtkCommand::WarningEvent, this, &vtkPVGnomonShadows::LeaveToReport);
 }
 
 //----------------------------------------------------------------------------
-vtkPVGnomonShadowView::~vtkPVGnomonShadowView() = default;
+vtkPVGnomonShadows::~vtkPVGnomonShadows() = default;
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
+bool vtkPVGnomonShadows::AddToView(vtkView* view)
 {
-  this->Superclass::AboutToRenderOnLocalProcess(interactive);
-  vtkCameraPass* const camera = findCameraPass(this->GetRenderer()->GetPass());
-  if (!camera)
+  this->View = vtkPVRenderView::SafeDownCast(view);
+  this->Session =
+    vtkPVSession::SafeDownCast(vtkProcessModule::GetProcessModule()->GetActiveSession());
+  if (this->View)
   {
-    this->TellOnce("The view has no pass of its camera, so it has no shadows.");
-    return;
+    vtkRenderer* const renderer = this->View->GetRenderer();
+    renderer->AddObserver(vtkCommand::StartEvent, this, &vtkPVGnomonShadows::BeginFrame);
+    renderer->AddObserver(vtkCommand::EndEvent, this, &vtkPVGnomonShadows::EndFrame);
   }
-  const bool isTiled = this->InTileDisplayMode() || this->InCaveDisplayMode();
-  if (isTiled && this->ShowShadows)
+  return false;
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadows::BeginFrame()
+{
+  if (this->View)
   {
-    this->TellOnce("Tile displays and CAVEs have no shadows.");
+    this->PlacePass();
   }
-  const bool isIn = camera->GetDelegatePass() == this->Pass.Get();
+}
+
+//----------------------------------------------------------------------------
+/// Put the pass into the view's chain of passes, or take it out.
+void vtkPVGnomonShadows::PlacePass()
+{
+  vtkRenderer* const renderer = this->View->GetRenderer();
+  vtkCameraPass* const camera = findCameraPass(renderer->GetPass());
+  const bool isIn = camera && camera->GetDelegatePass() == this->Pass.Get();
+  const bool isTiled = this->View->InTileDisplayMode() || this->View->InCaveDisplayMode();
+  if (this->ShowShadows && (isTiled || !camera))
+  {
+    this->TellOnce(camera ? "Tile displays and CAVEs have no shadows."
+                          : "The view has no pass of its camera, so it has no shadows.");
+  }
   // During a selection the pass draws without its delegate, which composites.
-  if (!this->ShowShadows || isTiled || this->GetMakingSelection() ||
-    isDrawnByServer(this, interactive))
+  if (!this->ShowShadows || isTiled || !camera || renderer->GetSelector() ||
+    isDrawnByServer(this->View))
   {
     if (isIn)
     {
@@ -114,17 +139,20 @@ void vtkPVGnomonShadowView::AboutToRenderOnLocalProcess(bool interactive)
     this->Pass->SetDelegatePass(camera->GetDelegatePass());
     camera->SetDelegatePass(this->Pass);
   }
-  this->Pass->SetController(processesOf(this->SynchronizedRenderers));
+  const bool interactive = isInteractive(this->View);
   const bool isComposited =
-    this->Pass->GetController() && this->Pass->GetDelegatePass()->IsA("vtkIceTCompositePass");
-  this->Pass->SetImageReductionFactor(
-    isComposited ? this->SynchronizedRenderers->GetImageReductionFactor() : 1);
+    isDistributed(this->View) && this->Pass->GetDelegatePass()->IsA("vtkIceTCompositePass");
+  this->Pass->SetController(
+    isDistributed(this->View) ? vtkMultiProcessController::GetGlobalController() : nullptr);
+  this->Pass->SetImageReductionFactor(!isComposited ? 1
+      : interactive ? this->View->GetInteractiveRenderImageReductionFactor()
+                    : this->View->GetStillRenderImageReductionFactor());
   this->Pass->SetInteractive(
     interactive ? vtkGnomonShadowPass::INTERACTIVE_ON : vtkGnomonShadowPass::INTERACTIVE_OFF);
 }
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::TellOnce(const char* why)
+void vtkPVGnomonShadows::TellOnce(const char* why)
 {
   if (this->Told != why)
   {
@@ -134,47 +162,49 @@ void vtkPVGnomonShadowView::TellOnce(const char* why)
 }
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::Render(bool interactive, bool skipRendering)
+void vtkPVGnomonShadows::EndFrame()
 {
-  this->Superclass::Render(interactive, skipRendering);
-  const int process = vtkMultiProcessController::GetGlobalController()->GetLocalProcessId();
-  const bool isWritten = !skipRendering && !this->GetMakingSelection() &&
-    !this->VisibilityFile.empty() && process == 0 && !isDrawnByServer(this, interactive);
-  if (isWritten)
+  this->ServersReport.clear();
+  if (this->View && this->ShowShadows && !this->View->GetRenderer()->GetSelector())
   {
-    vtkNew<vtkImageData> image;
-    this->Pass->GetVisibilityImage(image);
-    if (image->GetNumberOfPoints() > 0)
-    {
-      vtkNew<vtkXMLImageDataWriter> writer;
-      writer->SetFileName(this->VisibilityFile.c_str());
-      writer->SetInputData(image);
-      writer->SetDataModeToBinary(); // ParaView of Debian 12 does not read appended data
-      writer->Write();
-    }
+    this->WriteVisibility();
+    this->ShareReport();
   }
-  if (!skipRendering)
+}
+
+//----------------------------------------------------------------------------
+void vtkPVGnomonShadows::WriteVisibility()
+{
+  const int process = vtkMultiProcessController::GetGlobalController()->GetLocalProcessId();
+  if (this->VisibilityFile.empty() || process > 0 || isDrawnByServer(this->View))
   {
-    this->ShareReport(isDistributed(this, interactive));
+    return;
+  }
+  vtkNew<vtkImageData> image;
+  this->Pass->GetVisibilityImage(image);
+  if (image->GetNumberOfPoints() > 0)
+  {
+    vtkNew<vtkXMLImageDataWriter> writer;
+    writer->SetFileName(this->VisibilityFile.c_str());
+    writer->SetInputData(image);
+    writer->SetDataModeToBinary(); // ParaView of Debian 12 does not read appended data
+    writer->Write();
   }
 }
 
 //----------------------------------------------------------------------------
 /// Hand the report of a server's first process to the client, whose property it is.
-void vtkPVGnomonShadowView::ShareReport(bool isDistributed)
+void vtkPVGnomonShadows::ShareReport()
 {
   constexpr int tag = 59170;
-  this->ServersReport.clear();
-  vtkPVSession* const session = isDistributed ? this->GetSession() : nullptr;
-  if (!session)
+  if (!this->Session || !isDistributed(this->View))
   {
     return;
   }
-  const bool isClient = vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
-  vtkMultiProcessController* const other =
-    session->GetController(isClient ? vtkPVSession::RENDER_SERVER_ROOT : vtkPVSession::CLIENT);
+  vtkMultiProcessController* const other = this->Session->GetController(
+    isClient() ? vtkPVSession::RENDER_SERVER_ROOT : vtkPVSession::CLIENT);
   vtkMultiProcessStream stream;
-  if (other && isClient)
+  if (other && isClient())
   {
     other->Receive(stream, 1, tag);
     stream >> this->ServersReport;
@@ -187,44 +217,44 @@ void vtkPVGnomonShadowView::ShareReport(bool isDistributed)
 }
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::SetTechnique(const char* name)
+void vtkPVGnomonShadows::SetTechnique(const char* name)
 {
   this->Pass->SetTechnique(name);
 }
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::SetEdgeSamples(int samples)
+void vtkPVGnomonShadows::SetEdgeSamples(int samples)
 {
   setSetting(this->Pass, "edge_samples", samples);
 }
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::SetLightSize(double radius)
+void vtkPVGnomonShadows::SetLightSize(double radius)
 {
   setSetting(this->Pass, "light_radius", radius);
 }
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::SetLightSamples(int samples)
+void vtkPVGnomonShadows::SetLightSamples(int samples)
 {
   setSetting(this->Pass, "light_samples", samples);
 }
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::SetMeasureStages(bool measure)
+void vtkPVGnomonShadows::SetMeasureStages(bool measure)
 {
   this->Pass->SetMeasureStages(measure);
 }
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::SetVisibilityFile(const char* path)
+void vtkPVGnomonShadows::SetVisibilityFile(const char* path)
 {
   this->VisibilityFile = path ? path : "";
   this->Pass->SetKeepVisibility(!this->VisibilityFile.empty());
 }
 
 //----------------------------------------------------------------------------
-const char* vtkPVGnomonShadowView::GetReportText()
+const char* vtkPVGnomonShadows::GetReportText()
 {
   this->ReportText =
     this->ServersReport.empty() ? this->Pass->GetReportText() : this->ServersReport;
@@ -232,7 +262,7 @@ const char* vtkPVGnomonShadowView::GetReportText()
 }
 
 //----------------------------------------------------------------------------
-void vtkPVGnomonShadowView::PrintSelf(ostream& os, vtkIndent indent)
+void vtkPVGnomonShadows::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ShowShadows: " << this->ShowShadows << "\n";

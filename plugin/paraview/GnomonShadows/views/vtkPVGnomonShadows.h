@@ -1,33 +1,37 @@
 /**
- * @class   vtkPVGnomonShadowView
- * @brief   ParaView's render view with shadows
+ * @class   vtkPVGnomonShadows
+ * @brief   the shadows of one of ParaView's render views
  *
- * Puts a vtkGnomonShadowPass between the camera's pass and the one that draws the view. Where
+ * ParaView adds it to a view of any class, as a representation without data. Before each frame it
+ * puts a vtkGnomonShadowPass between the camera's pass and the one that draws the view. Where
  * several processes draw the view, each its own part of the data, that one composites their
  * pictures, and the pass shares its rays with theirs. Tile displays and CAVEs have no shadows.
  */
 
-#ifndef vtkPVGnomonShadowView_h
-#define vtkPVGnomonShadowView_h
+#ifndef vtkPVGnomonShadows_h
+#define vtkPVGnomonShadows_h
 
+#include "vtkDataRepresentation.h"
 #include "vtkGnomonViewsModule.h" // for export macro
 #include "vtkNew.h"
-#include "vtkPVRenderView.h"
+#include "vtkWeakPointer.h"
 
 #include <string>
 
 class vtkGnomonShadowPass;
+class vtkPVRenderView;
+class vtkPVSession;
 
-class VTKGNOMONVIEWS_EXPORT vtkPVGnomonShadowView : public vtkPVRenderView
+class VTKGNOMONVIEWS_EXPORT vtkPVGnomonShadows : public vtkDataRepresentation
 {
 public:
-  static vtkPVGnomonShadowView* New();
-  vtkTypeMacro(vtkPVGnomonShadowView, vtkPVRenderView);
+  static vtkPVGnomonShadows* New();
+  vtkTypeMacro(vtkPVGnomonShadows, vtkDataRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**
-   * Whether lights cast shadows. Default on.
+   * Whether lights cast shadows. Default off.
    */
   vtkSetMacro(ShowShadows, bool);
   vtkGetMacro(ShowShadows, bool);
@@ -62,26 +66,31 @@ public:
    */
   const char* GetReportText();
 
-  /**
-   * Put the pass into the view's chain of passes. Called by ParaView, on each process that draws.
-   */
-  void AboutToRenderOnLocalProcess(bool interactive) override;
-
 protected:
-  vtkPVGnomonShadowView();
-  ~vtkPVGnomonShadowView() override;
-  void Render(bool interactive, bool skipRendering) override;
+  vtkPVGnomonShadows();
+  ~vtkPVGnomonShadows() override;
 
-  bool ShowShadows = true;
+  /**
+   * Called by a view to which this is added. Returns false: the view has nothing to draw for it.
+   */
+  bool AddToView(vtkView* view) override;
+
+  bool ShowShadows = false;
 
 private:
-  vtkPVGnomonShadowView(const vtkPVGnomonShadowView&) = delete;
-  void operator=(const vtkPVGnomonShadowView&) = delete;
+  vtkPVGnomonShadows(const vtkPVGnomonShadows&) = delete;
+  void operator=(const vtkPVGnomonShadows&) = delete;
 
+  void BeginFrame();
+  void EndFrame();
+  void PlacePass();
+  void WriteVisibility();
+  void ShareReport();
   void TellOnce(const char* why);
   void LeaveToReport() {}
-  void ShareReport(bool isDistributed);
 
+  vtkWeakPointer<vtkPVRenderView> View;
+  vtkWeakPointer<vtkPVSession> Session; ///< that made the view
   vtkNew<vtkGnomonShadowPass> Pass;
   std::string Told; ///< the last warning
   std::string VisibilityFile;
