@@ -176,7 +176,7 @@ scenario random-alone batch 1 random_changes.py alone "$data" "$work/random"
 scenario selections batch 3 selects.py "$data"
 scenario batch-picture batch 3 picture.py "$data" "$work/batch.png"
 scenario client beside_server 3 "" picture.py "$data" "$work/client.png" "$work/batch.png"
-for case in surface_lic reduced annotations views; do
+for case in surface_lic reduced annotations views looks; do
   for processes in 1 2 3; do
     scenario "users-$case-$processes" batch "$processes" users.py "$case" "$work/users"
   done

@@ -9,10 +9,12 @@ are for the table of tests/paraview/run.sh.
 
 import pathlib
 import re
+import statistics
 import sys
+import time
 
 from paraview import servermanager
-from paraview.simple import Box, Calculator, Connect, Contour, CreateView, Delete, FindSource
+from paraview.simple import Box, Calculator, Connect, Contour, CreateView, Delete
 from paraview.simple import GetActiveViewOrCreate, LoadState, Plane, Render, ResetSession, Ruler
 from paraview.simple import SaveScreenshot, SaveState, Show, Sphere, StreamTracer, Wavelet
 from vtkmodules.vtkIOImage import vtkPNGWriter
@@ -80,6 +82,21 @@ def show(source, view, representation="Surface"):
     return display
 
 
+def show_box(view):
+    """Show a box over a floor."""
+    box = Box(XLength=2, YLength=2, ZLength=2, Center=[0, 0, 2])
+    floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
+    show(box, view)
+    show(floor, view)
+    look(view, (6, -14, 12), (0, 0, 0.5))
+
+
+def box_over_floor(view):
+    """Show a box over a floor, under a sun."""
+    show_box(view)
+    return scenario.add_light(view, "sun", (-8, -3, 6))
+
+
 def surface_lic(pictures):
     """A Surface LIC above a floor, drawn before the other props and after them."""
     wavelet = Wavelet(WholeExtent=[-10, 10, -10, 10, -10, 10])
@@ -117,15 +134,10 @@ def reduced(pictures):
         "tone mapping": {"UseToneMapping": 1},
         "FXAA": {"UseFXAA": 1},
     }
-    box = Box(XLength=2, YLength=2, ZLength=2, Center=[0, 0, 2])
-    floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
     for look_name, values in looks.items():
         views = [scenario.make_view(shadows, SIZE) for shadows in (False, True)]
         for view in views:
-            show(box, view)
-            show(floor, view)
-            look(view, (6, -14, 12), (0, 0, 0.5))
-            scenario.add_light(view, "sun", (-8, -3, 6))
+            box_over_floor(view)
             for name, value in values.items():
                 setattr(view, name, value)
         shares = {}
@@ -194,15 +206,6 @@ def annotations(pictures):
 
 def views(pictures):
     """Views of all kinds have the shadows, and sources find them; a state without them gains them."""
-    box = Box(XLength=2, YLength=2, ZLength=2, Center=[0, 0, 2])
-    floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
-
-    def fill(view):
-        show(box, view)
-        show(floor, view)
-        look(view, (6, -14, 12), (0, 0, 0.5))
-        scenario.add_light(view, "sun", (-8, -3, 6))
-
     def switch(view, value):
         view.ShowShadows = value
 
@@ -216,7 +219,7 @@ def views(pictures):
         scenario.check(f"{name} shows shadows", 0.01 < share < 0.2, f"{100 * share:.1f} % of it")
 
     view = scenario.make_view(False, SIZE)
-    fill(view)
+    box_over_floor(view)
     check("a render view", view)
     ruler = Ruler(Point1=[-4, -4, 0.1], Point2=[4, -4, 0.1])
     kind = Show(ruler, view).GetXMLName()
@@ -233,11 +236,9 @@ def views(pictures):
         ResetSession()
         LoadState(str(state))
         check("a state of plain ParaView", GetActiveViewOrCreate("RenderView"))
-        box = FindSource("Box1")
-        floor = FindSource("Plane1")
     for kind in ("RenderViewWithEDL", "OrthographicSliceView"):
         view = scenario.make_view(False, SIZE, kind)
-        fill(view)
+        box_over_floor(view)
         if kind == "RenderViewWithEDL":
             check(kind, view)
         Delete(view)
@@ -245,9 +246,7 @@ def views(pictures):
     view.ViewSize = list(SIZE)
     view.UseLight = 1
     view.OrientationAxesVisibility = view.CenterAxesVisibility = 0
-    show(box, view)
-    show(floor, view)
-    look(view, (6, -14, 12), (0, 0, 0.5))
+    show_box(view)
     root = view.SMProxy.GetRootView()
 
     def switch_root(_, value):
@@ -256,7 +255,74 @@ def views(pictures):
     check("a comparative view", view, switch_root)
 
 
-CASES = {function.__name__: function for function in (surface_lic, reduced, annotations, views)}
+def looks(pictures):
+    """Strength of shadows, lights with a size, and which lights cast."""
+    view = scenario.make_view(False, SIZE)
+    sun = box_over_floor(view)
+    plain = pictures.take(view, "plain")
+    view.ShowShadows = 1
+    full = pictures.take(view, "full")
+    mask = in_shadow(full, plain)
+    view.ShadowStrength = 0.5
+    half = pictures.take(view, "half")
+    ratio = half[mask].mean() / plain[mask].mean()
+    scenario.check("half of a shadow", 0.45 < ratio < 0.55, f"{ratio:.2f} of the light")
+    view.ShadowStrength = 1.0
+    sun.Radius = 8.0
+    view.LightSamples = 16
+    soft = pictures.take(view, "soft")
+    between = ((soft > full) & (soft < plain - 2)).any(axis=2).mean()
+    pictures.row("pixels of a penumbra", f"{100 * between:.1f} %")
+    scenario.check("a light's radius", between > 0.005, f"{100 * between:.1f} % of a penumbra")
+    sun.Radius = 0.0
+    again = int((pictures.take(view, "again") != full).any(axis=2).sum())
+    scenario.check("a light without a radius", again == 0, f"{again} pixels differ")
+    scenario.add_light(view, "sun", (5, -6, 8)).Intensity = 0.5
+    counts = {}
+    for name, casting in (("all", "All lights"), ("brightest", "The brightest light")):
+        view.Casting = casting
+        Render(view)
+        counts[name] = sum(light["casts"] for light in scenario.report(view)["lights"])
+    scenario.check("casting lights", counts == {"all": 2, "brightest": 1}, str(counts))
+
+
+def dragging(pictures):
+    """A soft light while the view is turned: frames beside those of a plain view."""
+
+    def draw(shadows):
+        view = scenario.make_view(shadows, (800, 600))
+        wavelet = Wavelet(WholeExtent=[-20, 20, -20, 20, -20, 20])
+        show(Contour(Input=wavelet, ContourBy=["POINTS", "RTData"], Isosurfaces=[130.0]), view)
+        show(Plane(Origin=[-40, -40, -22], Point1=[40, -40, -22], Point2=[-40, 40, -22]), view)
+        look(view, (80, -140, 120), (0, 0, -4))
+        scenario.add_light(view, "sun", (20, -30, 60))
+        return view
+
+    def milliseconds(view):
+        times = []
+        for number in range(12):
+            view.CameraPosition = [80 + number, -140, 120]
+            start = time.perf_counter()
+            view.SMProxy.InteractiveRender()
+            times.append(1000 * (time.perf_counter() - start))
+        return statistics.median(times[3:])
+
+    plain, view = draw(False), draw(True)
+    view.LightSize = 4.0
+    ratio = {}
+    for technique in ("raytraced", "auto"):
+        view.Technique = technique
+        ratio[technique] = milliseconds(view) / milliseconds(plain)
+        pictures.row(f"plain frames of {technique}", f"{ratio[technique]:.1f}")
+    text = ", ".join(f"{name} {value:.1f} plain frames" for name, value in ratio.items())
+    is_cheaper = ratio["auto"] < 0.7 * ratio["raytraced"] or scenario.processes() > 1
+    scenario.check("auto drags faster than raytraced", is_cheaper, text)
+
+
+CASES = {
+    function.__name__: function
+    for function in (surface_lic, reduced, annotations, views, looks, dragging)
+}
 
 
 def main():

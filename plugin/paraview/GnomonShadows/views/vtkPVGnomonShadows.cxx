@@ -5,6 +5,8 @@
 #include "vtkGnomonShadowPass.h"
 #include "vtkImageData.h"
 #include "vtkImageProcessingPass.h"
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
 #include "vtkMultiProcessController.h"
 #include "vtkMultiProcessStream.h"
 #include "vtkObjectFactory.h"
@@ -139,6 +141,13 @@ void vtkPVGnomonShadows::PlacePass()
     this->Pass->SetDelegatePass(camera->GetDelegatePass());
     camera->SetDelegatePass(this->Pass);
   }
+  vtkCollectionSimpleIterator iterator;
+  vtkLightCollection* const lights = renderer->GetLights();
+  lights->InitTraversal(iterator);
+  while (vtkLight* const light = lights->GetNextLight(iterator))
+  {
+    light->SetShadowAttenuation(static_cast<float>(this->ShadowStrength));
+  }
   const bool interactive = isInteractive(this->View);
   const bool isComposited =
     isDistributed(this->View) && this->Pass->GetDelegatePass()->IsA("vtkIceTCompositePass");
@@ -217,6 +226,12 @@ void vtkPVGnomonShadows::ShareReport()
 }
 
 //----------------------------------------------------------------------------
+void vtkPVGnomonShadows::SetCasting(int casting)
+{
+  this->Pass->SetCasting(casting);
+}
+
+//----------------------------------------------------------------------------
 void vtkPVGnomonShadows::SetTechnique(const char* name)
 {
   this->Pass->SetTechnique(name);
@@ -266,6 +281,7 @@ void vtkPVGnomonShadows::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ShowShadows: " << this->ShowShadows << "\n";
+  os << indent << "ShadowStrength: " << this->ShadowStrength << "\n";
   os << indent << "VisibilityFile: " << this->VisibilityFile << "\n";
   os << indent << "Pass:\n";
   this->Pass->PrintSelf(os, indent.GetNextIndent());

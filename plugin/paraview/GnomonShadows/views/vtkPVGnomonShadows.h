@@ -37,6 +37,17 @@ public:
   vtkGetMacro(ShowShadows, bool);
   ///@}
 
+  /**
+   * The share of each light that its shadows remove, in [0, 1]. Default 1.
+   */
+  vtkSetClampMacro(ShadowStrength, double, 0.0, 1.0);
+  vtkGetMacro(ShadowStrength, double);
+
+  /**
+   * Which lights cast, as vtkGnomonShadowPass::SetCasting().
+   */
+  void SetCasting(int casting);
+
   ///@{
   /**
    * Of all lights: vtkGnomonShadowPass::SetTechnique(), by default "raytraced"; the settings
@@ -76,6 +87,7 @@ protected:
   bool AddToView(vtkView* view) override;
 
   bool ShowShadows = false;
+  double ShadowStrength = 1.0;
 
 private:
   vtkPVGnomonShadows(const vtkPVGnomonShadows&) = delete;
