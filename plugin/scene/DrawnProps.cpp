@@ -1,50 +1,31 @@
 #include "plugin/scene/DrawnProps.h"
 
-#include "plugin/scene/ActorInternals.h"
-#include "plugin/scene/GlyphInstances.h"
-#include "plugin/scene/MapperInternals.h"
-#include "plugin/scene/MapperKind.h"
 #include "plugin/scene/PropMemory.h"
 #include "plugin/scene/SolidSizes.h"
-#include "plugin/scene/SplatSpheres.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include "vtkActor.h"
 #include "vtkAssembly.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
-#include "vtkDataSetMapper.h"
-#include "vtkGlyph3DMapper.h"
 #include "vtkImageMapper3D.h"
 #include "vtkImageProperty.h"
 #include "vtkImageSlice.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLODProp3D.h"
-#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
-#include "vtkOpenGLMoleculeMapper.h"
-#include "vtkPointData.h"
-#include "vtkPointGaussianMapper.h"
-#include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
 #include "vtkProp3DFollower.h"
 #include "vtkPropAssembly.h"
 #include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
-#include "vtkShaderProperty.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <map>
-#include <optional>
-#include <unordered_set>
 #include <utility>
 
 namespace gnomon
@@ -58,39 +39,14 @@ bool isPlainActor(vtkProp* prop)
   return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
 }
 
-/// True if VTK draws lines or points of a polydata.
-bool hasLinesOrPoints(const DrawnBlock& block)
+/// Add an actor to those that a list of DrawnProps names.
+void nameDrawer(const DrawnActor& taken, std::vector<const void*>& drawers)
 {
-  return block.data->GetNumberOfVerts() + block.data->GetNumberOfLines() > 0;
-}
-
-bool hasSurfaces(const DrawnBlock& block)
-{
-  const std::vector<SurfaceCells>& cells = cellsOf(block);
-  return std::any_of(cells.begin(), cells.end(),
-    [&block](SurfaceCells kind) { return cellCount(block.data, kind) > 0; });
-}
-
-/// Return a block of solids at the points of a polydata.
-DrawnBlock solidsBlock(vtkMapper* mapper, vtkPolyData* data, SurfaceCells cells)
-{
-  DrawnBlock block;
-  block.data = data;
-  block.solids = mapper;
-  block.solidCells = cells;
-  return block;
-}
-
-/// True if a user's code changes the shaders that place an actor's vertices.
-bool mayMoveVertices(vtkActor* actor)
-{
-  vtkShaderProperty* code = actor->GetShaderProperty();
-  bool may = code->HasVertexShaderCode() || code->HasGeometryShaderCode();
-  for (int i = 0; i < code->GetNumberOfShaderReplacements(); ++i)
+  drawers.push_back(taken.drawing.actor);
+  if (!isPlainActor(taken.actor))
   {
-    may = may || code->GetNthShaderReplacementTypeAsString(i) != "Fragment";
+    drawers.push_back(taken.drawing.mapper);
   }
-  return may;
 }
 
 /// True if a prop was told to cast. Only then does a translucent prop cast.
@@ -107,68 +63,14 @@ bool mayCastOrReceive(vtkProp* viewProp)
     vtkGnomonPropKeys::GetReceives(viewProp);
 }
 
-/// True if a light changes how a prop looks. The outlines that VTK's interactor styles put around
-/// what is picked reflect nothing.
-bool showsLight(vtkProperty* property)
-{
-  return property->GetLighting() &&
-    (property->GetInterpolation() == VTK_PBR || property->GetDiffuse() > 0.0 ||
-      property->GetSpecular() > 0.0);
-}
-
-/// Set the normals with which VTK shades a block's triangles. Flat or unlit properties have none.
-/// The caller skips props whose vertices a user's shader code may move.
-void takeNormals(vtkActor* actor, DrawnBlock& block)
-{
-  if (actor->GetProperty()->GetInterpolation() != VTK_FLAT && actor->GetProperty()->GetLighting())
-  {
-    block.normals = block.data->GetPointData()->GetNormals();
-  }
-}
-
-/// Read a prop's shadow keys. While an assembly draws, its property keys replace those of its
-/// parts.
-void takeKeys(DrawnProp& prop)
-{
-  if (prop.viewProp->GetPropertyKeys())
-  {
-    prop.casts = vtkGnomonPropKeys::GetCasts(prop.viewProp);
-    prop.receives = vtkGnomonPropKeys::GetReceives(prop.viewProp);
-    prop.oneSided = vtkGnomonPropKeys::GetOneSided(prop.viewProp);
-  }
-}
-
-/// True if a prop that is not an actor could show a shadow.
-bool isLit(vtkProp* leaf)
-{
-  if (auto* slice = vtkImageSlice::SafeDownCast(leaf))
-  {
-    return slice->GetProperty()->GetDiffuse() > 0.0;
-  }
-  const char* const annotations[] = { "vtkTextActor3D", "vtkBillboardTextActor3D", "vtkLightActor",
-    "vtkAxesActor", "vtkAnnotatedCubeActor" };
-  return leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly") &&
-    std::none_of(std::begin(annotations), std::end(annotations),
-      [leaf](const char* name) { return leaf->IsA(name); });
-}
-
-/// True if VTK culls a prop for lack of bounds. A mapper of solids computes its bounds from cells,
-/// although it draws points.
-bool isCulled(vtkProp* viewProp, vtkMapper* mapper, MapperKind kind)
-{
-  vtkPolyData* data =
-    kind == MapperKind::Solids ? static_cast<vtkPolyDataMapper*>(mapper)->GetInput() : nullptr;
-  const double* const bounds =
-    data && data->GetNumberOfCells() == 0 ? viewProp->GetBounds() : nullptr;
-  return bounds && !vtkMath::AreBoundsInitialized(bounds);
-}
-
 class Finder
 {
 public:
   Finder(vtkRenderer* renderer, PropMemory& memory)
     : renderer_(renderer)
     , memory_(memory)
+    , blocks_(renderer, drawn_.blocks,
+        [this](vtkObjectBase* what, const char* why) { this->skip(what, why); })
   {
     const auto count = static_cast<std::size_t>(renderer->GetViewProps()->GetNumberOfItems());
     this->drawn_.props.reserve(count);
@@ -177,26 +79,40 @@ public:
   /// @param number of the prop in vtkRenderer::GetViewProps()
   void addViewProp(vtkProp* viewProp, int number)
   {
-    const std::size_t first = this->drawn_.props.size();
     this->number_ = number;
     this->viewProp_ = viewProp;
+    this->path_ = 0;
     this->addViewProp(viewProp);
-    std::for_each(this->drawn_.props.begin() + static_cast<std::ptrdiff_t>(first),
-      this->drawn_.props.end(), [number](DrawnProp& prop) { prop.number = number; });
   }
   DrawnProps take();
 
 private:
+  /// The way to take leaves of a class. Without a function or reason, no note tells of them.
+  struct LeafKind
+  {
+    const char* name;
+    void (Finder::*add)(vtkProp* leaf, vtkMatrix4x4* matrix) = nullptr;
+    const char* reason = nullptr; ///< why the snapshot cannot hold them
+  };
+  static const LeafKind leafKinds[];
+
   void addViewProp(vtkProp* viewProp);
   void addPlain(const PlainProp& plain);
-  void addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix);
-  void addImage(vtkProp* viewProp, std::size_t path, vtkImageSlice* slice, vtkMatrix4x4* matrix);
-  bool serves(vtkMapper* mapper, MapperKind kind);
-  void addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
-    const glm::dmat4& worldFromModel, bool translucent);
-  void addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel);
-  void takePixelSizes(vtkActor* actor, std::size_t firstBlock);
-  bool updateInput(vtkMapper* mapper, MapperKind kind);
+  void addLeaf(vtkProp* leaf, vtkMatrix4x4* matrix);
+  void addLevel(vtkProp* leaf, vtkMatrix4x4* matrix);
+  void addImage(vtkProp* leaf, vtkMatrix4x4* matrix);
+  void addActor(vtkProp* leaf, vtkMatrix4x4* matrix);
+  void addTaken(const DrawnActor& taken);
+  void addPass(const DrawnActor& taken, DrawnProp& prop, const std::string& texture)
+  {
+    prop.firstBlock = this->drawn_.blocks.size();
+    prop.blockCount = this->blocks_.add(taken, prop, texture);
+    if (prop.blockCount > 0)
+    {
+      this->drawn_.props.push_back(prop);
+    }
+  }
+  DrawnProp propOf(vtkActor* actor, vtkMapper* mapper, vtkMatrix4x4* matrix);
   void skip(vtkObjectBase* what, const char* why)
   {
     if (mayCastOrReceive(this->viewProp_))
@@ -207,7 +123,7 @@ private:
     }
   }
 
-  /// Props of which something is to be told.
+  /// Props that share a note.
   struct NamedProps
   {
     int count = 0;
@@ -218,13 +134,14 @@ private:
   vtkRenderer* renderer_;
   PropMemory& memory_;
   DrawnProps drawn_;
-  std::unordered_set<vtkMapper*> updated_;
+  BlockFinder blocks_;
   int number_ = 0; ///< of the view prop
   vtkProp* viewProp_ = nullptr;
+  std::size_t path_ = 0;                      ///< DrawnProp::path of the leaf
   std::map<std::string, NamedProps> skipped_; ///< props left out
   NamedProps unlit_, notCasting_, copied_;
-  std::map<std::string, int>
-    uncut_;       ///< why props cast without a texture's holes, with their number
+  /// Reasons to cast without a texture's holes, each with its number of props.
+  std::map<std::string, int> uncut_;
   int moved_ = 0; ///< number of props whose vertices shader code may move
 };
 
@@ -258,7 +175,7 @@ void Finder::addViewProp(vtkProp* viewProp)
   }
   if (isPlainActor(viewProp))
   {
-    this->addLeaf(viewProp, 0, viewProp, viewProp->GetMatrix());
+    this->addLeaf(viewProp, viewProp->GetMatrix());
     return;
   }
   auto* follower = vtkProp3DFollower::SafeDownCast(viewProp);
@@ -268,10 +185,9 @@ void Finder::addViewProp(vtkProp* viewProp)
   }
   if (!follower && !viewProp->IsA("vtkAssembly") && !viewProp->IsA("vtkPropAssembly"))
   {
-    this->addLeaf(viewProp, 0, viewProp, viewProp->GetMatrix());
+    this->addLeaf(viewProp, viewProp->GetMatrix());
     return;
   }
-  std::size_t number = 0;
   viewProp->InitPathTraversal();
   while (vtkAssemblyPath* path = viewProp->GetNextPath())
   {
@@ -279,22 +195,39 @@ void Finder::addViewProp(vtkProp* viewProp)
     // As in VTK's drawing, only the leaf's own visibility counts below the view prop.
     if (node->GetViewProp()->GetVisibility())
     {
-      this->addLeaf(viewProp, number, node->GetViewProp(), node->GetMatrix());
+      this->addLeaf(node->GetViewProp(), node->GetMatrix());
     }
-    ++number;
+    ++this->path_;
   }
+}
+
+//------------------------------------------------------------------------------
+/// Return a prop without its blocks.
+DrawnProp Finder::propOf(vtkActor* actor, vtkMapper* mapper, vtkMatrix4x4* matrix)
+{
+  DrawnProp prop;
+  prop.viewProp = this->viewProp_;
+  prop.number = this->number_;
+  prop.path = this->path_;
+  prop.actor = actor;
+  prop.mapper = mapper;
+  prop.worldFromModel = toGlm(matrix);
+  prop.firstBlock = this->drawn_.blocks.size();
+  // While an assembly draws, its property keys replace those of its parts.
+  if (this->viewProp_->GetPropertyKeys())
+  {
+    prop.casts = vtkGnomonPropKeys::GetCasts(this->viewProp_);
+    prop.receives = vtkGnomonPropKeys::GetReceives(this->viewProp_);
+    prop.oneSided = vtkGnomonPropKeys::GetOneSided(this->viewProp_);
+  }
+  return prop;
 }
 
 //------------------------------------------------------------------------------
 /// Add a prop as addLeaf() would, from the answers of an earlier frame.
 void Finder::addPlain(const PlainProp& plain)
 {
-  DrawnProp prop;
-  prop.viewProp = prop.actor = plain.actor;
-  prop.mapper = plain.mapper;
-  prop.worldFromModel = toGlm(plain.actor->GetMatrix());
-  takeKeys(prop);
-  prop.firstBlock = this->drawn_.blocks.size();
+  DrawnProp prop = this->propOf(plain.actor, plain.mapper, plain.actor->GetMatrix());
   prop.blockCount = 1;
   this->drawn_.blocks.push_back({ plain.data });
   takeNormals(plain.actor, this->drawn_.blocks.back());
@@ -302,191 +235,70 @@ void Finder::addPlain(const PlainProp& plain)
 }
 
 //------------------------------------------------------------------------------
-void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix)
-{
-  const bool isPlain = isPlainActor(leaf);
-  auto* actor = isPlain ? static_cast<vtkActor*>(leaf) : vtkActor::SafeDownCast(leaf);
-  if (!actor)
-  {
-    if (auto* levels = vtkLODProp3D::SafeDownCast(leaf))
-    {
-      if (vtkProp3D* level = selectedLevel(levels))
-      {
-        this->addLeaf(viewProp, path, level, matrix); // VTK draws it where its owner is
-      }
-    }
-    else if (auto* slice = vtkImageSlice::SafeDownCast(leaf); slice && askedToCast(viewProp))
-    {
-      this->addImage(viewProp, path, slice, matrix);
-    }
-    else if (isLit(leaf))
-    {
-      this->skip(leaf,
-        leaf->IsA("vtkVolume")         ? "a volume"
-          : leaf->IsA("vtkImageSlice") ? "not asked to cast"
-                                       : "draws through props of its own");
-    }
-    return;
-  }
-  if (!actor->GetMapper() || (!isPlain && actor->IsA("vtkSkybox")))
-  {
-    return;
-  }
-  const ActorDrawing drawing =
-    actorDrawing(actor, matrix ? matrix : actor->GetMatrix(), this->renderer_);
-  const auto nameDrawer = [&](std::vector<const void*>& drawers)
-  {
-    drawers.push_back(drawing.actor);
-    if (!isPlain)
-    {
-      drawers.push_back(drawing.mapper);
-    }
-  };
-  const bool copies = hasOwnFramebuffer(actor->GetMapper());
-  const bool seenThrough = copies || isSeenThrough(actor);
-  if (seenThrough)
-  {
-    nameDrawer(this->drawn_.seenThrough);
-  }
-  const bool lit = showsLight(actor->GetProperty());
-  const bool asSurface = drawnAsSurface(actor->GetProperty(), actor->GetMapper());
-  const bool asPoints = !asSurface && actor->GetProperty()->GetRepresentation() == VTK_POINTS;
-  const bool pointsAreSpheres = actor->GetProperty()->GetRenderPointsAsSpheres();
-  const bool sizedInPixels = pointsAreSpheres || drawsTubes(actor->GetProperty());
-  if (!asSurface && !(asPoints && pointsAreSpheres))
-  {
-    if (lit)
-    {
-      this->skip(actor, asPoints ? "as points" : "as a wireframe");
-    }
-    return;
-  }
-  if (!drawing.actor)
-  {
-    this->skip(actor, "draws through an actor of its own");
-    return;
-  }
-  vtkMapper* mapper = drawing.mapper;
-  MapperKind kind = kindOf(mapper);
-  if (!this->serves(mapper, kind) || !this->updateInput(mapper, kind))
-  {
-    return; // VTK itself reports a mapper without input
-  }
-  if (isCulled(viewProp, mapper, kind))
-  {
-    return;
-  }
-  if (kind == MapperKind::DataSet)
-  {
-    mapper = innerMapper(static_cast<vtkDataSetMapper*>(mapper));
-    kind = MapperKind::PolyData;
-    this->updateInput(mapper, kind);
-  }
-  const bool isPolyData = kind == MapperKind::PlainPolyData || kind == MapperKind::PolyData;
-  if (asPoints && !isPolyData)
-  {
-    if (lit)
-    {
-      this->skip(actor, "as points");
-    }
-    return;
-  }
+/// The ways to take a leaf that is no plain actor. Its first base class in the table decides.
+const Finder::LeafKind Finder::leafKinds[] = {
+  { "vtkSkybox" },
+  { "vtkActor", &Finder::addActor },
+  { "vtkLODProp3D", &Finder::addLevel },
+  { "vtkImageSlice", &Finder::addImage },
+  { "vtkVolume", nullptr, "a volume" },
+  { "vtkTextActor3D" }, // annotations show no shadows
+  { "vtkBillboardTextActor3D" },
+  { "vtkLightActor" },
+  { "vtkAxesActor" },
+  { "vtkAnnotatedCubeActor" },
+  { "vtkAssembly" }, // its leaves are taken one by one
+  { "vtkProp3D", nullptr, "draws through props of its own" },
+};
 
-  DrawnProp prop;
-  prop.viewProp = viewProp;
-  prop.path = path;
-  prop.actor = drawing.actor;
-  prop.mapper = mapper;
-  prop.worldFromModel = toGlm(drawing.matrix);
-  prop.clipPlanes = clipPlanesOf(drawing.mapper);
-  takeKeys(prop);
-  prop.receives = prop.receives && kind != MapperKind::Splats; // VTK does not light splats
-  const char* uncutReason = nullptr;
-  const TextureCutout cutout =
-    this->memory_.cutouts.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
-  prop.cutout = cutout.mask;
-  prop.textureTransform = cutout.transform;
-  prop.isMoved = mayMoveVertices(actor);
-  const auto add = [&](bool translucent)
+//------------------------------------------------------------------------------
+void Finder::addLeaf(vtkProp* leaf, vtkMatrix4x4* matrix)
+{
+  if (isPlainActor(leaf))
   {
-    prop.translucent = translucent;
-    prop.firstBlock = this->drawn_.blocks.size();
-    this->addBlocks(actor, mapper, kind, prop.worldFromModel, translucent);
-    prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
-    if (sizedInPixels && isPolyData)
+    this->addActor(leaf, matrix);
+    return;
+  }
+  for (const LeafKind& kind : leafKinds)
+  {
+    if (leaf->IsA(kind.name))
     {
-      this->takePixelSizes(actor, prop.firstBlock);
-    }
-    const auto first = this->drawn_.blocks.begin() + static_cast<std::ptrdiff_t>(prop.firstBlock);
-    if (std::none_of(first, this->drawn_.blocks.end(), hasSurfaces))
-    {
-      if (lit && std::any_of(first, this->drawn_.blocks.end(), hasLinesOrPoints))
+      if (kind.add)
       {
-        this->skip(mapper, "lines or points");
+        (this->*kind.add)(leaf, matrix);
       }
-      this->drawn_.blocks.resize(prop.firstBlock);
+      else if (kind.reason)
+      {
+        this->skip(leaf, kind.reason);
+      }
       return;
-    }
-    for (std::size_t i = prop.firstBlock; prop.cutout && i < this->drawn_.blocks.size(); ++i)
-    {
-      DrawnBlock& block = this->drawn_.blocks[i];
-      block.textureCoordinates = textureCoordinates(mapper, cutout.texture, block.data);
-    }
-    for (std::size_t i = prop.firstBlock; !prop.isMoved && i < this->drawn_.blocks.size(); ++i)
-    {
-      takeNormals(actor, this->drawn_.blocks[i]);
-    }
-    this->drawn_.props.push_back(prop);
-  };
-  const std::size_t before = this->drawn_.props.size();
-  const bool opaque = actor->HasOpaqueGeometry();
-  // A plain prop is either opaque or translucent, and VTK takes equally long to answer either.
-  const bool eitherOr = isPlain && kind == MapperKind::PlainPolyData;
-  const bool translucent = eitherOr ? !opaque : actor->HasTranslucentPolygonalGeometry() != 0;
-  if (prop.receives && (translucent || seenThrough))
-  {
-    nameDrawer(this->drawn_.translucentReceivers);
-    if (copies)
-    {
-      this->name(this->copied_, mapper);
-    }
-  }
-  if (opaque)
-  {
-    add(false);
-    if (!lit && prop.receives)
-    {
-      this->name(this->unlit_, mapper);
-    }
-    if (eitherOr && lit && !seenThrough && !prop.isMoved && !sizedInPixels && viewProp == actor &&
-      this->drawn_.props.size() > before)
-    {
-      this->memory_.plainProps.remember(actor);
-    }
-  }
-  if (translucent && askedToCast(viewProp))
-  {
-    add(true);
-  }
-  else if (translucent && prop.casts)
-  {
-    this->name(this->notCasting_, mapper);
-  }
-  if (prop.casts && this->drawn_.props.size() > before)
-  {
-    this->moved_ += prop.isMoved ? 1 : 0;
-    if (uncutReason)
-    {
-      ++this->uncut_[uncutReason];
     }
   }
 }
 
 //------------------------------------------------------------------------------
-/// Add the rectangle of an image that is asked to cast. VTK draws it in the opaque pass.
-void Finder::addImage(
-  vtkProp* viewProp, std::size_t path, vtkImageSlice* slice, vtkMatrix4x4* matrix)
+/// Add the level of detail that VTK draws, where its owner is.
+void Finder::addLevel(vtkProp* leaf, vtkMatrix4x4* matrix)
 {
+  if (vtkProp3D* level = selectedLevel(static_cast<vtkLODProp3D*>(leaf)))
+  {
+    this->addLeaf(level, matrix);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Add the rectangle of an image that is asked to cast. VTK draws it in the opaque pass.
+void Finder::addImage(vtkProp* leaf, vtkMatrix4x4* matrix)
+{
+  auto* const slice = static_cast<vtkImageSlice*>(leaf);
+  if (!askedToCast(this->viewProp_))
+  {
+    if (slice->GetProperty()->GetDiffuse() > 0.0)
+    {
+      this->skip(slice, "not asked to cast");
+    }
+    return;
+  }
   if (!slice->GetMapper())
   {
     return;
@@ -497,15 +309,9 @@ void Finder::addImage(
     this->skip(slice->GetMapper(), "mapper not served");
     return;
   }
-  DrawnProp prop;
-  prop.viewProp = viewProp;
-  prop.path = path;
-  prop.actor = rectangle.actor;
-  prop.mapper = rectangle.actor->GetMapper();
-  prop.worldFromModel = toGlm(matrix ? matrix : slice->GetMatrix());
+  DrawnProp prop = this->propOf(
+    rectangle.actor, rectangle.actor->GetMapper(), matrix ? matrix : slice->GetMatrix());
   prop.clipPlanes = clipPlanesOf(slice->GetMapper());
-  takeKeys(prop);
-  prop.firstBlock = this->drawn_.blocks.size();
   prop.blockCount = 1;
   DrawnBlock block;
   block.data = rectangle.data;
@@ -515,111 +321,114 @@ void Finder::addImage(
 }
 
 //------------------------------------------------------------------------------
-/// True if the snapshot can hold a mapper's surfaces; if not, count it as left out.
-bool Finder::serves(vtkMapper* mapper, MapperKind kind)
+/// Add an actor that draws surfaces, if the snapshot can hold them.
+void Finder::addActor(vtkProp* leaf, vtkMatrix4x4* matrix)
 {
-  const char* reason = reasonAgainst(mapper, kind);
-  if (reason)
+  auto* const actor = static_cast<vtkActor*>(leaf);
+  if (!actor->GetMapper())
   {
-    this->skip(mapper, reason);
-  }
-  return !reason;
-}
-
-//------------------------------------------------------------------------------
-/// List the blocks that a mapper draws for an actor in one of the two passes.
-void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
-  const glm::dmat4& worldFromModel, bool translucent)
-{
-  std::vector<DrawnBlock>& blocks = this->drawn_.blocks;
-  if (kind == MapperKind::Composite || kind == MapperKind::Parts)
-  {
-    for (vtkPolyData* data : drawnBlocks(actor, mapper, translucent))
-    {
-      blocks.push_back({ data });
-    }
-  }
-  else if (kind == MapperKind::Solids)
-  {
-    this->addSolids(mapper, worldFromModel);
-  }
-  else if (kind == MapperKind::Molecule)
-  {
-    for (vtkMapper* solids : solidMappers(static_cast<vtkOpenGLMoleculeMapper*>(mapper)))
-    {
-      if (this->updateInput(solids, MapperKind::Solids))
-      {
-        this->addSolids(solids, worldFromModel);
-      }
-    }
-  }
-  else if (kind == MapperKind::Splats)
-  {
-    for (vtkPolyData* data : splatBlocks(static_cast<vtkPointGaussianMapper*>(mapper)))
-    {
-      blocks.push_back(solidsBlock(mapper, data, SurfaceCells::Spheres));
-    }
-  }
-  else if (kind == MapperKind::Glyphs)
-  {
-    for (const Glyph& glyph : drawnGlyphs(static_cast<vtkGlyph3DMapper*>(mapper)))
-    {
-      blocks.push_back({ glyph.data, glyph.points, glyph.source });
-    }
-  }
-  else if (vtkPolyData* data = static_cast<vtkPolyDataMapper*>(mapper)->GetInput())
-  {
-    blocks.push_back({ data });
-  }
-}
-
-//------------------------------------------------------------------------------
-/// Add a mapper's solids if the snapshot can hold them.
-void Finder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
-{
-  const std::optional<DrawnSolids> drawn = drawnSolids(mapper);
-  if (const char* reason = reasonAgainstSolids(drawn, mapper, worldFromModel))
-  {
-    this->skip(mapper, reason);
     return;
   }
-  this->drawn_.blocks.push_back(
-    solidsBlock(mapper, static_cast<vtkPolyDataMapper*>(mapper)->GetInput(), drawn->cells));
+  DrawnActor taken{ actor,
+    actorDrawing(actor, matrix ? matrix : actor->GetMatrix(), this->renderer_) };
+  taken.copies = hasOwnFramebuffer(actor->GetMapper());
+  taken.seenThrough = taken.copies || isSeenThrough(actor);
+  if (taken.seenThrough)
+  {
+    nameDrawer(taken, this->drawn_.seenThrough);
+  }
+  vtkProperty* const property = actor->GetProperty();
+  taken.lit = showsLight(property);
+  const bool asSurface = drawnAsSurface(property, actor->GetMapper());
+  const bool asPoints = !asSurface && property->GetRepresentation() == VTK_POINTS;
+  if (!asSurface && !(asPoints && property->GetRenderPointsAsSpheres()))
+  {
+    if (taken.lit)
+    {
+      this->skip(actor, asPoints ? "as points" : "as a wireframe");
+    }
+    return;
+  }
+  if (!taken.drawing.actor)
+  {
+    this->skip(actor, "draws through an actor of its own");
+    return;
+  }
+  taken.kind = kindOf(taken.drawing.mapper);
+  taken.mapper = this->blocks_.update(this->viewProp_, taken.drawing.mapper, taken.kind);
+  if (!taken.mapper)
+  {
+    return;
+  }
+  if (asPoints && taken.kind != MapperKind::PlainPolyData && taken.kind != MapperKind::PolyData)
+  {
+    if (taken.lit)
+    {
+      this->skip(actor, "as points");
+    }
+    return;
+  }
+  this->addTaken(taken);
 }
 
 //------------------------------------------------------------------------------
-/// Store the radii of spheres at vertices and tubes along lines in the last blocks.
-void Finder::takePixelSizes(vtkActor* actor, std::size_t firstBlock)
+/// Add the surfaces of an actor that cast or receive, and note what its shadows leave out.
+void Finder::addTaken(const DrawnActor& taken)
 {
-  const PixelSizes sizes = pixelSizes(actor->GetProperty(), this->renderer_);
-  const bool surface = actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
-  for (std::size_t i = firstBlock; i < this->drawn_.blocks.size(); ++i)
+  vtkActor* const actor = taken.actor;
+  DrawnProp prop = this->propOf(taken.drawing.actor, taken.mapper, taken.drawing.matrix);
+  prop.clipPlanes = clipPlanesOf(taken.drawing.mapper);
+  prop.receives = prop.receives && taken.kind != MapperKind::Splats; // VTK does not light splats
+  const char* uncutReason = nullptr;
+  const TextureCutout cutout = this->memory_.cutouts.find(
+    actor, taken.drawing.mapper, this->viewProp_->GetPropertyKeys(), uncutReason);
+  prop.cutout = cutout.mask;
+  prop.textureTransform = cutout.transform;
+  prop.isMoved = mayMoveVertices(actor);
+  const std::size_t before = this->drawn_.props.size();
+  const bool opaque = actor->HasOpaqueGeometry();
+  // A plain prop is either opaque or translucent, and VTK takes equally long to answer either.
+  const bool eitherOr = isPlainActor(actor) && taken.kind == MapperKind::PlainPolyData;
+  const bool translucent = eitherOr ? !opaque : actor->HasTranslucentPolygonalGeometry() != 0;
+  if (prop.receives && (translucent || taken.seenThrough))
   {
-    DrawnBlock& block = this->drawn_.blocks[i];
-    block.pointRadiusFromWorld = sizes.pointRadiusFromWorld;
-    block.lineRadiusFromWorld = surface ? sizes.lineRadiusFromWorld : glm::dvec4(0.0);
-    block.drawsTriangles = surface;
-    if (!surface && block.data->GetNumberOfCells() > block.data->GetNumberOfVerts())
+    nameDrawer(taken, this->drawn_.translucentReceivers);
+    if (taken.copies)
     {
-      this->skip(actor, "corners of lines and polygons as points");
+      this->name(this->copied_, taken.mapper);
     }
   }
-}
-
-//------------------------------------------------------------------------------
-/// Update a mapper's input.
-/// @return true if there is any
-bool Finder::updateInput(vtkMapper* mapper, MapperKind kind)
-{
-  if (mapper->GetNumberOfInputConnections(0) == 0)
+  if (opaque)
   {
-    return false;
+    this->addPass(taken, prop, cutout.texture);
+    if (!taken.lit && prop.receives)
+    {
+      this->name(this->unlit_, taken.mapper);
+    }
+    if (eitherOr && taken.lit && !taken.seenThrough && !prop.isMoved &&
+      !isSizedInPixels(actor->GetProperty()) && this->viewProp_ == actor &&
+      this->drawn_.props.size() > before)
+    {
+      this->memory_.plainProps.remember(actor);
+    }
   }
-  if (!mapper->GetStatic() && this->updated_.insert(mapper).second)
+  if (translucent && askedToCast(this->viewProp_))
   {
-    runInput(mapper, kind);
+    prop.translucent = true;
+    this->addPass(taken, prop, cutout.texture);
   }
-  return mapper->GetInputDataObject(0, 0) != nullptr;
+  else if (translucent && prop.casts)
+  {
+    this->name(this->notCasting_, taken.mapper);
+  }
+  if (prop.casts && this->drawn_.props.size() > before)
+  {
+    this->moved_ += prop.isMoved ? 1 : 0;
+    if (uncutReason)
+    {
+      ++this->uncut_[uncutReason];
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -663,48 +472,6 @@ DrawnProps Finder::take()
 glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 {
   return glm::transpose(glm::make_mat4(&matrix->Element[0][0])); // VTK's elements go row by row
-}
-
-//------------------------------------------------------------------------------
-const std::vector<SurfaceCells>& cellsOf(const DrawnBlock& block)
-{
-  static const std::vector<SurfaceCells> spheres = { SurfaceCells::Spheres };
-  static const std::vector<SurfaceCells> sticks = { SurfaceCells::Sticks };
-  static const auto mixtures = []
-  {
-    std::array<std::vector<SurfaceCells>, 8> lists;
-    for (std::size_t i = 0; i < lists.size(); ++i)
-    {
-      if (i & 1)
-      {
-        lists[i] = { SurfaceCells::Polygons, SurfaceCells::Strips };
-      }
-      if (i & 2)
-      {
-        lists[i].push_back(SurfaceCells::PointSpheres);
-      }
-      if (i & 4)
-      {
-        lists[i].push_back(SurfaceCells::LineTubes);
-      }
-    }
-    return lists;
-  }();
-  if (block.solids)
-  {
-    return block.solidCells == SurfaceCells::Spheres ? spheres : sticks;
-  }
-  return mixtures[(block.drawsTriangles ? 1u : 0u) |
-    (block.pointRadiusFromWorld != glm::dvec4(0.0) ? 2u : 0u) |
-    (block.lineRadiusFromWorld != glm::dvec4(0.0) ? 4u : 0u)];
-}
-
-//------------------------------------------------------------------------------
-glm::dvec4 radiusFromWorld(const DrawnBlock& block, SurfaceCells cells)
-{
-  return cells == SurfaceCells::PointSpheres ? block.pointRadiusFromWorld
-    : cells == SurfaceCells::LineTubes       ? block.lineRadiusFromWorld
-                                             : glm::dvec4(0.0);
 }
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plugin/scene/SurfaceExtraction.h"
+#include "plugin/scene/DrawnBlocks.h"
 
 #include "lights/vtkGnomonVersions.h"
 
@@ -13,11 +13,8 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkActor;
-class vtkDataArray;
-class vtkDataSet;
 class vtkMapper;
 class vtkMatrix4x4;
-class vtkPolyData;
 class vtkProp;
 class vtkRenderer;
 VTK_ABI_NAMESPACE_END
@@ -30,28 +27,6 @@ struct PropMemory;
 
 /// Return a VTK matrix as a GLM matrix of the same transformation.
 glm::dmat4 toGlm(vtkMatrix4x4* matrix);
-
-/// One polydata of a prop. VTK draws it once where the prop is, or many times as a glyph.
-struct DrawnBlock
-{
-  vtkPolyData* data = nullptr;
-  vtkDataSet* glyphPoints = nullptr; ///< for a glyph: the points at which VTK draws it
-  int glyphSource = 0;               ///< for a glyph: its index in the mapper's table of sources
-  vtkPolyData* drawnAs = nullptr;    ///< VTK draws it in the data's place; null: the data itself
-  vtkMapper* solids = nullptr;       ///< the mapper, if it draws a solid at each point and no cells
-  SurfaceCells solidCells = SurfaceCells::Spheres; ///< kind of these solids
-  ///@{
-  /// Radius of spheres at vertex cells and of tubes along lines: an affine function of the world
-  /// position, as each has a constant number of pixels. Zero if VTK draws none.
-  glm::dvec4 pointRadiusFromWorld{ 0.0 };
-  glm::dvec4 lineRadiusFromWorld{ 0.0 };
-  ///@}
-  bool drawsTriangles = true; ///< true if VTK draws polygons and strips as such
-  /// The points' normals if VTK shades triangles with them; else null.
-  vtkDataArray* normals = nullptr;
-  /// Coordinates of the texture that cuts holes into it; null if none does.
-  vtkDataArray* textureCoordinates = nullptr;
-};
 
 /// One leaf prop on one path of a view prop, with the surfaces that VTK draws of it in the opaque
 /// or in the translucent pass. Pointers are valid until the scene changes.
@@ -99,12 +74,6 @@ struct DrawnProps
   /// props do not show.
   std::vector<std::string> notes;
 };
-
-/// Return the radius of cells that are sized in pixels; zero for others.
-glm::dvec4 radiusFromWorld(const DrawnBlock& block, SurfaceCells cells);
-
-/// Return the kinds of cells that VTK draws of a block.
-const std::vector<SurfaceCells>& cellsOf(const DrawnBlock& block);
 
 /// List the surfaces that a renderer's opaque pass draws, and the translucent surfaces that are
 /// asked to cast. Props out of the camera's view are included. Updates the inputs of mappers first,

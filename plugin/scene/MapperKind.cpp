@@ -13,6 +13,7 @@
 #include "vtkPointGaussianMapper.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkShaderProperty.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -76,6 +77,26 @@ bool hasOwnFramebuffer(vtkMapper* mapper)
   return std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") != 0 &&
     std::any_of(
       classes.begin(), classes.end(), [mapper](const char* name) { return mapper->IsA(name); });
+}
+
+//------------------------------------------------------------------------------
+bool mayMoveVertices(vtkActor* actor)
+{
+  vtkShaderProperty* code = actor->GetShaderProperty();
+  bool may = code->HasVertexShaderCode() || code->HasGeometryShaderCode();
+  for (int i = 0; i < code->GetNumberOfShaderReplacements(); ++i)
+  {
+    may = may || code->GetNthShaderReplacementTypeAsString(i) != "Fragment";
+  }
+  return may;
+}
+
+//------------------------------------------------------------------------------
+bool showsLight(vtkProperty* property)
+{
+  return property->GetLighting() &&
+    (property->GetInterpolation() == VTK_PBR || property->GetDiffuse() > 0.0 ||
+      property->GetSpecular() > 0.0);
 }
 
 //------------------------------------------------------------------------------

@@ -47,6 +47,13 @@ bool isSeenThrough(vtkActor* actor);
 /// that one, so the receivers cannot have its pixels.
 bool hasOwnFramebuffer(vtkMapper* mapper);
 
+/// True if a user's code changes the shaders that place an actor's vertices.
+bool mayMoveVertices(vtkActor* actor);
+
+/// True if a light changes how a prop looks. The outlines that VTK's interactor styles put around
+/// what is picked reflect nothing.
+bool showsLight(vtkProperty* property);
+
 /// Run the pipeline before a mapper, as when it draws.
 void runInput(vtkMapper* mapper, MapperKind kind);
 

@@ -33,6 +33,12 @@ bool keepsLengths(const glm::dmat4& matrix)
   return keeps;
 }
 
+/// True if a property draws lines as tubes, as in vtkOpenGLPolyDataMapper::DrawingTubes().
+bool drawsTubes(vtkProperty* property)
+{
+  return property->GetRenderLinesAsTubes() && property->GetLineWidth() > 1.0f;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -53,9 +59,9 @@ const char* reasonAgainstSolids(
 }
 
 //------------------------------------------------------------------------------
-bool drawsTubes(vtkProperty* property)
+bool isSizedInPixels(vtkProperty* property)
 {
-  return property->GetRenderLinesAsTubes() && property->GetLineWidth() > 1.0f;
+  return property->GetRenderPointsAsSpheres() || drawsTubes(property);
 }
 
 //------------------------------------------------------------------------------

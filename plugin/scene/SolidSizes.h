@@ -22,8 +22,8 @@ namespace gnomon
 const char* reasonAgainstSolids(
   const std::optional<DrawnSolids>& drawn, vtkMapper* mapper, const glm::dmat4& worldFromModel);
 
-/// True if a property draws lines as tubes, as in vtkOpenGLPolyDataMapper::DrawingTubes().
-bool drawsTubes(vtkProperty* property);
+/// True if a property draws points as spheres or lines as tubes, whose sizes are in pixels.
+bool isSizedInPixels(vtkProperty* property);
 
 /// Radii of solids that are sized in pixels, as in DrawnBlock.
 struct PixelSizes
