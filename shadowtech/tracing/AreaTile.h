@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace gnomon
@@ -19,6 +20,23 @@ static_assert(TracedTile::columns % pixelsTogether == 0, "they lie in one row");
 /// One number for each of these pixels.
 template <typename Number>
 using Together = std::array<Number, pixelsTogether>;
+
+/// Return the rays of a tile's pixels that need any, to all samples of an area light.
+inline SampleRays raysToAll(const TracedTile& tile, std::uint32_t count)
+{
+  SampleRays rays;
+  rays.samples.resize(count);
+  std::iota(rays.samples.begin(), rays.samples.end(), 0u);
+  rays.pixels.resize(TracedTile::pixels);
+  for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
+  {
+    if (tile.needed[pixel] != 0)
+    {
+      rays.pixels[pixel] = { count, 1, 0, count };
+    }
+  }
+  return rays;
+}
 
 /// The rays of a tile's pixels to an area light's samples.
 class AreaTile

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 #include <type_traits>
 
 namespace gnomon
@@ -93,23 +92,6 @@ void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* re
     for (std::size_t channel = 0; channel < traced.channels; ++channel)
     {
       traced.visibility[channel][to + x] = isDark(of) ? 0.0f : lit[channel];
-    }
-  }
-}
-
-/// Request each pixel's rays to all samples.
-/// @param count the number of samples
-void wantAll(const TracedTile& tile, std::size_t count, SampleRays& rays)
-{
-  rays.samples.resize(count);
-  std::iota(rays.samples.begin(), rays.samples.end(), 0u);
-  rays.pixels.assign(TracedTile::pixels, {});
-  for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
-  {
-    if (tile.needed[pixel] != 0)
-    {
-      const auto all = static_cast<std::uint32_t>(count);
-      rays.pixels[pixel] = { all, 1, 0, all };
     }
   }
 }
@@ -348,8 +330,7 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
   TracedTile& traced, const std::function<std::size_t(TracedTile&)>& trace) const
 {
   AreaTile area(tile, traced, this->light_, *this->samples_);
-  SampleRays rays;
-  wantAll(traced, static_cast<std::size_t>(this->samples_->count()), rays);
+  SampleRays rays = raysToAll(traced, static_cast<std::uint32_t>(this->samples_->count()));
   if (this->chooser_)
   {
     // It knows no rays that pass through their own surface.
@@ -476,24 +457,21 @@ void TracedPicture::finish() const
   const auto count = static_cast<float>(this->samples_->count());
   const std::size_t width = this->receivers_.width();
   const std::size_t across = tilesAcross(width, TracedTile::columns);
-  const auto finishRow = [&](std::size_t first, std::size_t columns)
-  {
-    for (std::size_t i = first; i < first + columns; ++i)
-    {
-      // Samples replaced by brighter opposite ones may sum to more than all of the light.
-      const float whole = this->texture_ ? this->wholes_[i] : count;
-      this->visibility_[i] = std::min(this->visibility_[i] / whole, 1.0f);
-    }
-  };
   for (std::size_t row = 0; row < this->channels() * this->receivers_.height(); ++row)
   {
     const std::size_t y = row % this->receivers_.height();
-    for (std::size_t tile = 0; tile < across; ++tile)
+    for (std::size_t x = 0; x < width; x += TracedTile::columns)
     {
-      if (!this->isKept(y / TracedTile::rows * across + tile))
+      if (this->isKept(y / TracedTile::rows * across + x / TracedTile::columns))
       {
-        const std::size_t x = tile * TracedTile::columns;
-        finishRow(row * width + x, std::min(TracedTile::columns, width - x));
+        continue;
+      }
+      const std::size_t end = row * width + std::min(x + TracedTile::columns, width);
+      for (std::size_t i = row * width + x; i < end; ++i)
+      {
+        // Samples replaced by brighter opposite ones may sum to more than all of the light.
+        const float whole = this->texture_ ? this->wholes_[i] : count;
+        this->visibility_[i] = std::min(this->visibility_[i] / whole, 1.0f);
       }
     }
   }
