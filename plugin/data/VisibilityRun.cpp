@@ -1,10 +1,11 @@
 #include "plugin/data/VisibilityRun.h"
 
+#include "plugin/data/VisibilityTile.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <utility>
@@ -22,97 +23,6 @@ constexpr std::size_t raysOfPart = std::size_t(1) << 20;
 constexpr std::size_t samplesOfTile = 64;
 /// Answers that a tile holds at a time: they fit the processor's first cache.
 constexpr std::size_t answersOfTile = 16384;
-/// Rays traced in one call.
-constexpr std::size_t raysOfBatch = 256;
-/// Consecutive lights whose rays from a sample are adjacent: the number of lanes of a packet.
-constexpr std::size_t lightsOfGroup = 16;
-
-/// Rays of one length that wait for the tracer, with the places of their answers.
-class WaitingRays
-{
-public:
-  WaitingRays(const EmbreeTracer& tracer, std::uint8_t* lit)
-    : tracer_(tracer)
-    , lit_(lit)
-  {
-  }
-  void setFar(float rayFar)
-  {
-    if (rayFar != this->rayFar_)
-    {
-      this->flush();
-      this->rayFar_ = rayFar;
-    }
-  }
-  /// @param answer place in `lit`, set to 1 if the ray is free
-  void add(const ShadowRay& ray, std::size_t answer)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->origins_[static_cast<std::size_t>(axis)][this->count_] = ray.origin[axis];
-      this->directions_[static_cast<std::size_t>(axis)][this->count_] = ray.direction[axis];
-    }
-    this->answers_[this->count_] = static_cast<std::uint32_t>(answer);
-    if (++this->count_ == raysOfBatch)
-    {
-      this->flush();
-    }
-  }
-  void flush()
-  {
-    const auto arrays = [](const std::array<std::array<float, raysOfBatch>, 3>& of) {
-      return PointArrays{ of[0].data(), of[1].data(), of[2].data() };
-    };
-    this->tracer_.areBlocked(this->count_, arrays(this->origins_), arrays(this->directions_),
-      this->rayFar_, this->blocked_.data());
-    for (std::size_t i = 0; i < this->count_; ++i)
-    {
-      this->lit_[this->answers_[i]] |= static_cast<std::uint8_t>(1 - this->blocked_[i]);
-    }
-    this->rays_ += this->count_;
-    this->count_ = 0;
-  }
-  std::uint64_t rays() const { return this->rays_; }
-
-private:
-  const EmbreeTracer& tracer_;
-  std::uint8_t* lit_;
-  float rayFar_ = shadowRayFarDirectional;
-  std::size_t count_ = 0;
-  std::uint64_t rays_ = 0;
-  std::array<std::array<float, raysOfBatch>, 3> origins_;
-  std::array<std::array<float, raysOfBatch>, 3> directions_;
-  std::array<std::uint32_t, raysOfBatch> answers_;
-  std::array<std::uint8_t, raysOfBatch> blocked_;
-};
-
-/// A copy of a start, which the compiler holds in registers while rays are stored.
-struct RayStart
-{
-  glm::vec3 position;
-  glm::vec3 normal;
-  float offset;
-
-  RayStart(const SampleStarts& starts, std::size_t i)
-    : position(starts.position[i])
-    , normal(starts.normal[i])
-    , offset(starts.offset[i])
-  {
-  }
-};
-
-/// Return the shadow ray of a start. If it receives on both sides, use the side that faces the
-/// light.
-template <typename MakeRay>
-ShadowRay rayOf(const MakeRay& makeRay, const RayStart& start, bool bothSides)
-{
-  if (!bothSides) // this path copies no ray
-  {
-    return makeRay(start.position, start.normal, start.offset);
-  }
-  const ShadowRay ray = makeRay(start.position, start.normal, start.offset);
-  return ray.traced ? ray : makeRay(start.position, -start.normal, start.offset);
-}
 
 /// Return a position on a Z curve over all directions. Octahedral coordinates map directions onto a
 /// square (Meyer et al., EGSR 2010).
@@ -135,17 +45,6 @@ std::uint32_t placeOf(const glm::vec3& direction)
     return (bits | bits << 1) & 0x55555555u;
   };
   return spread(at.x) | spread(at.y) << 1;
-}
-
-bool isAboveGround(const glm::vec3& up, const glm::vec3& toLight)
-{
-  return up == glm::vec3(0.0f) || glm::dot(up, toLight) > 0.0f;
-}
-
-/// True if all rays to a light are parallel and endless.
-bool isPlain(const ShadowRayLight& light)
-{
-  return light.kind == LightKind::Directional && !light.hasBox;
 }
 
 /// After all directions.
@@ -233,8 +132,9 @@ bool VisibilityRun::go(const std::function<bool(double)>& goOn)
     {
       this->beginChunk();
     }
-    const std::size_t block =
-      std::max(lightsOfGroup, raysOfPart / this->hours_.size() / lightsOfGroup * lightsOfGroup);
+    const std::size_t block = std::max(VisibilityTile::lightsOfGroup,
+      raysOfPart / this->hours_.size() / VisibilityTile::lightsOfGroup *
+        VisibilityTile::lightsOfGroup);
     const std::size_t lastLight = std::min(this->nextLight_ + block, this->plan_.lights.size());
     this->traceBlock(this->nextLight_, lastLight);
     this->nextLight_ = lastLight;
@@ -280,132 +180,6 @@ void VisibilityRun::traceBlock(std::size_t firstLight, std::size_t lastLight)
 }
 
 //------------------------------------------------------------------------------
-/// Traces rays from some samples to a group of lights.
-class VisibilityRun::Tile
-{
-public:
-  /// @param starts of the samples
-  /// @param lit receives the answers of `samples` samples to each light, one light after the other
-  Tile(const VisibilityRun& run, const SampleStarts& starts, std::uint8_t* lit)
-    : plan_(run.plan_)
-    , starts_(starts)
-    , samples_(starts.samples())
-    , batch_(run.tracer_, lit)
-    , lit_(lit)
-    , next_(lightsOfGroup * starts.samples())
-  {
-  }
-
-  /// @param answers index of the first light's answers in `lit`
-  void trace(std::size_t firstLight, std::size_t lastLight, std::size_t answers)
-  {
-    const bool isSimple = this->starts_.position.size() == this->samples_ &&
-      this->starts_.disc.empty() && isPlain(this->plan_.lights[lastLight - 1].ray);
-    isSimple ? this->traceSimple(firstLight, lastLight, answers)
-             : this->traceAny(firstLight, lastLight, answers);
-  }
-  void flush() { this->batch_.flush(); }
-  std::uint64_t rays() const { return this->batch_.rays(); }
-
-private:
-  /// Trace samples with one start to directions without a disc.
-  void traceSimple(std::size_t firstLight, std::size_t lastLight, std::size_t answers)
-  {
-    this->batch_.setFar(shadowRayFarDirectional);
-    const bool bothSides = this->plan_.bothSides;
-    for (std::size_t s = 0; s < this->samples_; ++s)
-    {
-      const RayStart start(this->starts_, s);
-      std::size_t answer = answers + s;
-      for (std::size_t light = firstLight; light < lastLight; ++light, answer += this->samples_)
-      {
-        const ShadowRayLight& to = this->plan_.lights[light].ray;
-        const ShadowRay ray = rayOf(
-          [&to](const auto&... of) { return shadowRayDirectional(to, of...); }, start, bothSides);
-        if (ray.traced)
-        {
-          this->batch_.add(ray, answer);
-        }
-      }
-    }
-  }
-
-  void traceAny(std::size_t firstLight, std::size_t lastLight, std::size_t answers)
-  {
-    for (std::size_t light = firstLight; light < lastLight; ++light)
-    {
-      const auto next =
-        this->next_.begin() + static_cast<std::ptrdiff_t>((light - firstLight) * this->samples_);
-      std::copy_n(this->starts_.first.begin(), this->samples_, next);
-    }
-    // After a lit start, a sample's further starts need no ray.
-    for (bool waits = true; waits;)
-    {
-      waits = false;
-      for (std::size_t s = 0; s < this->samples_; ++s)
-      {
-        for (std::size_t light = firstLight; light < lastLight; ++light)
-        {
-          const std::size_t place = (light - firstLight) * this->samples_ + s;
-          waits |= this->addRay(this->plan_.lights[light], s, this->next_[place], answers + place);
-        }
-      }
-      if (waits)
-      {
-        this->batch_.flush();
-      }
-    }
-  }
-  /// Add the ray from the next start of a sample that faces a light.
-  /// @return true if the sample has starts left
-  bool addRay(
-    const WeightedLight& light, std::size_t sample, std::uint32_t& next, std::size_t answer)
-  {
-    const std::uint32_t last = this->starts_.first[sample + 1];
-    if (next == last || this->lit_[answer] != 0)
-    {
-      return false;
-    }
-    if (!isPlain(light.ray) || this->starts_.disc.empty())
-    {
-      return this->addRayTo(light.ray, last, next, answer);
-    }
-    const glm::vec2& at = this->starts_.disc[sample];
-    ShadowRayLight seen = light.ray;
-    seen.toLight += at.x * light.discX + at.y * light.discY;
-    return isAboveGround(this->plan_.up, seen.toLight) && this->addRayTo(seen, last, next, answer);
-  }
-
-  bool addRayTo(
-    const ShadowRayLight& light, std::uint32_t last, std::uint32_t& next, std::size_t answer)
-  {
-    return visitShadowRays(light,
-      [&](const auto& makeRay, float rayFar)
-      {
-        while (next < last)
-        {
-          const ShadowRay ray =
-            rayOf(makeRay, RayStart(this->starts_, next++), this->plan_.bothSides);
-          if (ray.traced)
-          {
-            this->batch_.setFar(rayFar);
-            this->batch_.add(ray, answer);
-            break;
-          }
-        }
-        return next < last;
-      });
-  }
-
-  const Plan& plan_;
-  const SampleStarts& starts_;
-  std::size_t samples_;
-  WaitingRays batch_;
-  const std::uint8_t* lit_;
-  std::vector<std::uint32_t> next_; ///< start of each sample, for each light of the group
-};
-
-//------------------------------------------------------------------------------
 /// Trace a tile.
 /// @param firstElement, lastElement counted from the chunk's first
 /// @return the number of rays
@@ -420,18 +194,19 @@ std::uint64_t VisibilityRun::traceTile(
   }
   const std::size_t firstSample = firstElement * this->samplesOfElement_;
   const std::size_t samples = starts.samples();
-  const std::size_t lightsAtOnce =
-    std::max(lightsOfGroup, answersOfTile / samples / lightsOfGroup * lightsOfGroup);
+  const std::size_t lightsAtOnce = std::max(VisibilityTile::lightsOfGroup,
+    answersOfTile / samples / VisibilityTile::lightsOfGroup * VisibilityTile::lightsOfGroup);
   std::vector<std::uint8_t> lit(samples * std::min(lightsAtOnce, lastLight - firstLight));
-  Tile tile(*this, starts, lit.data());
+  VisibilityTile tile(this->plan_, this->tracer_, starts, lit.data());
 
   for (std::size_t begin = firstLight; begin < lastLight; begin += lightsAtOnce)
   {
     const std::size_t end = std::min(begin + lightsAtOnce, lastLight);
     std::fill(lit.begin(), lit.end(), std::uint8_t(0));
-    for (std::size_t group = begin; group < end; group += lightsOfGroup)
+    for (std::size_t group = begin; group < end; group += VisibilityTile::lightsOfGroup)
     {
-      tile.trace(group, std::min(group + lightsOfGroup, end), (group - begin) * samples);
+      tile.trace(
+        group, std::min(group + VisibilityTile::lightsOfGroup, end), (group - begin) * samples);
     }
     tile.flush();
 

@@ -85,7 +85,6 @@ public:
   std::uint64_t rays() const { return this->rays_; }
 
 private:
-  class Tile;
   void orderLights();
   void beginChunk();
   void traceBlock(std::size_t firstLight, std::size_t lastLight);
