@@ -1,7 +1,7 @@
 #include "vtkGnomonVisibilityFilter.h"
 
-#include "lights/LightManager.h"
 #include "lights/vtkGnomonSun.h"
+#include "plugin/data/AddedLights.h"
 #include "plugin/data/DataScene.h"
 #include "plugin/data/ReceiverStarts.h"
 #include "plugin/data/VisibilityRun.h"
@@ -24,13 +24,11 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,14 +36,6 @@
 
 namespace
 {
-
-/// A light as the user added it.
-struct AddedLight
-{
-  glm::dvec3 towards{ 0.0 }; ///< of a direction: unit
-  double hours = 0.0;
-  vtkSmartPointer<vtkLight> light; ///< null for a direction
-};
 
 /// The inputs that determine the results. Objects count by their times of change, settings by their
 /// values, since an abort also changes the filter's own time.
@@ -60,69 +50,24 @@ struct Key
   }
 };
 
-bool isDirection(const glm::dvec3& vector)
-{
-  const double length = glm::length(vector);
-  return length > 0.0 && std::isfinite(length);
-}
-
-bool areHours(double hours)
-{
-  return hours >= 0.0 && std::isfinite(hours);
-}
-
-/// Return two unit vectors across a unit vector (Duff et al., JCGT 6(1), 2017).
-std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& n)
-{
-  const double sign = std::copysign(1.0, n.z);
-  const double a = -1.0 / (sign + n.z);
-  const double b = n.x * n.y * a;
-  return { { 1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x },
-    { b, sign + n.y * n.y * a, -n.y } };
-}
-
-/// Return an array of one number for each element, all equal at first.
-template <typename Array, typename Value>
-vtkSmartPointer<Array> arrayOf(const char* name, vtkIdType count, int components, Value value)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(count);
-  array->Fill(static_cast<double>(value));
-  return array;
-}
-
 /// The arrays of an execution.
 struct Results
 {
-  vtkSmartPointer<vtkFloatArray> fraction;
-  vtkSmartPointer<vtkFloatArray> error;
-  vtkSmartPointer<vtkFloatArray> hours;
-  vtkSmartPointer<vtkUnsignedCharArray> bits;
-  vtkSmartPointer<vtkUnsignedCharArray> why;
-  vtkSmartPointer<vtkIdTypeArray> blocker;
-  vtkSmartPointer<vtkIntArray> blockerInput;
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
+  gnomon::VisibilityArrays pointers{};
 
-  gnomon::VisibilityArrays pointers() const
+  /// Add an array of one tuple for each element, all equal at first.
+  /// @return its numbers
+  template <typename Array>
+  auto* add(const char* name, vtkIdType count, int components, double value)
   {
-    const auto of = [](const auto& array) { return array ? array->GetPointer(0) : nullptr; };
-    return { of(this->hours), of(this->fraction), of(this->error), of(this->bits), of(this->why),
-      of(this->blocker), of(this->blockerInput) };
-  }
-  void addTo(vtkDataSetAttributes* data) const
-  {
-    for (vtkDataArray* array :
-      { static_cast<vtkDataArray*>(this->fraction), static_cast<vtkDataArray*>(this->error),
-        static_cast<vtkDataArray*>(this->hours), static_cast<vtkDataArray*>(this->bits),
-        static_cast<vtkDataArray*>(this->why), static_cast<vtkDataArray*>(this->blocker),
-        static_cast<vtkDataArray*>(this->blockerInput) })
-    {
-      if (array)
-      {
-        data->AddArray(array);
-      }
-    }
+    auto array = vtkSmartPointer<Array>::New();
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(count);
+    array->Fill(value);
+    this->arrays.push_back(array);
+    return array->GetPointer(0);
   }
 };
 
@@ -131,7 +76,7 @@ struct Results
 /// Each member refers to those above it.
 struct vtkGnomonVisibilityFilter::Internals
 {
-  std::vector<AddedLight> lights;
+  std::vector<gnomon::AddedLight> lights;
   vtkTimeStamp lightsTime;
   bool unfinished = false;
   vtkTimeStamp unfinishedTime;
@@ -161,17 +106,6 @@ struct vtkGnomonVisibilityFilter::Internals
     this->tracer.reset();
     this->scene.reset();
     this->sceneKey = {};
-  }
-  void add(const glm::dvec3& towards, double hours)
-  {
-    this->lights.push_back({ glm::normalize(towards), hours, nullptr });
-  }
-  /// @return null for a number that does not exist
-  const AddedLight* find(int index) const
-  {
-    return index >= 0 && index < static_cast<int>(this->lights.size())
-      ? &this->lights[static_cast<std::size_t>(index)]
-      : nullptr;
   }
 };
 
@@ -207,25 +141,21 @@ vtkMTimeType vtkGnomonVisibilityFilter::GetMTime()
   {
     internal.unfinishedTime.Modified();
   }
-  vtkMTimeType time = std::max(this->Superclass::GetMTime(), internal.unfinishedTime.GetMTime());
-  for (const AddedLight& added : internal.lights)
-  {
-    time = std::max(time, added.light ? gnomon::changeTime(added.light) : 0);
-  }
-  return time;
+  return std::max({ this->Superclass::GetMTime(), internal.unfinishedTime.GetMTime(),
+    gnomon::changeTime(internal.lights) });
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonVisibilityFilter::AddDirection(const double towards[3], double hours)
 {
-  if (!isDirection(glm::make_vec3(towards)) || !areHours(hours))
+  if (!gnomon::isDirection(glm::make_vec3(towards)) || !gnomon::areHours(hours))
   {
     vtkErrorMacro("Direction " << this->GetNumberOfLights() << " (" << towards[0] << ", "
                                << towards[1] << ", " << towards[2] << ") with " << hours
                                << " hours gives no light.");
     return;
   }
-  this->Internal->add(glm::make_vec3(towards), hours);
+  this->Internal->lights.push_back({ glm::normalize(glm::make_vec3(towards)), hours, nullptr });
   this->Internal->lightsTime.Modified();
   this->Modified();
 }
@@ -254,13 +184,13 @@ void vtkGnomonVisibilityFilter::AddDirections(vtkDataArray* directions, vtkDataA
                                   << hours->GetNumberOfComponents() << " components.");
     return;
   }
-  std::vector<AddedLight> added;
+  std::vector<gnomon::AddedLight> added;
   for (vtkIdType i = 0; i < count; ++i)
   {
     glm::dvec3 towards;
     directions->GetTuple(i, &towards.x);
     const double time = hours ? hours->GetComponent(i, 0) : 1.0;
-    if (!isDirection(towards) || !areHours(time))
+    if (!gnomon::isDirection(towards) || !gnomon::areHours(time))
     {
       vtkErrorMacro("Tuple " << i << " of the directions (" << towards.x << ", " << towards.y
                              << ", " << towards.z << ") with " << time << " hours gives no light.");
@@ -268,7 +198,7 @@ void vtkGnomonVisibilityFilter::AddDirections(vtkDataArray* directions, vtkDataA
     }
     added.push_back({ glm::normalize(towards), time, nullptr });
   }
-  std::vector<AddedLight>& lights = this->Internal->lights;
+  std::vector<gnomon::AddedLight>& lights = this->Internal->lights;
   lights.insert(lights.end(), added.begin(), added.end());
   this->Internal->lightsTime.Modified();
   this->Modified();
@@ -311,7 +241,7 @@ void vtkGnomonVisibilityFilter::AddSunYear(vtkGnomonSun* sun, int dayStep, doubl
 //------------------------------------------------------------------------------
 void vtkGnomonVisibilityFilter::AddLight(vtkLight* light, double hours)
 {
-  if (!light || !areHours(hours))
+  if (!light || !gnomon::areHours(hours))
   {
     vtkErrorMacro("Light " << this->GetNumberOfLights() << (light ? "" : ", which is null,")
                            << " with " << hours << " hours cannot be added.");
@@ -339,7 +269,7 @@ int vtkGnomonVisibilityFilter::GetNumberOfLights()
 //------------------------------------------------------------------------------
 void vtkGnomonVisibilityFilter::GetDirection(int index, double towards[3])
 {
-  const AddedLight* const added = this->Internal->find(index);
+  const gnomon::AddedLight* const added = gnomon::findLight(this->Internal->lights, index);
   const glm::dvec3 direction = added ? added->towards : glm::dvec3(0.0);
   std::copy_n(&direction.x, 3, towards);
 }
@@ -347,14 +277,14 @@ void vtkGnomonVisibilityFilter::GetDirection(int index, double towards[3])
 //------------------------------------------------------------------------------
 vtkLight* vtkGnomonVisibilityFilter::GetLight(int index)
 {
-  const AddedLight* const added = this->Internal->find(index);
+  const gnomon::AddedLight* const added = gnomon::findLight(this->Internal->lights, index);
   return added ? added->light : nullptr;
 }
 
 //------------------------------------------------------------------------------
 double vtkGnomonVisibilityFilter::GetHours(int index)
 {
-  const AddedLight* const added = this->Internal->find(index);
+  const gnomon::AddedLight* const added = gnomon::findLight(this->Internal->lights, index);
   return added ? added->hours : 0.0;
 }
 
@@ -372,29 +302,16 @@ void vtkGnomonVisibilityFilter::SetUp(double x, double y, double z)
     vtkErrorMacro("Up (" << x << ", " << y << ", " << z << ") is not finite.");
     return;
   }
-  if (this->Up[0] != x || this->Up[1] != y || this->Up[2] != z)
+  const double up[3] = { x, y, z };
+  if (!std::equal(up, up + 3, this->Up))
   {
-    this->Up[0] = x;
-    this->Up[1] = y;
-    this->Up[2] = z;
+    std::copy_n(up, 3, this->Up);
     this->Modified();
   }
 }
 
 namespace
 {
-
-/// Return the present inputs: the receivers, then the casters.
-std::vector<gnomon::DataScene::Input> inputsOf(vtkInformationVector** input, bool receiversCast)
-{
-  std::vector<gnomon::DataScene::Input> inputs = { { vtkPolyData::GetData(input[0]),
-    receiversCast } };
-  for (int i = 0; i < input[1]->GetNumberOfInformationObjects(); ++i)
-  {
-    inputs.push_back({ vtkPolyData::GetData(input[1], i), true });
-  }
-  return inputs;
-}
 
 Key sceneKeyOf(const std::vector<gnomon::DataScene::Input>& inputs)
 {
@@ -407,48 +324,12 @@ Key sceneKeyOf(const std::vector<gnomon::DataScene::Input>& inputs)
       key.objects.emplace_back(
         input.data, hasPoints ? gnomon::shapeTime(input.data, kind) : input.data->GetMTime());
     }
-    key.settings.push_back(input.casts ? 1.0 : 0.0);
     // Cells of other kinds also count in the numbers of cells.
-    key.settings.push_back(
-      static_cast<double>(input.data->GetNumberOfVerts() + input.data->GetNumberOfLines()));
+    const vtkIdType others = input.data->GetNumberOfVerts() + input.data->GetNumberOfLines();
+    key.settings.insert(
+      key.settings.end(), { input.casts ? 1.0 : 0.0, static_cast<double>(others) });
   }
   return key;
-}
-
-/// Return the lights as rays see them.
-/// @param reason receives why one of them cannot shine
-std::vector<gnomon::WeightedLight> weightedLights(const std::vector<AddedLight>& added,
-  const gnomon::SceneFrame& frame, double diameterDegrees, std::string& reason)
-{
-  const double radius = std::tan(glm::radians(0.5 * diameterDegrees));
-  std::vector<gnomon::WeightedLight> lights;
-  lights.reserve(added.size());
-  for (std::size_t i = 0; i < added.size(); ++i)
-  {
-    gnomon::ShadowLight light;
-    light.directionWorld = -added[i].towards;
-    if (added[i].light)
-    {
-      std::string why;
-      std::optional<gnomon::ShadowLight> place = gnomon::readPlace(added[i].light, why);
-      why = place ? gnomon::enterFrame(*place, frame) : why;
-      if (!why.empty())
-      {
-        reason = "light " + std::to_string(i) + ": " + why;
-        return {};
-      }
-      light = *place;
-    }
-    gnomon::WeightedLight weighted{ { light, frame.centre }, added[i].hours };
-    if (light.kind == gnomon::LightKind::Directional && !light.box)
-    {
-      const auto [x, y] = across(-light.directionWorld);
-      weighted.discX = radius * x;
-      weighted.discY = radius * y;
-    }
-    lights.push_back(weighted);
-  }
-  return lights;
 }
 
 } // namespace
@@ -468,8 +349,12 @@ int vtkGnomonVisibilityFilter::RequestData(
 {
   Internals& internal = *this->Internal;
   internal.unfinished = false;
-  const std::vector<gnomon::DataScene::Input> inputs = inputsOf(input, this->ReceiversCast);
-  vtkPolyData* const receivers = inputs.front().data;
+  vtkPolyData* const receivers = vtkPolyData::GetData(input[0]);
+  std::vector<gnomon::DataScene::Input> inputs = { { receivers, this->ReceiversCast } };
+  for (int i = 0; i < input[1]->GetNumberOfInformationObjects(); ++i)
+  {
+    inputs.push_back({ vtkPolyData::GetData(input[1], i), true });
+  }
   vtkPolyData* const result = vtkPolyData::GetData(output);
   result->ShallowCopy(receivers);
 
@@ -502,14 +387,9 @@ int vtkGnomonVisibilityFilter::RequestData(
     }
 
     Key runKey = std::move(sceneKey);
-    runKey.objects.emplace_back(this, internal.lightsTime.GetMTime());
-    for (const AddedLight& added : internal.lights)
-    {
-      if (added.light)
-      {
-        runKey.objects.emplace_back(added.light, gnomon::changeTime(added.light));
-      }
-    }
+    // Times grow, so the last change stands for all.
+    runKey.objects.emplace_back(
+      this, std::max(internal.lightsTime.GetMTime(), gnomon::changeTime(internal.lights)));
     runKey.settings.insert(runKey.settings.end(),
       { this->AngularDiameter, static_cast<double>(samples), static_cast<double>(this->Elements),
         static_cast<double>(this->ReceivingSide), this->Up[0], this->Up[1], this->Up[2],
@@ -523,7 +403,7 @@ int vtkGnomonVisibilityFilter::RequestData(
       internal.rays = 0;
       std::string reason;
       gnomon::VisibilityRun::Plan plan;
-      plan.lights = weightedLights(
+      plan.lights = gnomon::weightedLights(
         internal.lights, internal.scene->occluders().frame, this->AngularDiameter, reason);
       if (!reason.empty())
       {
@@ -531,7 +411,7 @@ int vtkGnomonVisibilityFilter::RequestData(
         return 1;
       }
       const glm::dvec3 up = glm::make_vec3(this->Up);
-      plan.up = isDirection(up) ? glm::vec3(glm::normalize(up)) : glm::vec3(0.0f);
+      plan.up = gnomon::isDirection(up) ? glm::vec3(glm::normalize(up)) : glm::vec3(0.0f);
       plan.explained =
         this->ExplainedLight < 0 ? lightCount - 1 : static_cast<std::size_t>(this->ExplainedLight);
       plan.bothSides = this->ReceivingSide == BOTH;
@@ -539,27 +419,28 @@ int vtkGnomonVisibilityFilter::RequestData(
       const vtkIdType count =
         ofPoints ? receivers->GetNumberOfPoints() : receivers->GetNumberOfCells();
       Results& results = internal.results = {};
-      results.fraction = arrayOf<vtkFloatArray>(GetLitFractionName(), count, 1, 0);
-      results.hours = arrayOf<vtkFloatArray>(GetHoursName(), count, 1, 0);
+      gnomon::VisibilityArrays& to = results.pointers;
+      to.fraction = results.add<vtkFloatArray>(GetLitFractionName(), count, 1, 0);
       if (samples > 1)
       {
-        results.error = arrayOf<vtkFloatArray>(GetLitFractionErrorName(), count, 1, 0);
+        to.error = results.add<vtkFloatArray>(GetLitFractionErrorName(), count, 1, 0);
       }
+      to.hours = results.add<vtkFloatArray>(GetHoursName(), count, 1, 0);
       if (this->ComputeBits)
       {
-        results.bits = arrayOf<vtkUnsignedCharArray>(
+        to.bits = results.add<vtkUnsignedCharArray>(
           GetBitsName(), count, static_cast<int>((lightCount + 7) / 8), 0);
       }
       if (this->ComputeReasons)
       {
-        results.why = arrayOf<vtkUnsignedCharArray>(GetWhyName(), count, 1, NO_SURFACE);
-        results.blocker = arrayOf<vtkIdTypeArray>(GetBlockerName(), count, 1, -1);
-        results.blockerInput = arrayOf<vtkIntArray>(GetBlockerInputName(), count, 1, -1);
+        to.fate = results.add<vtkUnsignedCharArray>(GetWhyName(), count, 1, NO_SURFACE);
+        to.blockerCell = results.add<vtkIdTypeArray>(GetBlockerName(), count, 1, -1);
+        to.blockerInput = results.add<vtkIntArray>(GetBlockerInputName(), count, 1, -1);
       }
       internal.starts.emplace(*internal.scene, ofPoints, samples, hasDisc,
         static_cast<gnomon::ReceivingSide>(this->ReceivingSide));
       internal.run.emplace(
-        *internal.scene, *internal.starts, *internal.tracer, std::move(plan), results.pointers());
+        *internal.scene, *internal.starts, *internal.tracer, std::move(plan), to);
       internal.runKey = std::move(runKey);
     }
 
@@ -585,8 +466,12 @@ int vtkGnomonVisibilityFilter::RequestData(
   if (internal.finished)
   {
     internal.dropRun();
-    internal.results.addTo(ofPoints ? static_cast<vtkDataSetAttributes*>(result->GetPointData())
-                                    : result->GetCellData());
+    auto* const data =
+      ofPoints ? static_cast<vtkDataSetAttributes*>(result->GetPointData()) : result->GetCellData();
+    for (const vtkSmartPointer<vtkDataArray>& array : internal.results.arrays)
+    {
+      data->AddArray(array);
+    }
   }
   return 1;
 }
