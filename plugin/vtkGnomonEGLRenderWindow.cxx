@@ -28,8 +28,8 @@ vtkStandardNewMacro(vtkGnomonEGLRenderWindow);
 namespace
 {
 
-/// X's interactors take a window's display for X's, and crash. An interactor that believes to be
-/// initialized, and done, does not ask for it. Naming its members through a subclass gives access.
+/// X's interactors take a window's display for X's, and crash. An interactor that is marked as
+/// initialized and done does not ask for it. Naming its members through a subclass gives access.
 struct XInteractorAccess : vtkRenderWindowInteractor
 {
   static void keepFromDisplay(vtkRenderWindowInteractor* interactor)
@@ -73,7 +73,6 @@ vtkGnomonEGLRenderWindow::vtkGnomonEGLRenderWindow()
 vtkGnomonEGLRenderWindow::~vtkGnomonEGLRenderWindow()
 {
   this->Finalize();
-
   vtkCollectionSimpleIterator iterator;
   this->Renderers->InitTraversal(iterator);
   while (vtkRenderer* renderer = this->Renderers->GetNextRenderer(iterator))
@@ -258,7 +257,6 @@ void vtkGnomonEGLRenderWindow::OpenGLInitContext()
   }
   this->TellOfContext("");
   this->Initialized = true;
-
   GLfloat lineWidths[2] = { 1.0f, 1.0f };
   glGetFloatv(
     this->LineSmoothing ? GL_SMOOTH_LINE_WIDTH_RANGE : GL_ALIASED_LINE_WIDTH_RANGE, lineWidths);
@@ -324,8 +322,7 @@ void vtkGnomonEGLRenderWindow::SetInteractor(vtkRenderWindowInteractor* interact
 int* vtkGnomonEGLRenderWindow::GetScreenSize()
 {
   // A screen of the window's own size.
-  this->ScreenSize[0] = this->Size[0];
-  this->ScreenSize[1] = this->Size[1];
+  std::copy_n(this->Size, 2, this->ScreenSize);
   return this->ScreenSize;
 }
 
@@ -375,13 +372,13 @@ bool vtkGnomonEGLRenderWindow::IsSelecting()
 int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 {
   const gnomon::CurrentContext restored;
+  if (rgba)
+  {
+    std::fill_n(rgba, 4, 0);
+  }
+  // A context without a surface has no other buffers, and newer VTK warns when it asks for them.
   if (!rgba || !this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
   {
-    // A context without a surface has no other buffers, and newer VTK warns when it asks for them.
-    if (rgba)
-    {
-      std::fill_n(rgba, 4, 0);
-    }
     return 0;
   }
   this->GetState()->PushFramebufferBindings();
@@ -395,10 +392,9 @@ int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 int vtkGnomonEGLRenderWindow::GetDepthBufferSize()
 {
   const gnomon::CurrentContext restored;
-  constexpr int usual = 24;
   if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
   {
-    return usual;
+    return 24; // as in VTK's own windows
   }
   this->GetState()->PushFramebufferBindings();
   this->RenderFramebuffer->Bind();
