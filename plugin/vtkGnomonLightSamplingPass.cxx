@@ -1,12 +1,12 @@
 #include "vtkGnomonLightSamplingPass.h"
 
+#include "lights/Hash.h"
 #include "lights/LightManager.h"
 #include "lights/LightSamples.h"
 #include "plugin/frame/Complaints.h"
 #include "plugin/frame/PictureTimer.h"
 #include "plugin/frame/PointLights.h"
 #include "plugin/frame/Progress.h"
-#include "lights/Hash.h"
 #include "plugin/scene/ShownScene.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PassContext.h"

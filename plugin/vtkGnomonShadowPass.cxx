@@ -1,47 +1,28 @@
-#include "vtkGnomonShadowPass.h"
+#include "vtkGnomonShadowPassInternals.h"
 
-#include "lights/SettingsTable.h"
-#include "plugin/frame/Complaints.h"
-#include "plugin/plan/FrameWishes.h"
-#include "plugin/frame/OtherFrames.h"
-#include "plugin/frame/PictureTimer.h"
+#include "plugin/frame/FrameWords.h"
 #include "plugin/frame/Progress.h"
 #include "plugin/frame/ReceiverDrawing.h"
-#include "plugin/frame/RenderManager.h"
-#include "plugin/frame/ReportText.h"
-#include "plugin/frame/VisibilityData.h"
-#include "plugin/ranks/Ranks.h"
+#include "plugin/plan/FrameWishes.h"
 #include "plugin/scene/DrawnLookup.h"
-#include "plugin/scene/ShownView.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
 #include "plugin/window/AroundOpaque.h"
-#include "plugin/window/PassContext.h"
-#include "shadowtech/Registry.h"
+#include "plugin/window/RendererScopes.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
 
-#include "vtkGnomonShadowSettings.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
 #include "vtkMultiProcessController.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkProp.h"
 #include "vtkRenderState.h"
-#include "vtkRenderStepsPass.h"
-#include "vtkRenderer.h"
-#include "vtkSmartPointer.h"
-#include "vtkWeakPointer.h"
 
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <list>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -104,52 +85,6 @@ void nameInKeys(const vtkRenderState* s, vtkObjectBase* pass)
 } // namespace
 
 //------------------------------------------------------------------------------
-struct vtkGnomonShadowPass::Internals
-{
-  explicit Internals(vtkGnomonShadowPass* pass)
-    : pictureTimer(pass)
-    , otherFrames([this](vtkRenderer* renderer) { this->tellOfOther(renderer); })
-  {
-  }
-
-  /// A renderer's frames: each renderer has values of its own.
-  struct RendererFrames
-  {
-    vtkWeakPointer<vtkRenderer> renderer;
-    std::unique_ptr<gnomon::RenderManager> manager;
-  };
-
-  vtkSmartPointer<vtkGnomonShadowSettings> settings =
-    vtkSmartPointer<vtkGnomonShadowSettings>::New(); ///< of lights that say nothing
-  std::unique_ptr<gnomon::PassPrograms> programs = std::make_unique<gnomon::PassPrograms>();
-  std::list<RendererFrames> renderers; ///< those drawn so far, the last one first
-  gnomon::ViewCount viewCount;
-  vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
-  bool shadowed = false;            ///< whether the last frame was the manager's, which has it
-  ///@{
-  /// Of a frame that was drawn without the manager, or that the manager's resources outlived.
-  gnomon::FrameReport report;
-  gnomon::VisibilityImages visibility;
-  ///@}
-  double progress = 1.0; ///< of the last frame that was no selection's
-  gnomon::Complaints complaints;
-
-  std::optional<gnomon::CostFactors> factors; ///< none: the default ones
-  gnomon::PictureTimer pictureTimer;
-  gnomon::OtherFrames otherFrames;
-
-  std::unique_ptr<gnomon::Ranks> ranks; ///< of the last controller with several processes, or null
-
-  gnomon::PassContext context; ///< which holds the managers' GL objects
-
-  gnomon::RenderManager& managerOf(vtkRenderer* renderer);
-  gnomon::Ranks* updateRanks(vtkMultiProcessController* controller);
-  void keepLastFrame();
-  void tellOfOther(vtkRenderer* renderer);
-  gnomon::RenderManager& manager() { return *this->renderers.front().manager; }
-};
-
-//------------------------------------------------------------------------------
 /// The manager of a renderer's frames, which becomes manager(). Those of renderers that are gone
 /// go, too; the context is current.
 gnomon::RenderManager& vtkGnomonShadowPass::Internals::managerOf(vtkRenderer* renderer)
@@ -207,91 +142,6 @@ gnomon::Ranks* vtkGnomonShadowPass::Internals::updateRanks(vtkMultiProcessContro
   return this->ranks.get();
 }
 
-namespace
-{
-
-/// Has a renderer draw into the lower left part of its viewport, for as long as this lives.
-class ReducedPicture
-{
-public:
-  ReducedPicture(vtkRenderer* renderer, int factor)
-    : renderer_(renderer)
-  {
-    renderer->GetViewport(this->before_);
-    const int* const window = renderer->GetRenderWindow()->GetActualSize();
-    if (factor == 1 || window[0] < 1 || window[1] < 1)
-    {
-      return;
-    }
-    int size[2];
-    int origin[2];
-    renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
-    const double* const tile = renderer->GetRenderWindow()->GetTileViewport();
-    double viewport[4];
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      const int last = origin[axis] + std::max(size[axis] / factor, 1);
-      const double side = tile[axis + 2] - tile[axis];
-      viewport[axis] = std::max(this->before_[axis], tile[axis]);
-      viewport[axis + 2] = tile[axis] + side * last / window[axis];
-    }
-    renderer->SetViewport(viewport);
-  }
-  ~ReducedPicture()
-  {
-    this->renderer_->SetViewport(this->before_); // which tells observers of changes alone
-  }
-  ReducedPicture(const ReducedPicture&) = delete;
-  ReducedPicture& operator=(const ReducedPicture&) = delete;
-
-private:
-  vtkRenderer* renderer_;
-  double before_[4];
-};
-
-struct RendererAccess : vtkRenderer
-{
-  static vtkTypeBool& useShadows(vtkRenderer* renderer)
-  {
-    return renderer->*(&RendererAccess::UseShadows);
-  }
-};
-
-/// Switches a renderer's UseShadows off for as long as this lives: vtkOpenGLRenderer's
-/// UpdateGeometry would draw the props with vtkShadowMapPass, within our own frame. Naming the
-/// member through a subclass gives access to it; the renderer's own function would tell all
-/// observers that the renderer was modified.
-class WithoutVtkShadows
-{
-public:
-  explicit WithoutVtkShadows(vtkRenderer* renderer)
-    : useShadows_(RendererAccess::useShadows(renderer))
-    , before_(this->useShadows_)
-  {
-    this->useShadows_ = 0;
-  }
-  ~WithoutVtkShadows() { this->useShadows_ = this->before_; }
-  WithoutVtkShadows(const WithoutVtkShadows&) = delete;
-  WithoutVtkShadows& operator=(const WithoutVtkShadows&) = delete;
-
-private:
-  vtkTypeBool& useShadows_;
-  vtkTypeBool before_;
-};
-
-/// Of the light that has the least of its points in the picture.
-double leastProgress(const gnomon::FrameReport& report)
-{
-  double progress = 1.0;
-  for (const gnomon::LightReport& light : report.lights)
-  {
-    progress = std::min(progress, light.progress);
-  }
-  return progress;
-}
-
-} // namespace
-
 //------------------------------------------------------------------------------
 vtkGnomonShadowPass::vtkGnomonShadowPass()
   : Internal(new Internals(this))
@@ -315,6 +165,26 @@ vtkCxxSetObjectMacro(vtkGnomonShadowPass, DelegatePass, vtkRenderPass);
 vtkCxxSetObjectMacro(vtkGnomonShadowPass, Controller, vtkMultiProcessController);
 
 //------------------------------------------------------------------------------
+/// Names a pass in the props' keys, so that their mappers call the hook, for as long as this lives.
+class vtkGnomonShadowPass::HookMarks
+{
+public:
+  HookMarks(vtkGnomonShadowPass* pass, const vtkRenderState* s)
+    : pass_(pass)
+    , state_(s)
+  {
+    nameInKeys(s, pass);
+  }
+  ~HookMarks() { this->pass_->PostRender(this->state_); }
+  HookMarks(const HookMarks&) = delete;
+  HookMarks& operator=(const HookMarks&) = delete;
+
+private:
+  vtkGnomonShadowPass* pass_;
+  const vtkRenderState* state_;
+};
+
+//------------------------------------------------------------------------------
 void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();
@@ -325,122 +195,60 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->DrawPlain(s); // and what refines goes on after it
     return;
   }
-  const gnomon::ShownPicture picture = this->RenderPicture(s);
+  const double progressBefore = std::exchange(this->Internal->progress, 1.0);
+  gnomon::FrameEnd end;
+  do
+  {
+    end = this->DrawFrame(s);
+  } while (end.isToBeDrawnAgain); // at most once: the shaders that it asks for stay
+  if (end.whyPlain)
+  {
+    this->EndPlain(s, end);
+  }
+  else
+  {
+    gnomon::tellProgress(this, progressBefore, this->Internal->progress);
+  }
+  if (end.measuresProcesses)
+  {
+    this->CompareSurfaces(s, end.whyPlain.has_value());
+  }
   this->Internal->pictureTimer.drawn(renderer->GetRenderWindow(),
-    this->Interactive == INTERACTIVE_AUTO ? picture : gnomon::ShownPicture{});
+    this->Interactive == INTERACTIVE_AUTO ? end.picture : gnomon::ShownPicture{});
 }
 
 //------------------------------------------------------------------------------
-gnomon::ShownPicture vtkGnomonShadowPass::RenderPicture(const vtkRenderState* s)
+/// Draw a frame with shadows, if it can have them.
+gnomon::FrameEnd vtkGnomonShadowPass::DrawFrame(const vtkRenderState* s)
 {
+  gnomon::FrameEnd end;
   vtkRenderer* renderer = s->GetRenderer();
-  gnomon::ShownPicture picture;
-  const double progressBefore = this->Internal->progress;
-  this->Internal->progress = 1.0;
   if (this->ObeyUseShadows && !renderer->GetUseShadows())
   {
-    this->RenderPlain(s, "the renderer's UseShadows is off");
-    return picture;
+    end.whyPlain = "the renderer's UseShadows is off";
+    return end;
   }
   if (!hasPixels(s))
   {
-    this->TellPlain("its viewport has no pixels");
-    return picture;
+    end.whyPlain = "its viewport has no pixels";
+    end.isDrawn = true;
+    return end;
   }
-  std::string whyNot = this->Internal->context.enter(this, renderer, { 3, 2 });
   gnomon::Ranks* ranks = nullptr;
-  try
+  end.whyPlain = this->EnterContext(renderer, ranks);
+  if (end.whyPlain)
   {
-    ranks = this->Internal->updateRanks(this->Controller);
-    whyNot = ranks ? ranks->beginFrame(whyNot) : whyNot;
+    return end;
   }
-  catch (const std::exception& error)
-  {
-    whyNot = error.what();
-  }
-  this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Context, whyNot);
-  if (!whyNot.empty())
-  {
-    this->RenderPlain(s, ranks ? "a process cannot draw shadows" : "OpenGL 3.2 is not available");
-    return picture;
-  }
-
   gnomon::RenderManager& manager = this->Internal->managerOf(renderer);
-  bool marked = false;
-  bool drawn = false;
-  bool failed = false;
-  bool again = false;
-  bool outOfTextureMemory = false;
-  bool measures = false; // on all processes
-  std::optional<tbb::global_control> threads;
   try
   {
-    gnomon::FrameWishes wishes = this->Wishes();
-    if (ranks)
-    {
-      threads.emplace(tbb::global_control::max_allowed_parallelism, ranks->threads());
-      measures = wishes.measureStages = ranks->isAny(wishes.measureStages);
-      wishes.keepVisibility = ranks->isAny(wishes.keepVisibility);
-    }
-    manager.beginFrame(wishes, ranks);
-
-    // lights
-    std::optional<ReducedPicture> reduced(std::in_place, renderer, wishes.reductionFactor);
-    this->BeginView(s);
-    const bool goesOn = manager.collectLights(renderer, this->Internal->settings->GetValues(),
-      this->Internal->viewCount.areSeveral(renderer));
-    this->TellOfLights(renderer);
-    if (goesOn)
-    {
-      // occluders
-      manager.collectOccluders(s);
-      this->TellWhatIsLeftOut(renderer);
-
-      // choice
-      picture.moves = this->Moves(s);
-      picture.isApproximate = manager.chooseTechniques(picture.moves, this->MayRefine(s));
-
-      // From here on, mappers call the hook.
-      const vtkRenderPass* delegate = this->FindDelegate(s);
-      const bool isTaken = manager.chooseRoute(s, !delegate || delegate == this->Internal->steps);
-      this->TellOfRoute(renderer, isTaken);
-      nameInKeys(s, this);
-      marked = true;
-    }
-    if (goesOn && manager.route() == gnomon::Route::Deferred)
-    {
-      drawn = true;
-      this->DrawDeferred(s);
-    }
-    else
-    {
-      if (goesOn)
-      {
-        this->ComputeShadows(s);
-      }
-      if (ranks)
-      {
-        ranks->endFrame();
-      }
-      reduced.reset();
-      drawn = true;
-      this->DrawScene(s);
-    }
-    if (goesOn)
-    {
-      this->TellOfResolution(s, manager.endShading());
-    }
-    manager.endFrame(s);
-    this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Frame, "");
-    this->Internal->shadowed = true;
-    this->Internal->visibility = {};
-    this->Internal->progress = leastProgress(manager.report());
-    picture.progress = this->Internal->progress;
+    this->DrawShadows(s, ranks, end);
   }
   catch (const gnomon::FrameMustBeDrawnAgain&)
   {
     manager.abandonFrame();
-    again = true;
+    end.isToBeDrawnAgain = true;
   }
   catch (const std::exception& error)
   {
@@ -451,36 +259,127 @@ gnomon::ShownPicture vtkGnomonShadowPass::RenderPicture(const vtkRenderState* s)
     this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Frame,
       std::string("The scene is drawn without shadows: ") + error.what());
     manager.abandonFrame();
-    failed = true;
-    outOfTextureMemory = dynamic_cast<const gnomon::TextureMemoryError*>(&error) != nullptr;
+    end.whyPlain = "an error was met";
+    end.outOfTextureMemory = dynamic_cast<const gnomon::TextureMemoryError*>(&error) != nullptr;
   }
-  if (marked)
+  return end;
+}
+
+//------------------------------------------------------------------------------
+/// Make the renderer's context this pass's, and find the processes that draw the picture.
+/// @param ranks receives them; null for this process alone
+/// @return why there can be no shadows, as a clause; nothing if there can
+std::optional<std::string> vtkGnomonShadowPass::EnterContext(
+  vtkRenderer* renderer, gnomon::Ranks*& ranks)
+{
+  std::string whyNot = this->Internal->context.enter(this, renderer, { 3, 2 });
+  try
   {
-    this->PostRender(s);
+    ranks = this->Internal->updateRanks(this->Controller);
+    whyNot = ranks ? ranks->beginFrame(whyNot) : whyNot;
   }
-  if (again)
+  catch (const std::exception& error)
   {
-    return this->RenderPicture(s);
+    whyNot = error.what();
   }
-  if (failed)
+  this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Context, whyNot);
+  return whyNot.empty() ? std::optional<std::string>()
+    : ranks             ? "a process cannot draw shadows"
+                        : "OpenGL 3.2 is not available";
+}
+
+//------------------------------------------------------------------------------
+/// The frame's stages, from top to bottom.
+/// @param ranks the processes that draw the picture; null for this one alone
+/// @throws std::exception for a frame without shadows
+void vtkGnomonShadowPass::DrawShadows(
+  const vtkRenderState* s, gnomon::Ranks* ranks, gnomon::FrameEnd& end)
+{
+  vtkRenderer* renderer = s->GetRenderer();
+  gnomon::RenderManager& manager = this->Internal->manager();
+  gnomon::Complaints& complaints = this->Internal->complaints;
+  std::optional<tbb::global_control> threads;
+  gnomon::FrameWishes wishes = this->Wishes();
+  if (ranks)
   {
-    picture = {};
-    this->TellPlain("an error was met");
-    this->Internal->report.outOfTextureMemory = outOfTextureMemory;
-    if (!drawn)
-    {
-      this->DrawPlain(s);
-    }
+    threads.emplace(tbb::global_control::max_allowed_parallelism, ranks->threads());
+    end.measuresProcesses = wishes.measureStages = ranks->isAny(wishes.measureStages);
+    wishes.keepVisibility = ranks->isAny(wishes.keepVisibility);
+  }
+  manager.beginFrame(wishes, ranks);
+
+  // lights
+  std::optional<gnomon::ReducedPicture> reduced(std::in_place, renderer, wishes.reductionFactor);
+  this->BeginView(s);
+  const bool goesOn = manager.collectLights(renderer, this->Internal->settings->GetValues(),
+    this->Internal->viewCount.areSeveral(renderer));
+  gnomon::tellOfLights(this, renderer, complaints, manager.report());
+  std::optional<HookMarks> marks;
+  if (goesOn)
+  {
+    // occluders
+    manager.collectOccluders(s);
+    gnomon::tellWhatIsLeftOut(this, renderer, complaints, manager.report());
+
+    // choice
+    end.picture.moves = this->Moves(s);
+    end.picture.isApproximate = manager.chooseTechniques(end.picture.moves, this->MayRefine(s));
+    const vtkRenderPass* delegate = this->FindDelegate(s);
+    const bool isTaken = manager.chooseRoute(s, !delegate || delegate == this->Internal->steps);
+    gnomon::tellOfRoute(this, renderer, complaints, manager.report(),
+      isTaken                         ? ""
+        : this->Route == ROUTE_INLINE ? "inline"
+                                      : "deferred");
+    marks.emplace(this, s); // from here on, mappers call the hook
+  }
+  if (goesOn && manager.route() == gnomon::Route::Deferred)
+  {
+    end.isDrawn = true;
+    this->DrawDeferred(s);
   }
   else
   {
-    gnomon::tellProgress(this, progressBefore, this->Internal->progress);
+    if (goesOn)
+    {
+      this->ComputeShadows(s);
+    }
+    if (ranks)
+    {
+      ranks->endFrame();
+    }
+    reduced.reset();
+    end.isDrawn = true;
+    this->DrawScene(s);
   }
-  if (measures)
+  if (goesOn)
   {
-    this->CompareSurfaces(s, failed);
+    const vtkRenderPass* delegate = this->FindDelegate(s);
+    gnomon::tellOfResolution(this, renderer, complaints, manager.report(),
+      manager.endShading() ? ""
+        : delegate         ? delegate->GetClassName()
+                           : "the renderer");
   }
-  return picture;
+  manager.endFrame(s);
+  complaints.tellError(this, renderer, gnomon::Topic::Frame, "");
+  this->Internal->shadowed = true;
+  this->Internal->visibility = {};
+  end.picture.progress = this->Internal->progress = manager.progress();
+}
+
+//------------------------------------------------------------------------------
+/// End a frame that has no shadows: report why, and draw it unless it is drawn.
+void vtkGnomonShadowPass::EndPlain(const vtkRenderState* s, const gnomon::FrameEnd& end)
+{
+  this->Internal->shadowed = false;
+  this->Internal->visibility = {};
+  this->Internal->report = gnomon::FrameReport{};
+  this->Internal->report.route = "none";
+  this->Internal->report.routeReason = *end.whyPlain;
+  this->Internal->report.outOfTextureMemory = end.outOfTextureMemory;
+  if (!end.isDrawn)
+  {
+    this->DrawPlain(s);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -556,66 +455,6 @@ void vtkGnomonShadowPass::DrawDeferred(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::TellOfLights(vtkRenderer* renderer)
-{
-  gnomon::Complaints& complaints = this->Internal->complaints;
-  const gnomon::FrameReport& report = this->Internal->manager().report();
-  for (const std::string& misfit : complaints.news(renderer, gnomon::Topic::Lights, report.misfits))
-  {
-    gnomon::tell(this, vtkCommand::ErrorEvent, misfit + ".");
-  }
-  const std::string warning = complaints.news(renderer, gnomon::Topic::Headlight,
-    report.headlightIsAlone
-      ? "The only light is a headlight, which casts no shadow that could be seen. Add a "
-        "light, as vtkGnomonLightPlacement::MakeKeyLight() makes it, or have the "
-        "headlight cast by vtkGnomonLightKeys::SetCasts()."
-      : "");
-  gnomon::tell(this, vtkCommand::WarningEvent, warning);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::TellWhatIsLeftOut(vtkRenderer* renderer)
-{
-  const std::string kinds = gnomon::listOf(this->Internal->complaints.news(
-    renderer, gnomon::Topic::LeftOut, this->Internal->manager().report().leftOut));
-  if (!kinds.empty())
-  {
-    gnomon::tell(this, vtkCommand::WarningEvent,
-      "Visible and lit, but without shadows: " + kinds +
-        ". See docs/guide/what_casts.md for what casts and receives.");
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::TellOfRoute(vtkRenderer* renderer, bool isTaken)
-{
-  std::string error;
-  if (!isTaken)
-  {
-    error = std::string("The ") + (this->Route == ROUTE_INLINE ? "inline" : "deferred") +
-      " route was asked for, but " + this->Internal->manager().report().routeReason +
-      "; this frame takes the image route.";
-  }
-  this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Route, error);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::TellOfResolution(const vtkRenderState* s, bool isReceivers)
-{
-  std::string error;
-  if (!isReceivers)
-  {
-    const vtkRenderPass* delegate = this->FindDelegate(s);
-    error = std::string("Props were drawn without shadows: ") +
-      (delegate ? delegate->GetClassName() : "the renderer") +
-      " shades at another resolution than the receivers were drawn, and " +
-      this->Internal->manager().report().routeReason +
-      ". Let such a pass have this one as its delegate instead.";
-  }
-  this->Internal->complaints.tellError(this, s->GetRenderer(), gnomon::Topic::Resolution, error);
-}
-
-//------------------------------------------------------------------------------
 vtkRenderPass* vtkGnomonShadowPass::FindDelegate(const vtkRenderState* s)
 {
   if (s->GetRenderer()->GetSelector())
@@ -681,7 +520,7 @@ bool vtkGnomonShadowPass::MayRefine(const vtkRenderState* s)
 void vtkGnomonShadowPass::DrawScene(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();
-  const WithoutVtkShadows withoutVtkShadows(renderer);
+  const gnomon::WithoutVtkShadows withoutVtkShadows(renderer);
   if (vtkRenderPass* delegate = this->FindDelegate(s))
   {
     delegate->Render(s);
@@ -695,27 +534,10 @@ void vtkGnomonShadowPass::DrawScene(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::TellPlain(const char* reason)
-{
-  this->Internal->shadowed = false;
-  this->Internal->visibility = {};
-  this->Internal->report = gnomon::FrameReport{};
-  this->Internal->report.route = "none";
-  this->Internal->report.routeReason = reason;
-}
-
-//------------------------------------------------------------------------------
 void vtkGnomonShadowPass::DrawPlain(const vtkRenderState* s)
 {
   this->BeginView(s);
   this->DrawScene(s);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::RenderPlain(const vtkRenderState* s, const char* reason)
-{
-  this->TellPlain(reason);
-  this->DrawPlain(s);
 }
 
 //------------------------------------------------------------------------------
@@ -740,215 +562,6 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
       this->Internal->renderers.clear();
       this->Internal->programs = std::make_unique<gnomon::PassPrograms>();
     });
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::SetMaximumError(double share)
-{
-  this->SetNumber("MaximumError", share, 1.0, this->MaximumError);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::SetMaximumSoftError(double rootMeanSquare)
-{
-  this->SetNumber("MaximumSoftError", rootMeanSquare, 1.0, this->MaximumSoftError);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::SetTimeBudget(double milliseconds)
-{
-  this->SetNumber("TimeBudget", milliseconds, VTK_DOUBLE_MAX, this->TimeBudget);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::SetMemoryBudget(double mebibytes)
-{
-  this->SetNumber("MemoryBudget", mebibytes, 1e9, this->MemoryBudget);
-}
-
-//------------------------------------------------------------------------------
-/// Sets a number in [0, most]; anything else is an error and changes nothing.
-void vtkGnomonShadowPass::SetNumber(const char* name, double value, double most, double& number)
-{
-  if (!(value >= 0.0 && value <= most))
-  {
-    vtkErrorMacro(<< name << " was to be " << value << ", expected a number in [0, " << most
-                  << "].");
-    return;
-  }
-  if (number != value)
-  {
-    number = value;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::ReadCostFactors(const char* path)
-{
-  try
-  {
-    this->Internal->factors =
-      path && *path ? std::optional(gnomon::readFactors(path)) : std::nullopt;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro("Cost factors: " << error.what() << ".");
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::SetSettings(vtkGnomonShadowSettings* settings)
-{
-  vtkSmartPointer<vtkGnomonShadowSettings>& held = this->Internal->settings;
-  if (settings != held)
-  {
-    held = settings;
-    if (!settings)
-    {
-      held = vtkSmartPointer<vtkGnomonShadowSettings>::New();
-    }
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkGnomonShadowSettings* vtkGnomonShadowPass::GetSettings()
-{
-  return this->Internal->settings;
-}
-
-//------------------------------------------------------------------------------
-bool vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
-{
-  const vtkMTimeType before = this->Internal->settings->GetMTime();
-  const bool isSet = this->Internal->settings->TrySetting(name, value);
-  if (!isSet)
-  {
-    vtkErrorMacro(<< this->GetSettingError() << ".");
-  }
-  else if (this->Internal->settings->GetMTime() != before)
-  {
-    this->Modified();
-  }
-  return isSet;
-}
-
-//------------------------------------------------------------------------------
-std::string vtkGnomonShadowPass::GetSettingError() const
-{
-  return this->Internal->settings->GetSettingError();
-}
-
-//------------------------------------------------------------------------------
-std::string vtkGnomonShadowPass::GetSetting(const char* name) const
-{
-  return this->Internal->settings->GetSetting(name);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::SetMapSize(int mapSizeTexels)
-{
-  const vtkMTimeType before = this->Internal->settings->GetMTime();
-  this->Internal->settings->SetMapSize(mapSizeTexels);
-  if (this->Internal->settings->GetMTime() != before)
-  {
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-int vtkGnomonShadowPass::GetMapSize() const
-{
-  return this->Internal->settings->GetMapSize();
-}
-
-//------------------------------------------------------------------------------
-bool vtkGnomonShadowPass::SetTechnique(const char* name)
-{
-  return this->SetSetting("technique", name);
-}
-
-//------------------------------------------------------------------------------
-const char* vtkGnomonShadowPass::GetTechnique() const
-{
-  const std::string& technique = this->Internal->settings->GetValues().technique;
-  return technique.empty() ? gnomon::defaultTechnique : technique.c_str();
-}
-
-//------------------------------------------------------------------------------
-const char* vtkGnomonShadowPass::GetDefaultTechnique()
-{
-  return gnomon::defaultTechnique;
-}
-
-//------------------------------------------------------------------------------
-int vtkGnomonShadowPass::GetNumberOfTechniques()
-{
-  return static_cast<int>(gnomon::registry().size());
-}
-
-//------------------------------------------------------------------------------
-const char* vtkGnomonShadowPass::GetTechniqueName(int index)
-{
-  return index >= 0 && index < GetNumberOfTechniques()
-    ? gnomon::registry()[static_cast<std::size_t>(index)].name.c_str()
-    : nullptr;
-}
-
-//------------------------------------------------------------------------------
-const char* vtkGnomonShadowPass::GetTechniqueSummary(int index)
-{
-  return index >= 0 && index < GetNumberOfTechniques()
-    ? gnomon::registry()[static_cast<std::size_t>(index)].summary.c_str()
-    : nullptr;
-}
-
-//------------------------------------------------------------------------------
-const gnomon::FrameReport& vtkGnomonShadowPass::GetReport() const
-{
-  return this->Internal->shadowed ? this->Internal->manager().report() : this->Internal->report;
-}
-
-//------------------------------------------------------------------------------
-double vtkGnomonShadowPass::GetProgress() const
-{
-  return this->Internal->progress;
-}
-
-//------------------------------------------------------------------------------
-const gnomon::VisibilityImages& vtkGnomonShadowPass::GetVisibility() const
-{
-  return this->Internal->shadowed ? this->Internal->manager().visibility()
-                                  : this->Internal->visibility;
-}
-
-//------------------------------------------------------------------------------
-std::string vtkGnomonShadowPass::GetReportText() const
-{
-  return gnomon::textOf(this->GetReport());
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::GetReportTable(vtkTable* lights) const
-{
-  if (!lights)
-  {
-    vtkErrorMacro("The report needs a table to fill.");
-    return;
-  }
-  gnomon::fillTable(this->GetReport(), lights);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::GetVisibilityImage(vtkImageData* image) const
-{
-  if (!image)
-  {
-    vtkErrorMacro("The visibility needs an image to fill.");
-    return;
-  }
-  gnomon::fillImage(this->GetVisibility(), image);
 }
 
 //------------------------------------------------------------------------------
@@ -985,44 +598,7 @@ bool vtkGnomonShadowPass::SetShaderParameters(vtkShaderProgram* program, vtkAbst
 }
 
 //------------------------------------------------------------------------------
-vtkMTimeType vtkGnomonShadowPass::GetMTime()
-{
-  return std::max(this->Superclass::GetMTime(), this->Internal->settings->GetMTime());
-}
-
-//------------------------------------------------------------------------------
 vtkMTimeType vtkGnomonShadowPass::GetShaderStageMTime()
 {
   return this->Internal->programs->shaders.stageTime();
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  const char* const routes[] = { "auto", "inline", "image", "deferred" };
-  os << indent << "Settings:\n";
-  this->Internal->settings->PrintSelf(os, indent.GetNextIndent());
-  os << indent << "Route: " << routes[this->Route] << "\n";
-  os << indent << "SmoothTerminators: " << (this->SmoothTerminators ? "on" : "off") << "\n";
-  const char* const castings[] = { "auto", "all", "brightest" };
-  os << indent << "Casting: " << castings[this->Casting] << "\n";
-  const char* const interactives[] = { "auto", "off", "on" };
-  os << indent << "Interactive: " << interactives[this->Interactive] << "\n";
-  os << indent << "MaximumError: " << this->MaximumError << "\n";
-  os << indent << "MaximumSoftError: " << this->MaximumSoftError << "\n";
-  os << indent << "TimeBudget: " << this->TimeBudget << " ms\n";
-  os << indent << "MemoryBudget: " << this->MemoryBudget << " MiB\n";
-  os << indent << "CostFactors: " << (this->Internal->factors ? "read" : "default") << "\n";
-  os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
-  os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";
-  os << indent
-     << "DelegatePass: " << (this->DelegatePass ? this->DelegatePass->GetClassName() : "(none)")
-     << "\n";
-  os << indent << "Controller: " << (this->Controller ? this->Controller->GetClassName() : "(none)")
-     << "\n";
-  os << indent << "ImageReductionFactor: " << this->ImageReductionFactor << "\n";
-  os << indent << "ObeyUseShadows: " << (this->ObeyUseShadows ? "on" : "off") << "\n";
-  os << indent << "Progress: " << this->GetProgress() << "\n";
-  os << indent << "Last frame's route: " << this->GetReport().route << "\n";
 }

@@ -39,7 +39,9 @@
 #include "vtkOpenGLRenderPass.h"
 #include "vtkWrappingHints.h" // For VTK_EXPECTS
 
-#include <memory> // For std::unique_ptr
+#include <memory>   // For std::unique_ptr
+#include <optional> // For std::optional
+#include <string>   // For std::string
 
 class vtkGnomonShadowSettings;
 VTK_ABI_NAMESPACE_BEGIN
@@ -51,9 +53,10 @@ VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {
-struct ShownPicture;
+struct FrameEnd;
 struct FrameReport;
 struct FrameWishes;
+class Ranks;
 struct VisibilityImages;
 }
 
@@ -444,7 +447,11 @@ protected:
 private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
   void SetNumber(const char* name, double value, double most, double& number);
-  gnomon::ShownPicture RenderPicture(const vtkRenderState* s);
+  class HookMarks;
+  gnomon::FrameEnd DrawFrame(const vtkRenderState* s);
+  std::optional<std::string> EnterContext(vtkRenderer* renderer, gnomon::Ranks*& ranks);
+  void DrawShadows(const vtkRenderState* s, gnomon::Ranks* ranks, gnomon::FrameEnd& end);
+  void EndPlain(const vtkRenderState* s, const gnomon::FrameEnd& end);
   bool Moves(const vtkRenderState* s);
   bool MayRefine(const vtkRenderState* s);
   gnomon::FrameWishes Wishes() const;
@@ -453,13 +460,7 @@ private:
   void ComputeShadows(const vtkRenderState* s);
   void DrawDeferred(const vtkRenderState* s);
   void CompareSurfaces(const vtkRenderState* s, bool failed);
-  void TellPlain(const char* reason);
   void DrawPlain(const vtkRenderState* s);
-  void RenderPlain(const vtkRenderState* s, const char* reason);
-  void TellOfLights(vtkRenderer* renderer);
-  void TellWhatIsLeftOut(vtkRenderer* renderer);
-  void TellOfRoute(vtkRenderer* renderer, bool isTaken);
-  void TellOfResolution(const vtkRenderState* s, bool isReceivers);
 
   vtkGnomonShadowPass(const vtkGnomonShadowPass&) = delete;
   void operator=(const vtkGnomonShadowPass&) = delete;

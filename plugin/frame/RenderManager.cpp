@@ -619,6 +619,17 @@ void RenderManager::endFrame(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
+double RenderManager::progress() const
+{
+  double progress = 1.0;
+  for (const LightReport& light : this->frame_.report.lights)
+  {
+    progress = std::min(progress, light.progress);
+  }
+  return progress;
+}
+
+//------------------------------------------------------------------------------
 void RenderManager::abandonFrame()
 {
   this->programs_.shaders.endStage();

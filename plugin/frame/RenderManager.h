@@ -127,6 +127,8 @@ public:
 
   /// For the hook: sets a program's parameters for the prop that is about to be drawn.
   void setShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop);
+  /// Return the share of its points that the light with the fewest shows (LightReport::progress).
+  double progress() const;
   const FrameReport& report() const { return this->frame_.report; }
   const VisibilityImages& visibility() const { return this->visibility_.images(); }
 

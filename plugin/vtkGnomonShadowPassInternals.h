@@ -1,0 +1,71 @@
+// Shared by the two sources of vtkGnomonShadowPass.
+#pragma once
+
+#include "vtkGnomonShadowPass.h"
+
+#include "plugin/frame/Complaints.h"
+#include "plugin/frame/FrameEnd.h"
+#include "plugin/frame/OtherFrames.h"
+#include "plugin/frame/PictureTimer.h"
+#include "plugin/frame/RenderManager.h"
+#include "plugin/ranks/Ranks.h"
+#include "plugin/scene/ShownView.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
+#include "plugin/window/PassContext.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
+
+#include "vtkGnomonShadowSettings.h"
+#include "vtkNew.h"
+#include "vtkRenderStepsPass.h"
+#include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <list>
+#include <memory>
+#include <optional>
+
+struct vtkGnomonShadowPass::Internals
+{
+  explicit Internals(vtkGnomonShadowPass* pass)
+    : pictureTimer(pass)
+    , otherFrames([this](vtkRenderer* renderer) { this->tellOfOther(renderer); })
+  {
+  }
+
+  /// A renderer's frames: each renderer has values of its own.
+  struct RendererFrames
+  {
+    vtkWeakPointer<vtkRenderer> renderer;
+    std::unique_ptr<gnomon::RenderManager> manager;
+  };
+
+  vtkSmartPointer<vtkGnomonShadowSettings> settings =
+    vtkSmartPointer<vtkGnomonShadowSettings>::New(); ///< of lights that say nothing
+  std::unique_ptr<gnomon::PassPrograms> programs = std::make_unique<gnomon::PassPrograms>();
+  std::list<RendererFrames> renderers; ///< those drawn so far, the last one first
+  gnomon::ViewCount viewCount;
+  vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
+  bool shadowed = false;            ///< whether the last frame was the manager's, which has it
+  ///@{
+  /// Of a frame that was drawn without the manager, or that the manager's resources outlived.
+  gnomon::FrameReport report;
+  gnomon::VisibilityImages visibility;
+  ///@}
+  double progress = 1.0; ///< of the last frame that was no selection's
+  gnomon::Complaints complaints;
+
+  std::optional<gnomon::CostFactors> factors; ///< none: the default ones
+  gnomon::PictureTimer pictureTimer;
+  gnomon::OtherFrames otherFrames;
+
+  std::unique_ptr<gnomon::Ranks> ranks; ///< of the last controller with several processes, or null
+
+  gnomon::PassContext context; ///< which holds the managers' GL objects
+
+  gnomon::RenderManager& managerOf(vtkRenderer* renderer);
+  gnomon::Ranks* updateRanks(vtkMultiProcessController* controller);
+  void keepLastFrame();
+  void tellOfOther(vtkRenderer* renderer);
+  gnomon::RenderManager& manager() { return *this->renderers.front().manager; }
+};

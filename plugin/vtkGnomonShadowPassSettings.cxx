@@ -1,0 +1,259 @@
+// The settings of vtkGnomonShadowPass, and what it tells of its last frame.
+#include "vtkGnomonShadowPassInternals.h"
+
+#include "lights/SettingsTable.h"
+#include "plugin/frame/ReportText.h"
+#include "plugin/frame/VisibilityData.h"
+#include "shadowtech/Registry.h"
+
+#include "vtkMultiProcessController.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetMaximumError(double share)
+{
+  this->SetNumber("MaximumError", share, 1.0, this->MaximumError);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetMaximumSoftError(double rootMeanSquare)
+{
+  this->SetNumber("MaximumSoftError", rootMeanSquare, 1.0, this->MaximumSoftError);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetTimeBudget(double milliseconds)
+{
+  this->SetNumber("TimeBudget", milliseconds, VTK_DOUBLE_MAX, this->TimeBudget);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetMemoryBudget(double mebibytes)
+{
+  this->SetNumber("MemoryBudget", mebibytes, 1e9, this->MemoryBudget);
+}
+
+//------------------------------------------------------------------------------
+/// Sets a number in [0, most]; anything else is an error and changes nothing.
+void vtkGnomonShadowPass::SetNumber(const char* name, double value, double most, double& number)
+{
+  if (!(value >= 0.0 && value <= most))
+  {
+    vtkErrorMacro(<< name << " was to be " << value << ", expected a number in [0, " << most
+                  << "].");
+    return;
+  }
+  if (number != value)
+  {
+    number = value;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::ReadCostFactors(const char* path)
+{
+  try
+  {
+    this->Internal->factors =
+      path && *path ? std::optional(gnomon::readFactors(path)) : std::nullopt;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro("Cost factors: " << error.what() << ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetSettings(vtkGnomonShadowSettings* settings)
+{
+  vtkSmartPointer<vtkGnomonShadowSettings>& held = this->Internal->settings;
+  if (settings != held)
+  {
+    held = settings;
+    if (!settings)
+    {
+      held = vtkSmartPointer<vtkGnomonShadowSettings>::New();
+    }
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkGnomonShadowSettings* vtkGnomonShadowPass::GetSettings()
+{
+  return this->Internal->settings;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
+{
+  const vtkMTimeType before = this->Internal->settings->GetMTime();
+  const bool isSet = this->Internal->settings->TrySetting(name, value);
+  if (!isSet)
+  {
+    vtkErrorMacro(<< this->GetSettingError() << ".");
+  }
+  else if (this->Internal->settings->GetMTime() != before)
+  {
+    this->Modified();
+  }
+  return isSet;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonShadowPass::GetSettingError() const
+{
+  return this->Internal->settings->GetSettingError();
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonShadowPass::GetSetting(const char* name) const
+{
+  return this->Internal->settings->GetSetting(name);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetMapSize(int mapSizeTexels)
+{
+  const vtkMTimeType before = this->Internal->settings->GetMTime();
+  this->Internal->settings->SetMapSize(mapSizeTexels);
+  if (this->Internal->settings->GetMTime() != before)
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonShadowPass::GetMapSize() const
+{
+  return this->Internal->settings->GetMapSize();
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonShadowPass::SetTechnique(const char* name)
+{
+  return this->SetSetting("technique", name);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGnomonShadowPass::GetTechnique() const
+{
+  const std::string& technique = this->Internal->settings->GetValues().technique;
+  return technique.empty() ? gnomon::defaultTechnique : technique.c_str();
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGnomonShadowPass::GetDefaultTechnique()
+{
+  return gnomon::defaultTechnique;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonShadowPass::GetNumberOfTechniques()
+{
+  return static_cast<int>(gnomon::registry().size());
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGnomonShadowPass::GetTechniqueName(int index)
+{
+  return index >= 0 && index < GetNumberOfTechniques()
+    ? gnomon::registry()[static_cast<std::size_t>(index)].name.c_str()
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGnomonShadowPass::GetTechniqueSummary(int index)
+{
+  return index >= 0 && index < GetNumberOfTechniques()
+    ? gnomon::registry()[static_cast<std::size_t>(index)].summary.c_str()
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+const gnomon::FrameReport& vtkGnomonShadowPass::GetReport() const
+{
+  return this->Internal->shadowed ? this->Internal->manager().report() : this->Internal->report;
+}
+
+//------------------------------------------------------------------------------
+double vtkGnomonShadowPass::GetProgress() const
+{
+  return this->Internal->progress;
+}
+
+//------------------------------------------------------------------------------
+const gnomon::VisibilityImages& vtkGnomonShadowPass::GetVisibility() const
+{
+  return this->Internal->shadowed ? this->Internal->manager().visibility()
+                                  : this->Internal->visibility;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonShadowPass::GetReportText() const
+{
+  return gnomon::textOf(this->GetReport());
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::GetReportTable(vtkTable* lights) const
+{
+  if (!lights)
+  {
+    vtkErrorMacro("The report needs a table to fill.");
+    return;
+  }
+  gnomon::fillTable(this->GetReport(), lights);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::GetVisibilityImage(vtkImageData* image) const
+{
+  if (!image)
+  {
+    vtkErrorMacro("The visibility needs an image to fill.");
+    return;
+  }
+  gnomon::fillImage(this->GetVisibility(), image);
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkGnomonShadowPass::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Internal->settings->GetMTime());
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const char* const routes[] = { "auto", "inline", "image", "deferred" };
+  os << indent << "Settings:\n";
+  this->Internal->settings->PrintSelf(os, indent.GetNextIndent());
+  os << indent << "Route: " << routes[this->Route] << "\n";
+  os << indent << "SmoothTerminators: " << (this->SmoothTerminators ? "on" : "off") << "\n";
+  const char* const castings[] = { "auto", "all", "brightest" };
+  os << indent << "Casting: " << castings[this->Casting] << "\n";
+  const char* const interactives[] = { "auto", "off", "on" };
+  os << indent << "Interactive: " << interactives[this->Interactive] << "\n";
+  os << indent << "MaximumError: " << this->MaximumError << "\n";
+  os << indent << "MaximumSoftError: " << this->MaximumSoftError << "\n";
+  os << indent << "TimeBudget: " << this->TimeBudget << " ms\n";
+  os << indent << "MemoryBudget: " << this->MemoryBudget << " MiB\n";
+  os << indent << "CostFactors: " << (this->Internal->factors ? "read" : "default") << "\n";
+  os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
+  os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";
+  os << indent
+     << "DelegatePass: " << (this->DelegatePass ? this->DelegatePass->GetClassName() : "(none)")
+     << "\n";
+  os << indent << "Controller: " << (this->Controller ? this->Controller->GetClassName() : "(none)")
+     << "\n";
+  os << indent << "ImageReductionFactor: " << this->ImageReductionFactor << "\n";
+  os << indent << "ObeyUseShadows: " << (this->ObeyUseShadows ? "on" : "off") << "\n";
+  os << indent << "Progress: " << this->GetProgress() << "\n";
+  os << indent << "Last frame's route: " << this->GetReport().route << "\n";
+}

@@ -1,0 +1,241 @@
+// What `auto` chooses, as a function of facts, history and evidence.
+
+#include "plugin/plan/AutoPlan.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+namespace gnomon
+{
+namespace
+{
+
+using testing::HasSubstr;
+using Way = AutoChoice::Way;
+
+/// A light that leaves its technique to the pass, in a scene whose rays take long.
+class AutoPlans : public testing::Test
+{
+protected:
+  AutoPlans()
+  {
+    this->map_.info.evaluation = Evaluation::Pointwise;
+    this->rays_.info.evaluation = Evaluation::ScreenCpu;
+    this->light.mapSizeTexels = 1024;
+    this->light.lightSamples = 64;
+    this->facts.moves = true;
+    this->facts.casters = { 1, 1 };
+    this->facts.pixels = 1024 * 1024;
+    this->facts.factors = defaultFactors(true);
+  }
+
+  void addArea(double radius)
+  {
+    this->light.area = ballArea(radius);
+    this->light.kind = LightKind::Point;
+  }
+
+  /// Plan a frame in which the camera moves. The history goes on with it once it is complete.
+  AutoPlan plan(const std::vector<Evidence>& evidence = {})
+  {
+    this->facts.lights.clear();
+    this->facts.lights.push_back({ this->light, this->rays_.info, identityOf(this->light),
+      &this->light, this->mostMapTexels });
+    ++this->facts.view;
+    AutoPlan planned = planAuto(this->facts, this->wishes, this->history, evidence);
+    if (!planned.needs)
+    {
+      this->history = planned.history;
+    }
+    return planned;
+  }
+  /// Plan a frame whose needs are answered alike.
+  AutoPlan planWith(const Evidence& evidence)
+  {
+    std::vector<Evidence> all;
+    AutoPlan planned = this->plan(all);
+    while (planned.needs)
+    {
+      this->asked.push_back(*planned.needs);
+      all.push_back(evidence);
+      planned = this->plan(all);
+    }
+    return planned;
+  }
+
+  static Evidence ofMap(std::size_t asked, std::size_t wrong)
+  {
+    Evidence evidence;
+    evidence.probe = { { asked, wrong }, 8 };
+    evidence.isClear = true;
+    return evidence;
+  }
+
+  ShadowLight light;
+  int mostMapTexels = 16384;
+  FrameWishes wishes;
+  AutoHistory history;
+  std::vector<EvidenceRequest> asked;
+
+private:
+  EstimatorEntry map_, rays_;
+  Compose compose_ = [this](ShadowLight asked)
+  {
+    return Composition{ asked, asked.technique == plainTechnique ? &this->map_ : &this->rays_, {} };
+  };
+
+protected:
+  AutoFacts facts{ {}, false, false, false, false, 0, {}, 0, 0, 0, {}, this->compose_ };
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, restingPicturesAreExact)
+{
+  this->facts.moves = false;
+  const AutoPlan planned = this->plan();
+  ASSERT_FALSE(planned.needs);
+  EXPECT_EQ(planned.choices.at(0).way, Way::Resting);
+  EXPECT_THAT(planned.choice, HasSubstr("rests: exact"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, mapsAreProvedBeforeTheyAreShown)
+{
+  const AutoPlan first = this->plan();
+  ASSERT_TRUE(first.needs);
+  EXPECT_EQ(first.needs->mapSizeTexels, 1024);
+  EXPECT_EQ(first.needs->errorLimit, this->wishes.maximumError);
+  EXPECT_FALSE(first.needs->isShown);
+  const AutoPlan planned = this->planWith(ofMap(30000, 0));
+  EXPECT_EQ(planned.choices.at(0).way, Way::Map);
+  EXPECT_EQ(planned.choices.at(0).mapSizeTexels, 1024);
+  for (int frame = 1; frame < 16; ++frame)
+  {
+    EXPECT_FALSE(this->plan().needs) << "proved for 16 frames";
+  }
+  EXPECT_TRUE(this->plan().needs);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, mapsGrowAndThenRaysAreTaken)
+{
+  const AutoPlan planned = this->planWith(ofMap(30000, 3000));
+  std::vector<int> sides;
+  for (const EvidenceRequest& request : this->asked)
+  {
+    sides.push_back(request.mapSizeTexels);
+  }
+  EXPECT_EQ(sides, (std::vector{ 1024, 4096 })) << "a tenth is wrong, twenty times the limit";
+  EXPECT_EQ(planned.choices.at(0).way, Way::Resting);
+  EXPECT_THAT(planned.choice, HasSubstr("3000 are wrong with a map of 4096 texels"));
+  for (int frame = 1; frame < 30; ++frame)
+  {
+    EXPECT_FALSE(this->plan().needs) << "maps wait";
+  }
+  EXPECT_TRUE(this->plan().needs);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, evidenceThatFailsMeansRays)
+{
+  Evidence evidence;
+  evidence.failure = "there is no memory";
+  const AutoPlan planned = this->planWith(evidence);
+  EXPECT_EQ(planned.choices.at(0).way, Way::Resting);
+  EXPECT_THAT(planned.choice, HasSubstr("rays, as there is no memory"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, probesGoOnInTheNextFrameWhileAMapIsShown)
+{
+  this->planWith(ofMap(30000, 0));
+  for (int frame = 1; frame < 16; ++frame)
+  {
+    this->plan();
+  }
+  Evidence unclear = ofMap(4000, 20);
+  unclear.isClear = false;
+  const AutoPlan planned = this->planWith(unclear);
+  EXPECT_EQ(planned.choices.at(0).way, Way::Map);
+  EXPECT_TRUE(this->asked.back().isShown);
+  const AutoPlan next = this->plan();
+  ASSERT_TRUE(next.needs);
+  EXPECT_EQ(next.needs->before.found.asked, 4000u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, factsThatForbidMapsAreNamed)
+{
+  const auto reason = [this] { return this->plan().choice; };
+  this->facts.severalViews = true;
+  EXPECT_THAT(reason(), HasSubstr("several views"));
+  this->facts.severalViews = false;
+  this->facts.unseenReceiver = true;
+  EXPECT_THAT(reason(), HasSubstr("probes miss it"));
+  this->facts.unseenReceiver = false;
+  this->wishes.keepVisibility = true;
+  EXPECT_THAT(reason(), HasSubstr("is kept"));
+  this->wishes.keepVisibility = false;
+  this->wishes.route = RouteWish::Image;
+  EXPECT_THAT(reason(), HasSubstr("route is asked for"));
+  this->wishes.route = RouteWish::Auto;
+  this->wishes.maximumError = 0.0;
+  EXPECT_THAT(reason(), HasSubstr("as small as the limit"));
+  this->wishes.maximumError = 0.005;
+  this->mostMapTexels = 512;
+  EXPECT_THAT(reason(), HasSubstr("memory budget"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, areaLightsTakeTheFewestSamplesThatKeepTheError)
+{
+  this->addArea(0.5);
+  std::vector<Evidence> evidence;
+  std::vector<int> samples;
+  AutoPlan planned = this->plan(evidence);
+  while (planned.needs)
+  {
+    samples.push_back(planned.needs->lightSamples);
+    evidence.emplace_back().keepsError = planned.needs->lightSamples == 8;
+    planned = this->plan(evidence);
+  }
+  EXPECT_EQ(samples, (std::vector{ 0, 4, 6, 8 }));
+  EXPECT_EQ(planned.choices.at(0).lightSamples, 8);
+
+  this->facts.moves = false;
+  this->facts.mayRefine = true;
+  EXPECT_EQ(this->plan().choices.at(0).firstSamples, 8);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, areaLightsThatGrowAreProvedAnew)
+{
+  this->addArea(0.1);
+  Evidence evidence;
+  evidence.keepsError = true;
+  EXPECT_EQ(this->planWith(evidence).choices.at(0).way, Way::Centre);
+  this->addArea(0.105);
+  EXPECT_FALSE(this->plan().needs) << "hardly larger";
+  this->addArea(0.2);
+  EXPECT_TRUE(this->plan().needs);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, raysThatAreNearlyAsFastReplaceMaps)
+{
+  this->history.lights[0].tracedShare = 0.0;
+  this->plan(); // notes the request
+  this->history.lights[0].tracedShare = 0.0;
+  this->facts.factors.tracePixel = 0.0;
+  this->facts.factors.receiverPixel = 0.0;
+  this->facts.factors.fetchPixel = 0.0;
+  const AutoPlan planned = this->plan();
+  ASSERT_FALSE(planned.needs);
+  EXPECT_THAT(planned.choice, HasSubstr("nearly as little time"));
+}
+
+} // namespace gnomon
