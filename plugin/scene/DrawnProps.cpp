@@ -14,6 +14,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLODProp3D.h"
+#include "vtkMapper.h"
 #include "vtkMatrix4x4.h"
 #include "vtkProp3DFollower.h"
 #include "vtkPropAssembly.h"
