@@ -18,8 +18,7 @@
  * works of: hardware devices, the surfaceless platform, software devices, the default display.
  *
  * Multisampling is off by default (SetMultiSamples). If no context can be made, Initialize() and
- * everything that needs one is an error (vtkErrorMacro), said once, that says what was tried, and
- * nothing is drawn.
+ * all calls that need one draw nothing. One error (vtkErrorMacro) tells what was tried.
  *
  * <b>Beside other windows and threads.</b> Its functions leave the context of the thread that was
  * current before, of another window's (of X's, too) or none. So windows may take turns on a thread,
@@ -56,7 +55,7 @@ public:
 
   ///@{
   /**
-   * The OpenGL core version to ask for, when the context is made. Lower versions down to 3.2 are
+   * Set the OpenGL core version to ask for when the context is made. Lower versions down to 3.2 are
    * tried after it; the driver may give a higher one that is compatible (GetOpenGLVersion tells).
    * Default 4.5.
    */
@@ -65,8 +64,8 @@ public:
   ///@}
 
   /**
-   * How many devices EGL lists; 0 where it cannot list them. SetDeviceIndex takes one of
-   * [0, GetNumberOfDevices()), or -1 (the default) for the best that works.
+   * Return the number of devices that EGL lists; 0 where it cannot list them. SetDeviceIndex takes
+   * one of [0, GetNumberOfDevices()), or -1 (the default) for the best that works.
    */
   int GetNumberOfDevices() override;
 
@@ -89,7 +88,7 @@ public:
 
   ///@{
   /**
-   * The context, as current on this thread.
+   * Make the context current on this thread, or release it.
    */
   void MakeCurrent() override;
   void ReleaseCurrent() override;
@@ -105,8 +104,8 @@ public:
 
   ///@{
   /**
-   * Text about the driver, empty when no context can be made; OpenGL's version; and the end of all
-   * that was drawn.
+   * Return a text about the driver, empty if no context can be made; return OpenGL's version; wait
+   * until all is drawn.
    */
   const char* ReportCapabilities() override;
   void GetOpenGLVersion(int& major, int& minor);
@@ -115,7 +114,7 @@ public:
 
   ///@{
   /**
-   * EGL's display and context; null before Initialize().
+   * Return EGL's display and context; null before Initialize().
    */
   void* GetGenericDisplayId() override;
   void* GetGenericContext() override;
@@ -148,9 +147,10 @@ public:
 
   ///@{
   /**
-   * Bits per channel and of the depths of the framebuffer that the renderers draw into: there is no
-   * other. Hardware selection asks for the first, vtkRenderer::ResetCameraClippingRange for the
-   * second; before the first Render() that is 24, as in VTK's own windows.
+   * Return the bits per channel, or of the depths, of the framebuffer that the renderers draw into:
+   * there is no other. Hardware selection asks for the first,
+   * vtkRenderer::ResetCameraClippingRange for the second; before the first Render() that is 24, as
+   * in VTK's own windows.
    */
   int GetColorBufferSizes(int* rgba) override;
   int GetDepthBufferSize() override;
@@ -158,9 +158,9 @@ public:
 
   ///@{
   /**
-   * The interactor: a vtkGenericRenderWindowInteractor, which gets the events that the program
-   * sends it. X's interactor is an error; it gets no events, draws, and its Start() returns at
-   * once.
+   * Make the interactor, or set it. The default is a vtkGenericRenderWindowInteractor, which gets
+   * the events that the program sends it. X's interactor is an error: it gets no events, draws, and
+   * its Start() returns at once.
    */
   vtkRenderWindowInteractor* MakeRenderWindowInteractor() override;
   void SetInteractor(vtkRenderWindowInteractor* interactor) override;
@@ -168,7 +168,7 @@ public:
 
   ///@{
   /**
-   * What a window without a screen answers.
+   * Answer as a window without a screen.
    */
   int* GetScreenSize() override;
   vtkTypeBool IsDirect() override { return 1; }

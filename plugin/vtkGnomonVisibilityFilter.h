@@ -41,8 +41,8 @@
  * structure.
  * Same input, same arrays: to the last bit, on any number of threads.
  *
- * What makes no sense is one error (vtkErrorMacro). A setting then stays as it was; an execution
- * passes the receivers through without arrays.
+ * A setting or an input that makes no sense is one error (vtkErrorMacro). The setting then stays as
+ * it was; an execution passes the receivers through without arrays.
  *
  * @sa vtkGnomonSun
  */
@@ -104,14 +104,15 @@ public:
   void ClearLights();
 
   /**
-   * The number of directions, suns and lights. They are numbered from 0 in the order of adding.
+   * Return the number of directions, suns and lights. They are numbered from 0 in the order of
+   * adding.
    */
   int GetNumberOfLights();
 
   ///@{
   /**
-   * What was added, by number. GetDirection gives a unit vector towards the light, and zeros for a
-   * vtkLight; GetLight returns null for a direction. For a number that does not exist they give
+   * Return a light by its number. GetDirection gives a unit vector towards the light, and zeros for
+   * a vtkLight; GetLight returns null for a direction. For a number that does not exist they give
    * zeros and null, and GetHours 0.
    */
   void GetDirection(int index, double towards[3]);
@@ -121,9 +122,9 @@ public:
 
   ///@{
   /**
-   * The angle that the sun, or another light with a direction, is seen at, in degrees, in [0, 90).
-   * The sun's is 0.53. It takes Samples of 2 or more: each then looks at another point of an even
-   * disc. 0: a point. Default: 0.
+   * Set the angle under which the scene sees a light with a direction, in degrees, in [0, 90). The
+   * sun's is 0.53. Use it with Samples of 2 or more: each looks at another point of an even disc.
+   * 0: a point. Default: 0.
    */
   vtkSetClampMacro(AngularDiameter, double, 0.0, 89.0);
   vtkGetMacro(AngularDiameter, double);
@@ -131,16 +132,16 @@ public:
 
   ///@{
   /**
-   * The rays from an element to each light, in [1, 4096]. 1: from the middle of a cell. More are
-   * spread evenly over it (scrambled Sobol points): best a power of two. Points have one place, and
-   * more than one ray only with an AngularDiameter. Default: 1.
+   * Set the number of rays from an element to each light, in [1, 4096]. One ray starts in the
+   * middle of a cell. More are spread evenly over it (scrambled Sobol points): best a power of two.
+   * Points have one place, and more than one ray only with an AngularDiameter. Default: 1.
    */
   vtkSetClampMacro(Samples, int, 1, 4096);
   vtkGetMacro(Samples, int);
   ///@}
 
   /**
-   * What results are of.
+   * Elements that results belong to.
    */
   enum ElementType
   {
@@ -150,8 +151,8 @@ public:
 
   ///@{
   /**
-   * Whether results are of the receivers' cells or points. A point is lit if one of the cells that
-   * meet in it is lit there: its rays start a thousandth of the way into each. Default: CELLS.
+   * Choose results for the receivers' cells or points. A point is lit if one of the cells that meet
+   * in it is lit there: its rays start a thousandth of the way into each. Default: CELLS.
    */
   vtkSetClampMacro(Elements, int, CELLS, POINTS);
   vtkGetMacro(Elements, int);
@@ -171,7 +172,7 @@ public:
 
   ///@{
   /**
-   * The side of the receivers that light falls on. BOTH: for each light the side that faces it.
+   * Set the side of the receivers that light falls on. BOTH: for each light the side that faces it.
    * Default: FRONT.
    */
   vtkSetClampMacro(ReceivingSide, int, FRONT, BOTH);
@@ -180,7 +181,7 @@ public:
 
   ///@{
   /**
-   * Whether the receivers cast shadows, too. Default: on.
+   * Let the receivers cast shadows, too. Default: on.
    */
   vtkSetMacro(ReceiversCast, bool);
   vtkGetMacro(ReceiversCast, bool);
@@ -189,8 +190,8 @@ public:
 
   ///@{
   /**
-   * What points up, of any length. A direction that is not above the horizon gives no light.
-   * (0, 0, 0): there is no horizon. Default: (0, 0, 0), until suns are added.
+   * Set the vector that points up, of any length. A direction that is not above the horizon gives
+   * no light. (0, 0, 0): there is no horizon. Default: (0, 0, 0), until suns are added.
    */
   virtual void SetUp(double x, double y, double z);
   void SetUp(const double up[3]) { this->SetUp(up[0], up[1], up[2]); }
@@ -199,8 +200,7 @@ public:
 
   ///@{
   /**
-   * Whether the output has `Bits`, which takes the number of lights times that of elements, over 8,
-   * in bytes. Default: off.
+   * Add `Bits` to the output: an eighth of a byte for each light and element. Default: off.
    */
   vtkSetMacro(ComputeBits, bool);
   vtkGetMacro(ComputeBits, bool);
@@ -223,8 +223,8 @@ public:
 
   ///@{
   /**
-   * Whether the output has `Why`, `Blocker` and `BlockerInput`, and the number of the light that
-   * they are of; -1: the last one. Default: on, -1.
+   * Add `Why`, `Blocker` and `BlockerInput` to the output, for the light with this number; -1: the
+   * last one. Default: on, -1.
    */
   vtkSetMacro(ComputeReasons, bool);
   vtkGetMacro(ComputeReasons, bool);
@@ -234,14 +234,14 @@ public:
   ///@}
 
   /**
-   * The shadow rays that the last execution traced, together with the aborted ones that it went on
-   * from. Lights that a surface is turned away from take none.
+   * Return the number of shadow rays of the last execution and of the aborted ones that it
+   * continued. Surfaces send no rays to lights that they do not face.
    */
   vtkTypeInt64 GetNumberOfRays();
 
   ///@{
   /**
-   * The names of the arrays.
+   * Return the names of the arrays.
    */
   static const char* GetLitFractionName() { return "LitFraction"; }
   static const char* GetLitFractionErrorName() { return "LitFractionError"; }
@@ -253,7 +253,8 @@ public:
   ///@}
 
   /**
-   * An aborted execution is never up to date, and lights' changes count.
+   * Return the time of the last change of the filter or its lights. An aborted execution is never
+   * up to date.
    */
   vtkMTimeType GetMTime() override;
 

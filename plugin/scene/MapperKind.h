@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// How a mapper exposes its surfaces.
+/// The kinds of mappers, by how they expose their surfaces.
 enum class MapperKind
 {
   PlainPolyData, ///< vtkOpenGLPolyDataMapper itself: nearly every mapper

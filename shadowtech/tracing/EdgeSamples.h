@@ -20,7 +20,7 @@ struct Drawn;
 /// EdgeSamples::smooth() alike. The functions are collective.
 struct SharedPicture
 {
-  /// What this process drew. Fragments are 0 where the picture shows another process's triangle.
+  /// This process's drawing. Fragments are 0 where the picture shows another process's triangle.
   const Drawn& drawn;
   /// x: a number of the surface that a pixel shows, the same in all processes; 0: none.
   const std::vector<glm::vec2>& surfaces;
