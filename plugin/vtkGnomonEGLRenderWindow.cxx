@@ -1,6 +1,6 @@
 #include "vtkGnomonEGLRenderWindow.h"
 
-#include "plugin/frame/Complaints.h"
+#include "plugin/pass/Complaints.h"
 #include "plugin/vtk_versions/OpenGlLoading.h"
 #include "plugin/window/CurrentContext.h"
 #include "plugin/window/EglContext.h"

@@ -1,8 +1,8 @@
 #include "vtkGnomonShadowPassInternals.h"
 
-#include "plugin/frame/FrameWords.h"
-#include "plugin/frame/Progress.h"
 #include "plugin/frame/ReceiverDrawing.h"
+#include "plugin/pass/FrameWords.h"
+#include "plugin/pass/Progress.h"
 #include "plugin/plan/FrameWishes.h"
 #include "plugin/scene/DrawnLookup.h"
 #include "plugin/window/AroundOpaque.h"

@@ -3,11 +3,11 @@
 
 #include "vtkGnomonShadowPass.h"
 
-#include "plugin/frame/Complaints.h"
-#include "plugin/frame/FrameEnd.h"
-#include "plugin/frame/OtherFrames.h"
-#include "plugin/frame/PictureTimer.h"
 #include "plugin/frame/RenderManager.h"
+#include "plugin/pass/Complaints.h"
+#include "plugin/pass/FrameEnd.h"
+#include "plugin/pass/OtherFrames.h"
+#include "plugin/pass/PictureTimer.h"
 #include "plugin/ranks/Ranks.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/vtkGnomonVisibilityImages.h"

@@ -3,7 +3,7 @@
 #include "Errors.h"
 #include "SettingOptions.h"
 
-#include "plugin/frame/Clock.h"
+#include "shadowtech/base/Clock.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 

@@ -2,11 +2,11 @@
 
 #include "lights/CameraView.h"
 #include "plugin/frame/CastingLights.h"
-#include "plugin/frame/Clock.h"
 #include "plugin/frame/ViewValues.h"
 #include "plugin/plan/FrameWishes.h"
 #include "plugin/plan/Route.h"
 #include "plugin/ranks/Ranks.h"
+#include "shadowtech/base/Clock.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
@@ -26,9 +26,10 @@ struct Frame
   bool moves = false;     ///< true if it is one of a moving picture
   bool mayRefine = false; ///< true if more frames at rest follow an unfinished one
   CastingLights lights;
-  glm::ivec2 size{ 0 }; ///< of the picture, in pixels
-  CameraView camera;    ///< that draws it
-  ReceiverSpace space;  ///< the camera's
+  glm::ivec2 size{ 0 };      ///< of the picture, in pixels
+  CameraView camera;         ///< that draws it
+  ReceiverSpace space;       ///< the camera's
+  std::size_t triangles = 0; ///< of the snapshot, those of instances among them
   Route route = Route::Inline;
   ViewValues* view = nullptr; ///< cached values of the view
   bool severalViews = false;  ///< true if the pass draws other views, too

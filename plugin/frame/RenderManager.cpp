@@ -60,7 +60,7 @@ RenderManager::RenderManager(PassPrograms& programs)
 void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
 {
   this->frame_.report = FrameReport{};
-  this->shownProps_.reset();
+  this->receivers_.beginFrame();
   this->frame_.report.numbersChecked = std::exchange(this->checkedBefore_, 0);
   this->frame_.wishes = wishes;
   this->frame_.ranks = ranks;
@@ -134,12 +134,14 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
   {
     this->names_ = surfaceNames(s->GetRenderer(), this->collector_.records());
   }
+  this->frame_.triangles = 0;
   for (const Surface& surface : occluders.surfaces)
   {
     const std::size_t instances = surface.centredFromSource.size();
     report.instances += instances;
-    report.triangles += surface.triangleCount * std::max<std::size_t>(instances, 1);
+    this->frame_.triangles += surface.triangleCount * std::max<std::size_t>(instances, 1);
   }
+  report.triangles = this->frame_.triangles;
   report.droppedNonFinite = occluders.droppedNonFinite;
   report.droppedZeroArea = occluders.droppedZeroArea;
   this->frame_.size = sizeOf(s, this->frame_.wishes.reductionFactor);
@@ -168,7 +170,7 @@ bool RenderManager::changes(const vtkRenderState* s)
     hashLight(shown, casting);
   }
   hashView(shown, this->frame_.camera, this->frame_.size);
-  hashCombine(shown, this->shownProps(s));
+  hashCombine(shown, this->receivers_.shownProps(s));
   const Occluders& occluders = this->collector_.occluders();
   hashCombine(shown, occluders.topologyVersion);
   hashCombine(shown, occluders.positionsVersion);
@@ -246,66 +248,16 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
   bool namesTriangles = true;
   if (this->frame_.route == Route::Deferred)
   {
-    this->findStaleReceivers(s);
-    namesTriangles = this->namesTriangles();
+    this->receivers_.findStale(s);
+    this->receivers_.countRest();
+    namesTriangles = this->receivers_.namesTriangles();
   }
   this->programs_.shaders.configure(
-    { this->frame_.route, this->readsPoints(), samplesOfBoundFramebuffer() > 1, namesTriangles,
-      this->stageValues_.viewFromVtkView == glm::dmat4(1.0), this->collector_.anySeenThrough() },
+    { this->frame_.route, this->receivers_.readsPoints(), samplesOfBoundFramebuffer() > 1,
+      namesTriangles, this->stageValues_.viewFromVtkView == glm::dmat4(1.0),
+      this->collector_.anySeenThrough() },
     shaded);
   return plan.isAsTold;
-}
-
-//------------------------------------------------------------------------------
-/// True if shaders of the deferred route write triangle numbers. On llvmpipe these cost 25 ns a
-/// triangle or more, even where no image takes them. Switching them off makes VTK rebuild shaders,
-/// which costs some 0.2 ms a surface. So it waits until receivers rest, and for scenes where eight
-/// frames pay for it.
-bool RenderManager::namesTriangles()
-{
-  constexpr int patience = 3; // frames
-  constexpr std::size_t leastTriangles = 1000;
-  this->restingFrames_ = this->receiversDue_ ? 0 : this->restingFrames_ + 1;
-  return this->restingFrames_ < patience || this->frame_.severalViews ||
-    this->frame_.report.triangles < leastTriangles * this->collector_.occluders().surfaces.size();
-}
-
-//------------------------------------------------------------------------------
-/// Whether anything on the GPU asks for the receivers' points.
-bool RenderManager::readsPoints() const
-{
-  return this->frame_.lights.anyTechnique(
-    [](const TechniqueInfo& info) { return info.evaluation != Evaluation::ScreenCpu; });
-}
-
-//------------------------------------------------------------------------------
-/// Return a hash of the props in view, from one walk a frame.
-std::size_t RenderManager::shownProps(const vtkRenderState* s)
-{
-  if (!this->shownProps_)
-  {
-    this->shownProps_ = hashOfShownProps(s, this->stamps_);
-    const std::vector<std::string> notes = this->stamps_.notes();
-    this->frame_.report.notes.insert(this->frame_.report.notes.end(), notes.begin(), notes.end());
-  }
-  return *this->shownProps_;
-}
-
-//------------------------------------------------------------------------------
-/// The key of the picture of the receivers.
-ValueKey RenderManager::receiversKey(const vtkRenderState* s)
-{
-  std::size_t view = 0;
-  hashView(view, this->frame_.camera, this->frame_.size);
-  const Occluders& occluders = this->collector_.occluders();
-  ValueKey key;
-  key.add("the camera", view);
-  key.add(propsPart, this->shownProps(s));
-  key.add(snapshotPart, std::pair(occluders.topologyVersion, occluders.positionsVersion));
-  key.add("what is read of receivers", this->readsPoints());
-  key.add("the processes", this->frame_.ranks ? this->frame_.ranks->serial() : 0);
-  key.add("where they are drawn", std::tuple(this->frame_.route, originOf(s)));
-  return key;
 }
 
 //------------------------------------------------------------------------------
@@ -326,150 +278,11 @@ void RenderManager::makeRoomForLayers()
 }
 
 //------------------------------------------------------------------------------
-/// Compares the receivers' key with the cached one. If it differs, the cached receivers are dropped
-/// and new ones are due.
-void RenderManager::findStaleReceivers(const vtkRenderState* s)
-{
-  ReceiversValue& value = this->frame_.view->receivers;
-  ValueKey key = this->receiversKey(s);
-  const std::string changes = value.key ? key.changesFrom(*value.key) : "there were none";
-  this->frame_.tellReuse("receivers", changes);
-  if (changes.empty())
-  {
-    this->receiversDue_.reset();
-    return;
-  }
-  this->receiversDue_ = std::move(key);
-  value.key.reset(); // in case of an error
-  value.onCpu.reset();
-  value.shared.clear();
-  value.framesTraced = 0;
-}
-
-//------------------------------------------------------------------------------
-/// Caches the receivers that were drawn, if they were due.
-void RenderManager::takeReceivers()
-{
-  if (this->receiversDue_)
-  {
-    ReceiversValue& value = this->frame_.view->receivers;
-    if (value.drawnSurfaces != this->collector_.drawnSurfaces())
-    {
-      value.drawnSurfaces = this->collector_.drawnSurfaces();
-      value.numberOfImages = 0; // the fragments that were read have other names
-    }
-    value.key = std::move(this->receiversDue_);
-    value.number = ++this->receiversNumbered_;
-    ++this->frame_.report.receiversDrawn;
-  }
-  this->visibility_.findStale();
-}
-
-//------------------------------------------------------------------------------
-/// Begin a stage in which the props' programs draw receivers, with or without the picture.
-void RenderManager::beginReceivers(const vtkRenderState* s)
-{
-  this->stageValues_.receiversStage = true;
-  this->programs_.numbers.beginStage();
-  this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
-}
-
-//------------------------------------------------------------------------------
-/// Compare the triangle numbers that new programs have drawn with the depths.
-NumberCheck RenderManager::checkNumbers(const vtkRenderState* s)
-{
-  const ReceiversValue& receivers = this->frame_.view->receivers;
-  const Occluders& occluders = this->collector_.occluders();
-  ReceiverImages images;
-  NumberTruth truth;
-  // Parts without numbers may be nearer, and VTK may offset depths.
-  const bool comparesDepths =
-    !hasPartsOfBothKinds(s) && vtkMapper::GetResolveCoincidentTopology() == VTK_RESOLVE_OFF;
-  const auto read = [&](const auto& from)
-  {
-    from.read(images);
-    if (comparesDepths)
-    {
-      from.readDepths(truth.windowDepths);
-    }
-  };
-  this->frame_.route == Route::Deferred ? read(receivers.deferred) : read(receivers.target);
-  images.rays = pixelRays(this->frame_.camera.clipFromView, this->frame_.space.centredFromView,
-    images.width, images.height);
-  truth.clipFromCentred = this->frame_.camera.clipFromCentred();
-  // VTK multiplies vertices in float. It shifts those that are farther off than 1,000 extents.
-  const double extent = 2.0 * occluders.allCentred.radius();
-  const double farthest = glm::length(occluders.frame.centre) + extent;
-  truth.vertexNoise = 8.0 / 16777216.0 *
-    (std::min(farthest, 1000.0 * extent) + glm::length(this->frame_.camera.eyeCentred()));
-  return this->programs_.numbers.check(images, truth, this->collector_.drawnSurfaces(), occluders);
-}
-
-//------------------------------------------------------------------------------
-/// Check the numbers of receivers that were just drawn. If any is wrong, they are drawn again with
-/// numbers by geometry shaders, which stay if fewer are wrong then. Else the snapshot differs from
-/// the picture, and the driver is right.
-/// @return false if the receivers must be drawn again
-bool RenderManager::numbersAreRight(const vtkRenderState* s)
-{
-  const std::int64_t wrongByDriver = std::exchange(this->wrongByDriver_, 0);
-  if (!this->programs_.numbers.isDue())
-  {
-    return true;
-  }
-  FrameReport& report = this->frame_.report;
-  ShaderManager& shaders = this->programs_.shaders;
-  const NumberCheck check = this->checkNumbers(s);
-  this->frame_.endStage("receivers: check numbers");
-  report.numbersChecked += check.allPixels();
-  if (wrongByDriver > 0)
-  {
-    const bool isBetter = check.allWrong() < wrongByDriver;
-    report.numbersWrong = isBetter ? wrongByDriver : 0;
-    shaders.numberByGeometryShaders(isBetter);
-    return isBetter;
-  }
-  if (check.allWrong() > 0 && !shaders.numbersByGeometryShaders())
-  {
-    this->wrongByDriver_ = check.allWrong();
-    shaders.numberByGeometryShaders(true);
-    return false;
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
 void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass)
 {
   this->makeRoomForLayers();
-  this->findStaleReceivers(s);
-  const bool areDue =
-    this->receiversDue_.has_value() || !this->frame_.view->receivers.shared.areShared();
-  if (this->frame_.ranks && this->frame_.ranks->isAny(areDue))
-  {
-    this->frame_.view->receivers.shared.clear();
-  }
-  if (this->receiversDue_)
-  {
-    const auto draw = [&]
-    {
-      this->beginReceivers(s);
-      drawReceivers(
-        s, pass, this->frame_.size, this->readsPoints(), this->frame_.view->receivers.target);
-      this->programs_.shaders.endStage();
-    };
-    do
-    {
-      draw();
-      this->frame_.endStage("receivers");
-    } while (!this->numbersAreRight(s));
-  }
-  else
-  {
-    this->frame_.endStage("receivers"); // reused
-  }
-  this->takeReceivers();
-  this->stageValues_.depths = { GL_TEXTURE_2D, this->frame_.view->receivers.target.depths() };
+  this->receivers_.update(s, pass);
+  this->visibility_.findStale();
 }
 
 //------------------------------------------------------------------------------
@@ -508,8 +321,8 @@ void RenderManager::bakeMaps()
 void RenderManager::beginOpaque(const vtkRenderState* s)
 {
   this->makeRoomForLayers();
-  this->beginReceivers(s);
-  this->frame_.view->receivers.deferred.attach(this->receiversDue_.has_value());
+  this->receivers_.begin(s);
+  this->frame_.view->receivers.deferred.attach(this->receivers_.areDue());
 }
 
 //------------------------------------------------------------------------------
@@ -522,12 +335,13 @@ void RenderManager::endOpaque(const vtkRenderState* s)
     throw std::runtime_error("it is drawn at another size than its viewport has");
   }
   this->frame_.endStage("shading: lit and in shadow");
-  if (this->receiversDue_ && !this->numbersAreRight(s))
+  if (this->receivers_.areDue() && !this->receivers_.ensureRightNumbers(s))
   {
     this->checkedBefore_ = this->frame_.report.numbersChecked;
     throw FrameMustBeDrawnAgain();
   }
-  this->takeReceivers();
+  this->receivers_.take();
+  this->visibility_.findStale();
 }
 
 //------------------------------------------------------------------------------
@@ -582,7 +396,7 @@ void RenderManager::compareSurfaces(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 void RenderManager::endFrame(const vtkRenderState* s)
 {
-  this->stamps_.endFrame(s->GetRenderer());
+  this->receivers_.endFrame(s->GetRenderer());
   FrameReport& report = this->frame_.report;
   const PassPrograms& programs = this->programs_;
   report.numbersByGeometryShaders = programs.shaders.numbersByGeometryShaders();
@@ -591,13 +405,14 @@ void RenderManager::endFrame(const vtkRenderState* s)
   report.newPrograms =
     programs.library.compiles() + programs.shaders.newPrograms() - this->newProgramsBefore_;
   report.bytesOccluders =
-    this->collector_.bytes() + this->buffers_.bytes() + this->visibility_.bytesOfTable();
-  report.bytesBvh = this->visibility_.bytesOfTracer();
+    this->collector_.bytes() + this->buffers_.bytes() + this->tracer_.bytesOfTable();
+  report.bytesBvh = this->tracer_.bytes();
   this->frame_.lights.endFrame();
   report.bytesMaps = this->frame_.lights.bytesOfMaps() + this->views_.bytesOfMaps();
   if (this->frame_.route != Route::Inline)
   {
-    report.bytesImages = this->views_.bytesOfImages() + this->visibility_.bytesOfRays();
+    report.bytesImages =
+      this->views_.bytesOfImages() + this->visibility_.bytesOfRays() + this->tracer_.bytesOfRays();
   }
   report.bytesImages += this->choice_.bytes();
   if (this->frame_.moves && this->frame_.wishes.timeBudget > 0.0)

@@ -2,22 +2,20 @@
 
 #include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/Frame.h"
-#include "plugin/frame/ShaderManager.h"
+#include "plugin/frame/PassPrograms.h"
+#include "plugin/frame/ReceiversStage.h"
+#include "plugin/frame/SnapshotTracer.h"
 #include "plugin/frame/TechniqueChoice.h"
-#include "plugin/frame/TriangleNumbers.h"
 #include "plugin/frame/VisibilityStage.h"
 #include "plugin/plan/PicturePlan.h"
 #include "plugin/scene/OccluderCollector.h"
-#include "plugin/scene/PropStamps.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 
 #include "shadowtech/base/OccluderBuffers.h"
-#include "shadowtech/base/ShaderLibrary.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,14 +28,6 @@ VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {
-
-/// The programs of a pass: what its shaders do, and those compiled for Gnomon's own stages.
-struct PassPrograms
-{
-  ShaderManager shaders;
-  ShaderLibrary library;
-  TriangleNumbers numbers;
-};
 
 /// Thrown where a frame has begun that other shaders must draw.
 struct FrameMustBeDrawnAgain
@@ -134,35 +124,23 @@ public:
 
 private:
   MapStage mapStage(const CastingLight& casting);
-  bool readsPoints() const;
-  std::size_t shownProps(const vtkRenderState* s);
-  ValueKey receiversKey(const vtkRenderState* s);
   PicturePlan planOfPicture(const vtkRenderState* s, bool drawnPlainly) const;
   void makeRoomForLayers();
-  bool namesTriangles();
-  void findStaleReceivers(const vtkRenderState* s);
-  void beginReceivers(const vtkRenderState* s);
-  NumberCheck checkNumbers(const vtkRenderState* s);
-  bool numbersAreRight(const vtkRenderState* s);
-  void takeReceivers();
 
   Frame frame_;
   OccluderCollector collector_;
-  PropStamps stamps_;
-  std::optional<std::size_t> shownProps_; ///< this frame's hash of them, once it is asked for
-  std::vector<SurfaceName> names_;        ///< of the snapshot's surfaces, if they are needed
+  std::vector<SurfaceName> names_; ///< of the snapshot's surfaces, if they are needed
   OccluderBuffers buffers_;
   PassPrograms& programs_;
-  VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, programs_.library };
-  TechniqueChoice choice_{ frame_, collector_.occluders(), visibility_, programs_.library };
-  RendererViews views_;
   ShaderManager::StageValues stageValues_;
-  bool shadesTranslucent_ = false;    ///< whether translucent surfaces show shadows in this frame
-  std::size_t receiversNumbered_ = 0; ///< how many images of receivers were drawn
-  std::optional<ValueKey> receiversDue_; ///< the key of receivers that this frame draws
-  std::int64_t wrongByDriver_ = 0;       ///< numbers, while receivers are drawn by geometry shaders
-  std::int64_t checkedBefore_ = 0;       ///< numbers, in a frame that is drawn again
-  int restingFrames_ = 0;                ///< deferred route: in a row that kept their receivers
+  SnapshotTracer tracer_{ frame_, collector_.occluders() };
+  ReceiversStage receivers_{ frame_, collector_, programs_, stageValues_ };
+  VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, tracer_, receivers_,
+    programs_.library };
+  TechniqueChoice choice_{ frame_, collector_.occluders(), tracer_, programs_.library };
+  RendererViews views_;
+  bool shadesTranslucent_ = false; ///< whether translucent surfaces show shadows in this frame
+  std::int64_t checkedBefore_ = 0; ///< triangle numbers, in a frame that is drawn again
   ///@{
   /// Before the frame.
   int compilesBefore_ = 0;

@@ -31,10 +31,10 @@ bool isUnseenReceiver(const Surface& surface)
 
 //------------------------------------------------------------------------------
 TechniqueChoice::TechniqueChoice(
-  Frame& frame, const Occluders& occluders, VisibilityStage& visibility, ShaderLibrary& shaders)
+  Frame& frame, const Occluders& occluders, SnapshotTracer& tracer, ShaderLibrary& shaders)
   : frame_(frame)
   , occluders_(occluders)
-  , visibility_(visibility)
+  , tracer_(tracer)
   , shaders_(shaders)
 {
 }
@@ -43,8 +43,8 @@ TechniqueChoice::TechniqueChoice(
 AutoFacts TechniqueChoice::facts() const
 {
   AutoFacts facts{ {}, this->frame_.moves, this->frame_.mayRefine, this->frame_.severalViews, false,
-    0, { this->occluders_.topologyVersion, this->occluders_.positionsVersion }, 0, 0, 0,
-    factorsOf(this->frame_.wishes), this->frame_.lights.compose() };
+    0, { this->occluders_.topologyVersion, this->occluders_.positionsVersion },
+    this->frame_.triangles, 0, 0, factorsOf(this->frame_.wishes), this->frame_.lights.compose() };
   for (const CastingLight& casting : this->frame_.lights)
   {
     facts.lights.push_back({ casting.light, casting.own->info(), casting.identity,
@@ -54,7 +54,6 @@ AutoFacts TechniqueChoice::facts() const
   for (const Surface& surface : this->occluders_.surfaces)
   {
     const std::size_t instances = std::max<std::size_t>(surface.centredFromSource.size(), 1);
-    facts.triangles += surface.triangleCount * instances;
     facts.drawn += surface.drawnCount() * instances;
     facts.unseenReceiver = facts.unseenReceiver || isUnseenReceiver(surface);
   }
@@ -161,8 +160,8 @@ void TechniqueChoice::probe(const PointwiseTechnique& technique, const ShadowLig
   do
   {
     this->look();
-    const WrongProbes wrong = this->probes_.wrongOf(technique, map, this->frame_.space,
-      this->occluders_, this->visibility_.tracer(), this->shaders_);
+    const WrongProbes wrong = this->probes_.wrongOf(
+      technique, map, this->frame_.space, this->occluders_, this->tracer_.get(), this->shaders_);
     found.asked += wrong.asked;
     found.wrong += wrong.wrong;
     evidence.isClear = found.mostShare() <= request.errorLimit ||
@@ -196,7 +195,7 @@ bool TechniqueChoice::keepsError(const ShadowLight& other, const ShadowLight& li
   {
     this->looked_ = this->looked_ && looks == 0;
     this->look();
-    found.add(this->probes_.errorsOf(other, light, this->occluders_, this->visibility_.tracer()));
+    found.add(this->probes_.errorsOf(other, light, this->occluders_, this->tracer_.get()));
     isClear = found.mostRms() <= limit || found.leastRms() > limit;
   }
   this->frame_.report.probes += static_cast<std::int64_t>(found.points);
@@ -209,9 +208,9 @@ void TechniqueChoice::look()
 {
   if (!this->looked_)
   {
-    this->visibility_.updateTracer();
+    this->tracer_.update();
     this->probes_.look(this->frame_.camera, this->frame_.size, this->occluders_,
-      this->visibility_.tracer(), this->looks_++);
+      this->tracer_.get(), this->looks_++);
     this->looked_ = true;
   }
 }

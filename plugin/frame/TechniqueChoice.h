@@ -1,7 +1,7 @@
 #pragma once
 
 #include "plugin/frame/Frame.h"
-#include "plugin/frame/VisibilityStage.h"
+#include "plugin/frame/SnapshotTracer.h"
 #include "plugin/plan/AutoPlan.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -25,7 +25,7 @@ public:
 
   /// @param occluders the snapshot, which must outlive this
   TechniqueChoice(
-    Frame& frame, const Occluders& occluders, VisibilityStage& visibility, ShaderLibrary& shaders);
+    Frame& frame, const Occluders& occluders, SnapshotTracer& tracer, ShaderLibrary& shaders);
 
   /// Choose for this frame.
   void choose(const Bake& bake);
@@ -49,7 +49,7 @@ private:
 
   Frame& frame_;
   const Occluders& occluders_;
-  VisibilityStage& visibility_;
+  SnapshotTracer& tracer_;
   ShaderLibrary& shaders_;
   AutoHistory history_;
   Probes probes_;

@@ -67,11 +67,13 @@ std::vector<ClassCount> countClasses(
 } // namespace
 
 //------------------------------------------------------------------------------
-VisibilityStage::VisibilityStage(
-  Frame& frame, const Occluders& occluders, OccluderBuffers& buffers, ShaderLibrary& shaders)
+VisibilityStage::VisibilityStage(Frame& frame, const Occluders& occluders, OccluderBuffers& buffers,
+  SnapshotTracer& tracer, ReceiversStage& receivers, ShaderLibrary& shaders)
   : frame_(frame)
   , occluders_(occluders)
   , buffers_(buffers)
+  , tracer_(tracer)
+  , receivers_(receivers)
   , shaders_(shaders)
 {
 }
@@ -171,166 +173,6 @@ void VisibilityStage::agreeOnStale()
 }
 
 //------------------------------------------------------------------------------
-void VisibilityStage::updateTracer()
-{
-  if (!this->tracer_)
-  {
-    this->tracer_.emplace();
-  }
-  Ranks* const ranks = this->frame_.ranks;
-  this->tracer_->share(ranks ? [ranks](std::vector<std::uint64_t>& bits) { ranks->uniteBits(bits); }
-                             : SharedTracer::UniteBits());
-  try
-  {
-    const EmbreeTracer::Update update = this->tracer_->update(this->occluders_);
-    this->frame_.report.bvhBuilds += update.builds;
-    this->frame_.report.bvhRefits += update.refits;
-  }
-  catch (const std::exception&)
-  {
-    this->tracer_.reset(); // it has a part of the casters
-    throw;
-  }
-  this->frame_.endStage("visibility: build");
-}
-
-//------------------------------------------------------------------------------
-/// Whether any light's technique does.
-bool VisibilityStage::tracesOnCpu() const
-{
-  return std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(), isOnCpu);
-}
-
-//------------------------------------------------------------------------------
-/// The view's receivers on the CPU.
-Receivers& VisibilityStage::receiversOnCpu()
-{
-  return this->frame_.ranks ? this->sharedReceivers().receivers() : this->ownReceivers();
-}
-
-//------------------------------------------------------------------------------
-/// The snapshot that names the surfaces of these receivers.
-const Occluders& VisibilityStage::surfacesOfReceivers()
-{
-  return this->frame_.ranks ? this->sharedReceivers().surfaces() : this->occluders_;
-}
-
-//------------------------------------------------------------------------------
-/// The receivers of all processes that draw the picture, shared once.
-SharedReceivers& VisibilityStage::sharedReceivers()
-{
-  ReceiversValue& value = this->frame_.view->receivers;
-  if (!value.shared.areShared())
-  {
-    Ranks& ranks = *this->frame_.ranks;
-    this->readImages();
-    std::vector<float> depths;
-    value.target.readDepths(depths);
-    this->frame_.endStage("visibility: read receivers");
-    keepNearest(ranks, depths, value.images.fragments);
-    this->frame_.endStage("visibility: nearest");
-    Receivers own(value.images, value.drawnSurfaces, this->occluders_, value.pixels);
-    const ReceiverPixels& pixels = own.all();
-    this->frame_.endStage("visibility: own receivers");
-    value.shared.share(ranks, pixels, this->occluders_);
-    this->frame_.endStage("visibility: share receivers");
-  }
-  return value.shared;
-}
-
-//------------------------------------------------------------------------------
-/// Shares which surface each pixel shows, once, if lights' edges are smoothed.
-void VisibilityStage::shareSurfaces(const std::vector<SurfaceName>& names)
-{
-  SharedReceivers& shared = this->sharedReceivers();
-  if (smoothsEdges(this->frame_.lights) && shared.surfaceOfPixel().empty())
-  {
-    ReceiversValue& value = this->frame_.view->receivers;
-    std::vector<SharedName> own;
-    for (const DrawnSurface& drawn : value.drawnSurfaces)
-    {
-      own.push_back(names[drawn.blocks.front().surface].shared);
-    }
-    Ranks::Gathered<SharedName> all;
-    this->frame_.ranks->gather(own, all);
-    const std::set<SharedName> different(all.elements.begin(), all.elements.end());
-    std::vector<std::size_t> numbers;
-    for (const SharedName& name : own)
-    {
-      numbers.push_back(
-        static_cast<std::size_t>(std::distance(different.begin(), different.find(name))));
-    }
-    shared.shareSurfaces(*this->frame_.ranks, value.images.fragments, numbers);
-    this->frame_.endStage("visibility: share surfaces");
-  }
-}
-
-//------------------------------------------------------------------------------
-/// The receivers that this process drew, read back once.
-Receivers& VisibilityStage::ownReceivers()
-{
-  ReceiversValue& value = this->frame_.view->receivers;
-  const bool findsCurves = this->tracesOnCpu(); // others do not ask for them
-  if (!value.onCpu || value.onCpu->findsCurves() != findsCurves)
-  {
-    if (value.numberOfImages != value.number)
-    {
-      value.fragmentsBefore.swap(value.images.fragments);
-      value.numberBefore = std::exchange(value.numberOfImages, value.number);
-    }
-    this->readImages();
-    value.boxes.reset();
-    value.onCpu.emplace(
-      value.images, value.drawnSurfaces, this->occluders_, value.pixels, findsCurves);
-    this->frame_.endStage("visibility: read receivers");
-  }
-  return *value.onCpu;
-}
-
-//------------------------------------------------------------------------------
-/// Reads back what the receivers stage drew.
-void VisibilityStage::readImages()
-{
-  ReceiversValue& value = this->frame_.view->receivers;
-  value.images.rays = pixelRays(this->frame_.camera.clipFromView,
-    this->frame_.space.centredFromView, this->frame_.size.x, this->frame_.size.y);
-  if (this->frame_.route == Route::Deferred)
-  {
-    value.deferred.read(value.images);
-  }
-  else
-  {
-    value.target.read(value.images);
-  }
-}
-
-//------------------------------------------------------------------------------
-/// Stores receivers that serve several images: those of several lights, or of a light that moves
-/// over them. Storing them takes half as long as tracing from them. From then on an image takes a
-/// fifth less, and there are boxes by which tiles need no rays.
-void VisibilityStage::storeReceivers()
-{
-  constexpr int patience = 2; // frames
-  Receivers& receivers = this->receiversOnCpu();
-  ReceiversValue& value = this->frame_.view->receivers;
-  const auto images = std::count_if(this->frame_.lights.begin(), this->frame_.lights.end(),
-    [](const CastingLight& casting)
-    {
-      const bool isDecidedByMap = casting.own->info().conservativeMap && casting.own->usesMap();
-      return casting.isStale && isOnCpu(casting) && !isDecidedByMap;
-    });
-  if (++value.framesTraced > patience || images > 1)
-  {
-    const ReceiverPixels& pixels = receivers.all();
-    if (!value.boxes)
-    {
-      value.boxes.emplace(pixels, this->occluders_);
-    }
-    this->frame_.endStage("visibility: store receivers");
-  }
-}
-
-//------------------------------------------------------------------------------
 /// Finds what is known of lights' tiles, of those whose techniques heed it.
 void VisibilityStage::judge()
 {
@@ -346,7 +188,7 @@ void VisibilityStage::judge()
       if (casting.isStale && isOnCpu(casting) && casting.own->info().exact &&
         !casting.light.texture && edgeSamplesOf(casting) == 1)
       {
-        this->verdicts_[i].emplace(casting.light, this->occluders_, *boxes, *this->tracer_);
+        this->verdicts_[i].emplace(casting.light, this->occluders_, *boxes, this->tracer_.get());
       }
     });
   this->frame_.endStage("visibility: judge tiles");
@@ -362,14 +204,14 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
   if (std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
         [](const CastingLight& casting) { return casting.isStale && isOnCpu(casting); }))
   {
-    this->updateTracer();
+    this->tracer_.update();
     if (this->frame_.ranks)
     {
-      this->shareSurfaces(names);
+      this->receivers_.shareSurfaces(names);
     }
     else // other processes' casters would reach the tiles, too
     {
-      this->storeReceivers();
+      this->receivers_.store();
       this->judge();
     }
   }
@@ -416,9 +258,9 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
   }
   if (keeps)
   {
-    const ReceiverPixels& receivers = this->receiversOnCpu().all();
+    const ReceiverPixels& receivers = this->receivers_.onCpu().all();
     this->images_ =
-      keepVisibility(this->frame_.lights, view, receivers, this->surfacesOfReceivers(), kept);
+      keepVisibility(this->frame_.lights, view, receivers, this->receivers_.surfaces(), kept);
     this->imagesOf_ = &view;
     this->imageNames_ = kept;
   }
@@ -524,7 +366,7 @@ void VisibilityStage::trace(
     samplesOf(casting, value.samples, this->frame_.severalViews || this->frame_.ranks);
   value.samples = traced.lightSamples;
   report.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
-  Receivers& onCpu = this->receiversOnCpu();
+  Receivers& onCpu = this->receivers_.onCpu();
   const bool hasBit = casting.bit != noBit;
 
   if (verdicts)
@@ -550,8 +392,8 @@ void VisibilityStage::trace(
   {
     layers.readBit(casting.bit, visibility);
   }
-  const ScreenInput input{ traced, casting.own->fitting(), this->surfacesOfReceivers(), onCpu,
-    *this->tracer_, casting.own->usesMap(),
+  const ScreenInput input{ traced, casting.own->fitting(), this->receivers_.surfaces(), onCpu,
+    this->tracer_.get(), casting.own->usesMap(),
     classes || edgeSamples == 1 ? classes : &classesForEdges, tiles, verdicts,
     this->frame_.report.mapBakes };
   namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "plugin/frame/Frame.h"
+#include "plugin/frame/ReceiversStage.h"
+#include "plugin/frame/SnapshotTracer.h"
 #include "plugin/frame/ValueKey.h"
 #include "plugin/scene/SurfaceNames.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
@@ -27,8 +29,8 @@ class VisibilityStage
 public:
   /// @param occluders the snapshot, which lives as long as this
   /// @param buffers of the snapshot
-  VisibilityStage(
-    Frame& frame, const Occluders& occluders, OccluderBuffers& buffers, ShaderLibrary& shaders);
+  VisibilityStage(Frame& frame, const Occluders& occluders, OccluderBuffers& buffers,
+    SnapshotTracer& tracer, ReceiversStage& receivers, ShaderLibrary& shaders);
 
   /// Says of each light whether its visibility is computed in this frame, or reused as it is. The
   /// receivers are there.
@@ -46,37 +48,15 @@ public:
   void dropImages();
   ///@}
 
-  /// Brings the tracer up to date with the snapshot; compute() does so where anything is traced.
-  /// The first call makes it.
-  /// @throws std::runtime_error if there is no tracer
-  void updateTracer();
-  EmbreeTracer& tracer() { return *this->tracer_; } ///< of the last update
-
-  ///@{
-  /// The tracer's bytes; 0 if nothing was traced.
-  std::size_t bytesOfTracer() const { return this->tracer_ ? this->tracer_->bytes() : 0; }
-  std::size_t bytesOfTable() const { return this->tracer_ ? this->tracer_->bytesOfTable() : 0; }
-  ///@}
-  std::size_t bytesOfRays() const
-  {
-    return (this->tracer_ ? this->tracer_->bytesOfRays() : 0) + this->edges_.bytes() +
-      this->sharedSamples_.bytes();
-  }
+  /// Return the bytes of the rays at edges.
+  std::size_t bytesOfRays() const { return this->edges_.bytes() + this->sharedSamples_.bytes(); }
 
 private:
   ValueKey keyOf(const CastingLight& casting) const;
   bool classifies() const;
   void agreeOnStale();
-  bool tracesOnCpu() const;
-  Receivers& receiversOnCpu();
-  Receivers& ownReceivers();
-  void readImages();
-  SharedReceivers& sharedReceivers();
-  void shareSurfaces(const std::vector<SurfaceName>& names);
   void smoothEdges(CpuScreenTechnique& technique, const ScreenInput& input, std::size_t edgeSamples,
     std::vector<float>& visibility, LightReport& report);
-  const Occluders& surfacesOfReceivers();
-  void storeReceivers();
   void judge();
   TracedTiles* beginTiles(
     const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value);
@@ -88,8 +68,9 @@ private:
   Frame& frame_;
   const Occluders& occluders_;
   OccluderBuffers& buffers_;
+  SnapshotTracer& tracer_;
+  ReceiversStage& receivers_;
   ShaderLibrary& shaders_;
-  std::optional<SharedTracer> tracer_; ///< all lights' and views'
   EdgeSamples edges_;
   SharedReceivers sharedSamples_; ///< of edges, if several processes draw the picture
   std::vector<float> onCpu_;      ///< a light's; kept, as new memory costs more than old

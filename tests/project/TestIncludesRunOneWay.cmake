@@ -44,8 +44,9 @@ folder(plugin/data lights shadowtech/base shadowtech/tracing plugin/scene)
 folder(plugin/ranks lights shadowtech/base)
 folder(plugin/plan lights shadowtech shadowtech/base shadowtech/probing shadowtech/tracing)
 folder(plugin/frame ${shared} shadowtech plugin/plan plugin/ranks plugin/scene plugin/window)
-folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/plan plugin/ranks plugin/scene plugin/vtk_versions plugin/window)
-folder(plugin/paraview/GnomonShadows/views plugin)
+folder(plugin/pass lights shadowtech/base plugin/plan)
+folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/pass plugin/plan plugin/ranks plugin/scene plugin/vtk_versions plugin/window)
+folder(plugin/paraview/GnomonShadows/views lights plugin)
 
 # Public headers of plugin/ that its folders may include: they include nothing of it.
 set(plain_headers plugin/vtkGnomonVisibilityImages.h plugin/vtkGnomonPropKeys.h)

@@ -4,7 +4,7 @@
 #include "Vec3.h"
 #include "VtkMessages.h"
 
-#include "plugin/frame/Clock.h"
+#include "shadowtech/base/Clock.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 

@@ -2,7 +2,7 @@
 
 #include "PassScene.h"
 
-#include "plugin/frame/Complaints.h"
+#include "plugin/pass/Complaints.h"
 
 #include <vtkActorCollection.h>
 #include <vtkLight.h>

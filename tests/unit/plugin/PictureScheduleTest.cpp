@@ -1,6 +1,6 @@
 // When further pictures are due: sequences of frames, buttons and timers against orders.
 
-#include "plugin/frame/PictureSchedule.h"
+#include "plugin/plan/PictureSchedule.h"
 
 #include <gtest/gtest.h>
 

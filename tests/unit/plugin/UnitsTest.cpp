@@ -357,8 +357,8 @@ TEST(Units, ofPowersOfTwoChangeNoBit)
 }
 
 //------------------------------------------------------------------------------
-/// Every registered technique at powers of ten, with VTK's own shift and scale: visibility stays, and
-/// so does the share of wrong pixels.
+/// Every registered technique at powers of ten, with VTK's own shift and scale: visibility stays,
+/// and so does the share of wrong pixels.
 TEST(Units, ofPowersOfTenChangeHardlyAPixel)
 {
   const auto draw = [](const std::string& technique, double unit)

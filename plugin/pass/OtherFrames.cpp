@@ -1,4 +1,4 @@
-#include "plugin/frame/OtherFrames.h"
+#include "plugin/pass/OtherFrames.h"
 
 #include <vtkRenderer.h>
 

@@ -1,6 +1,6 @@
-#include "plugin/frame/PictureTimer.h"
+#include "plugin/pass/PictureTimer.h"
 
-#include "plugin/frame/Clock.h"
+#include "shadowtech/base/Clock.h"
 
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>

@@ -1,4 +1,4 @@
-#include "plugin/frame/PictureSchedule.h"
+#include "plugin/plan/PictureSchedule.h"
 
 #include <algorithm>
 #include <cmath>

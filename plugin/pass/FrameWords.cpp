@@ -1,7 +1,7 @@
-#include "plugin/frame/FrameWords.h"
+#include "plugin/pass/FrameWords.h"
 
 #include "lights/SettingsTable.h"
-#include "plugin/frame/Complaints.h"
+#include "plugin/pass/Complaints.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkCommand.h>

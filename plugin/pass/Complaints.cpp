@@ -1,4 +1,4 @@
-#include "plugin/frame/Complaints.h"
+#include "plugin/pass/Complaints.h"
 
 #include <vtkCommand.h>
 #include <vtkObject.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plugin/frame/PictureSchedule.h"
+#include "plugin/plan/PictureSchedule.h"
 
 #include <optional>
 #include <string>

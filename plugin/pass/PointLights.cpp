@@ -1,4 +1,4 @@
-#include "plugin/frame/PointLights.h"
+#include "plugin/pass/PointLights.h"
 
 #include "lights/LightManager.h"
 #include "lights/LightSamples.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lights/vtkGnomonVersions.h"
-#include "plugin/frame/PictureSchedule.h"
+#include "plugin/plan/PictureSchedule.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkNew.h>

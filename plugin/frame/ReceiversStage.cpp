@@ -1,0 +1,356 @@
+#include "plugin/frame/ReceiversStage.h"
+
+#include "plugin/frame/ReceiverDrawing.h"
+#include "plugin/ranks/Ranks.h"
+#include "plugin/scene/ShownView.h"
+#include "plugin/window/PictureTarget.h"
+#include "shadowtech/base/SeenTriangle.h"
+
+#include <vtkMapper.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkRenderState.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+ReceiversStage::ReceiversStage(Frame& frame, const OccluderCollector& collector,
+  PassPrograms& programs, ShaderManager::StageValues& values)
+  : frame_(frame)
+  , collector_(collector)
+  , programs_(programs)
+  , values_(values)
+{
+}
+
+//------------------------------------------------------------------------------
+bool ReceiversStage::readsPoints() const
+{
+  return this->frame_.lights.anyTechnique(
+    [](const TechniqueInfo& info) { return info.evaluation != Evaluation::ScreenCpu; });
+}
+
+//------------------------------------------------------------------------------
+std::size_t ReceiversStage::shownProps(const vtkRenderState* s)
+{
+  if (!this->shownProps_)
+  {
+    this->shownProps_ = hashOfShownProps(s, this->stamps_);
+    const std::vector<std::string> notes = this->stamps_.notes();
+    this->frame_.report.notes.insert(this->frame_.report.notes.end(), notes.begin(), notes.end());
+  }
+  return *this->shownProps_;
+}
+
+//------------------------------------------------------------------------------
+/// Return the key of the picture of the receivers.
+ValueKey ReceiversStage::keyOf(const vtkRenderState* s)
+{
+  std::size_t view = 0;
+  hashView(view, this->frame_.camera, this->frame_.size);
+  const Occluders& occluders = this->collector_.occluders();
+  ValueKey key;
+  key.add("the camera", view);
+  key.add(propsPart, this->shownProps(s));
+  key.add(snapshotPart, std::pair(occluders.topologyVersion, occluders.positionsVersion));
+  key.add("what is read of receivers", this->readsPoints());
+  key.add("the processes", this->frame_.ranks ? this->frame_.ranks->serial() : 0);
+  key.add("where they are drawn", std::tuple(this->frame_.route, originOf(s)));
+  return key;
+}
+
+//------------------------------------------------------------------------------
+void ReceiversStage::findStale(const vtkRenderState* s)
+{
+  ReceiversValue& value = this->frame_.view->receivers;
+  ValueKey key = this->keyOf(s);
+  const std::string changes = value.key ? key.changesFrom(*value.key) : "there were none";
+  this->frame_.tellReuse("receivers", changes);
+  if (changes.empty())
+  {
+    this->due_.reset();
+    return;
+  }
+  this->due_ = std::move(key);
+  value.key.reset(); // in case of an error
+  value.onCpu.reset();
+  value.shared.clear();
+  value.framesTraced = 0;
+}
+
+//------------------------------------------------------------------------------
+void ReceiversStage::countRest()
+{
+  this->restingFrames_ = this->due_ ? 0 : this->restingFrames_ + 1;
+}
+
+//------------------------------------------------------------------------------
+/// On llvmpipe triangle numbers cost 25 ns a triangle or more, even where no image takes them.
+/// Switching them off makes VTK rebuild shaders, which costs some 0.2 ms a surface. So it waits until
+/// receivers rest, and for scenes where eight frames pay for it.
+bool ReceiversStage::namesTriangles() const
+{
+  constexpr int patience = 3; // frames
+  constexpr std::size_t leastTriangles = 1000;
+  return this->restingFrames_ < patience || this->frame_.severalViews ||
+    this->frame_.triangles < leastTriangles * this->collector_.occluders().surfaces.size();
+}
+
+//------------------------------------------------------------------------------
+void ReceiversStage::begin(const vtkRenderState* s)
+{
+  this->values_.receiversStage = true;
+  this->programs_.numbers.beginStage();
+  this->programs_.shaders.beginStage(
+    vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow()), this->values_);
+}
+
+//------------------------------------------------------------------------------
+void ReceiversStage::update(const vtkRenderState* s, vtkObjectBase* pass)
+{
+  this->findStale(s);
+  const bool areDue = this->due_.has_value() || !this->frame_.view->receivers.shared.areShared();
+  if (this->frame_.ranks && this->frame_.ranks->isAny(areDue))
+  {
+    this->frame_.view->receivers.shared.clear();
+  }
+  if (this->due_)
+  {
+    const auto draw = [&]
+    {
+      this->begin(s);
+      drawReceivers(
+        s, pass, this->frame_.size, this->readsPoints(), this->frame_.view->receivers.target);
+      this->programs_.shaders.endStage();
+    };
+    do
+    {
+      draw();
+      this->frame_.endStage("receivers");
+    } while (!this->ensureRightNumbers(s));
+  }
+  else
+  {
+    this->frame_.endStage("receivers"); // reused
+  }
+  this->take();
+  this->values_.depths = { GL_TEXTURE_2D, this->frame_.view->receivers.target.depths() };
+}
+
+//------------------------------------------------------------------------------
+/// Compare the triangle numbers that new programs have drawn with the depths.
+NumberCheck ReceiversStage::checkNumbers(const vtkRenderState* s)
+{
+  const ReceiversValue& receivers = this->frame_.view->receivers;
+  const Occluders& occluders = this->collector_.occluders();
+  ReceiverImages images;
+  NumberTruth truth;
+  // Parts without numbers may be nearer, and VTK may offset depths.
+  const bool comparesDepths =
+    !hasPartsOfBothKinds(s) && vtkMapper::GetResolveCoincidentTopology() == VTK_RESOLVE_OFF;
+  const auto read = [&](const auto& from)
+  {
+    from.read(images);
+    if (comparesDepths)
+    {
+      from.readDepths(truth.windowDepths);
+    }
+  };
+  this->frame_.route == Route::Deferred ? read(receivers.deferred) : read(receivers.target);
+  images.rays = pixelRays(this->frame_.camera.clipFromView, this->frame_.space.centredFromView,
+    images.width, images.height);
+  truth.clipFromCentred = this->frame_.camera.clipFromCentred();
+  // VTK multiplies vertices in float. It shifts those that are farther off than 1,000 extents.
+  const double extent = 2.0 * occluders.allCentred.radius();
+  const double farthest = glm::length(occluders.frame.centre) + extent;
+  truth.vertexNoise = 8.0 / 16777216.0 *
+    (std::min(farthest, 1000.0 * extent) + glm::length(this->frame_.camera.eyeCentred()));
+  return this->programs_.numbers.check(images, truth, this->collector_.drawnSurfaces(), occluders);
+}
+
+//------------------------------------------------------------------------------
+bool ReceiversStage::ensureRightNumbers(const vtkRenderState* s)
+{
+  const std::int64_t wrongByDriver = std::exchange(this->wrongByDriver_, 0);
+  if (!this->programs_.numbers.isDue())
+  {
+    return true;
+  }
+  FrameReport& report = this->frame_.report;
+  ShaderManager& shaders = this->programs_.shaders;
+  const NumberCheck check = this->checkNumbers(s);
+  this->frame_.endStage("receivers: check numbers");
+  report.numbersChecked += check.allPixels();
+  if (wrongByDriver > 0)
+  {
+    const bool isBetter = check.allWrong() < wrongByDriver;
+    report.numbersWrong = isBetter ? wrongByDriver : 0;
+    shaders.numberByGeometryShaders(isBetter);
+    return isBetter;
+  }
+  if (check.allWrong() > 0 && !shaders.numbersByGeometryShaders())
+  {
+    this->wrongByDriver_ = check.allWrong();
+    shaders.numberByGeometryShaders(true);
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void ReceiversStage::take()
+{
+  if (this->due_)
+  {
+    ReceiversValue& value = this->frame_.view->receivers;
+    if (value.drawnSurfaces != this->collector_.drawnSurfaces())
+    {
+      value.drawnSurfaces = this->collector_.drawnSurfaces();
+      value.numberOfImages = 0; // the fragments that were read have other names
+    }
+    value.key = std::move(this->due_);
+    value.number = ++this->numbered_;
+    ++this->frame_.report.receiversDrawn;
+  }
+}
+
+//------------------------------------------------------------------------------
+/// True if any light's technique traces on the CPU.
+bool ReceiversStage::tracesOnCpu() const
+{
+  return std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(), isOnCpu);
+}
+
+//------------------------------------------------------------------------------
+Receivers& ReceiversStage::onCpu()
+{
+  return this->frame_.ranks ? this->shared().receivers() : this->own();
+}
+
+//------------------------------------------------------------------------------
+const Occluders& ReceiversStage::surfaces()
+{
+  return this->frame_.ranks ? this->shared().surfaces() : this->collector_.occluders();
+}
+
+//------------------------------------------------------------------------------
+SharedReceivers& ReceiversStage::shared()
+{
+  ReceiversValue& value = this->frame_.view->receivers;
+  if (!value.shared.areShared())
+  {
+    Ranks& ranks = *this->frame_.ranks;
+    this->readImages();
+    std::vector<float> depths;
+    value.target.readDepths(depths);
+    this->frame_.endStage("visibility: read receivers");
+    keepNearest(ranks, depths, value.images.fragments);
+    this->frame_.endStage("visibility: nearest");
+    Receivers own(value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels);
+    const ReceiverPixels& pixels = own.all();
+    this->frame_.endStage("visibility: own receivers");
+    value.shared.share(ranks, pixels, this->collector_.occluders());
+    this->frame_.endStage("visibility: share receivers");
+  }
+  return value.shared;
+}
+
+//------------------------------------------------------------------------------
+void ReceiversStage::shareSurfaces(const std::vector<SurfaceName>& names)
+{
+  SharedReceivers& shared = this->shared();
+  if (smoothsEdges(this->frame_.lights) && shared.surfaceOfPixel().empty())
+  {
+    ReceiversValue& value = this->frame_.view->receivers;
+    std::vector<SharedName> own;
+    for (const DrawnSurface& drawn : value.drawnSurfaces)
+    {
+      own.push_back(names[drawn.blocks.front().surface].shared);
+    }
+    Ranks::Gathered<SharedName> all;
+    this->frame_.ranks->gather(own, all);
+    const std::set<SharedName> different(all.elements.begin(), all.elements.end());
+    std::vector<std::size_t> numbers;
+    for (const SharedName& name : own)
+    {
+      numbers.push_back(
+        static_cast<std::size_t>(std::distance(different.begin(), different.find(name))));
+    }
+    shared.shareSurfaces(*this->frame_.ranks, value.images.fragments, numbers);
+    this->frame_.endStage("visibility: share surfaces");
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Return the receivers that this process drew, read back once.
+Receivers& ReceiversStage::own()
+{
+  ReceiversValue& value = this->frame_.view->receivers;
+  const bool findsCurves = this->tracesOnCpu(); // others do not ask for them
+  if (!value.onCpu || value.onCpu->findsCurves() != findsCurves)
+  {
+    if (value.numberOfImages != value.number)
+    {
+      value.fragmentsBefore.swap(value.images.fragments);
+      value.numberBefore = std::exchange(value.numberOfImages, value.number);
+    }
+    this->readImages();
+    value.boxes.reset();
+    value.onCpu.emplace(
+      value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels, findsCurves);
+    this->frame_.endStage("visibility: read receivers");
+  }
+  return *value.onCpu;
+}
+
+//------------------------------------------------------------------------------
+/// Read back what VTK drew.
+void ReceiversStage::readImages()
+{
+  ReceiversValue& value = this->frame_.view->receivers;
+  value.images.rays = pixelRays(this->frame_.camera.clipFromView,
+    this->frame_.space.centredFromView, this->frame_.size.x, this->frame_.size.y);
+  if (this->frame_.route == Route::Deferred)
+  {
+    value.deferred.read(value.images);
+  }
+  else
+  {
+    value.target.read(value.images);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Storing receivers takes half as long as tracing from them. From then on an image takes a fifth
+/// less, and there are boxes by which tiles need no rays.
+void ReceiversStage::store()
+{
+  constexpr int patience = 2; // frames
+  Receivers& receivers = this->onCpu();
+  ReceiversValue& value = this->frame_.view->receivers;
+  const auto images = std::count_if(this->frame_.lights.begin(), this->frame_.lights.end(),
+    [](const CastingLight& casting)
+    {
+      const bool isDecidedByMap = casting.own->info().conservativeMap && casting.own->usesMap();
+      return casting.isStale && isOnCpu(casting) && !isDecidedByMap;
+    });
+  if (++value.framesTraced > patience || images > 1)
+  {
+    const ReceiverPixels& pixels = receivers.all();
+    if (!value.boxes)
+    {
+      value.boxes.emplace(pixels, this->collector_.occluders());
+    }
+    this->frame_.endStage("visibility: store receivers");
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,104 @@
+#pragma once
+
+#include "lights/vtkGnomonVersions.h"
+#include "plugin/frame/Frame.h"
+#include "plugin/frame/PassPrograms.h"
+#include "plugin/frame/ValueKey.h"
+#include "plugin/scene/OccluderCollector.h"
+#include "plugin/scene/PropStamps.h"
+#include "plugin/scene/SurfaceNames.h"
+#include "shadowtech/base/NumberCheck.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/Receivers.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkObjectBase;
+class vtkRenderState;
+class vtkRenderer;
+VTK_ABI_NAMESPACE_END
+
+namespace gnomon
+{
+
+/// The receivers stage of a renderer's frames: the triangle that each pixel shows. VTK draws their
+/// numbers; this checks them, reads them back, and shares them among processes.
+class ReceiversStage
+{
+public:
+  /// @param collector of the snapshot
+  /// @param values of the frame's shaders, which this completes
+  ReceiversStage(Frame& frame, const OccluderCollector& collector, PassPrograms& programs,
+    ShaderManager::StageValues& values);
+
+  void beginFrame() { this->shownProps_.reset(); }
+  void endFrame(vtkRenderer* renderer) { this->stamps_.endFrame(renderer); }
+  /// Return a hash of the props in view, from one walk a frame.
+  std::size_t shownProps(const vtkRenderState* s);
+  /// True if anything on the GPU reads the receivers' points.
+  bool readsPoints() const;
+
+  /// Compare the receivers' key with the cached one. If it differs, the cached receivers are
+  /// dropped and new ones are due.
+  void findStale(const vtkRenderState* s);
+  bool areDue() const { return this->due_.has_value(); }
+
+  ///@{
+  /// Deferred route: count the frames in a row that kept their receivers, and return true if shaders
+  /// write triangle numbers, whether or not this frame takes them.
+  void countRest();
+  bool namesTriangles() const;
+  ///@}
+
+  /// Image route: draw the receivers if they are stale, and points for techniques that read them on
+  /// the GPU.
+  /// @param pass whose hook the props' shaders have
+  void update(const vtkRenderState* s, vtkObjectBase* pass);
+  /// Begin a stage in which the props' programs draw receivers, with or without the picture.
+  void begin(const vtkRenderState* s);
+  /// Check the numbers of receivers that were just drawn. If any is wrong, they are drawn again with
+  /// numbers by geometry shaders, which stay if fewer are wrong then. Else the snapshot differs from
+  /// the picture, and the driver is right.
+  /// @return false if the receivers must be drawn again
+  bool ensureRightNumbers(const vtkRenderState* s);
+  /// Cache the receivers that were drawn, if they were due.
+  void take();
+
+  /// Return the view's receivers on the CPU, and the snapshot that names their surfaces: of all
+  /// processes, if several draw the picture.
+  Receivers& onCpu();
+  const Occluders& surfaces();
+  /// Store receivers that serve several images: those of several lights, or of a light that moves
+  /// over them.
+  void store();
+  ///@{
+  /// Of several processes: the receivers, shared once; and which surface each pixel shows, if
+  /// lights' edges are smoothed.
+  SharedReceivers& shared();
+  void shareSurfaces(const std::vector<SurfaceName>& names);
+  ///@}
+
+private:
+  ValueKey keyOf(const vtkRenderState* s);
+  NumberCheck checkNumbers(const vtkRenderState* s);
+  bool tracesOnCpu() const;
+  Receivers& own();
+  void readImages();
+
+  Frame& frame_;
+  const OccluderCollector& collector_;
+  PassPrograms& programs_;
+  ShaderManager::StageValues& values_;
+  PropStamps stamps_;
+  std::optional<std::size_t> shownProps_; ///< this frame's, once it is asked for
+  std::optional<ValueKey> due_;           ///< the key of receivers that this frame draws
+  std::size_t numbered_ = 0;              ///< how many images of receivers were drawn
+  std::int64_t wrongByDriver_ = 0;        ///< numbers, while geometry shaders draw receivers
+  int restingFrames_ = 0;                 ///< deferred route: in a row that kept their receivers
+};
+
+} // namespace gnomon

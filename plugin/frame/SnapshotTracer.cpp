@@ -1,0 +1,41 @@
+#include "plugin/frame/SnapshotTracer.h"
+
+#include <cstdint>
+#include <exception>
+#include <vector>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+SnapshotTracer::SnapshotTracer(Frame& frame, const Occluders& occluders)
+  : frame_(frame)
+  , occluders_(occluders)
+{
+}
+
+//------------------------------------------------------------------------------
+void SnapshotTracer::update()
+{
+  if (!this->tracer_)
+  {
+    this->tracer_.emplace();
+  }
+  Ranks* const ranks = this->frame_.ranks;
+  this->tracer_->share(ranks ? [ranks](std::vector<std::uint64_t>& bits) { ranks->uniteBits(bits); }
+                             : SharedTracer::UniteBits());
+  try
+  {
+    const EmbreeTracer::Update update = this->tracer_->update(this->occluders_);
+    this->frame_.report.bvhBuilds += update.builds;
+    this->frame_.report.bvhRefits += update.refits;
+  }
+  catch (const std::exception&)
+  {
+    this->tracer_.reset(); // it has a part of the casters
+    throw;
+  }
+  this->frame_.endStage("visibility: build");
+}
+
+} // namespace gnomon

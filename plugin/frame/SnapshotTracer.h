@@ -1,0 +1,40 @@
+#pragma once
+
+#include "plugin/frame/Frame.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/tracing/SharedTracer.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace gnomon
+{
+
+/// The structure of a snapshot that answers rays, of all lights and views. It is built where a stage
+/// first asks.
+class SnapshotTracer
+{
+public:
+  /// @param occluders the snapshot, which lives as long as this
+  SnapshotTracer(Frame& frame, const Occluders& occluders);
+
+  /// Bring the structure up to date with the snapshot.
+  /// @throws std::runtime_error if there is no tracer
+  void update();
+  /// Return the tracer of the last update.
+  EmbreeTracer& get() { return *this->tracer_; }
+
+  ///@{
+  /// Return bytes; 0 if nothing was traced.
+  std::size_t bytes() const { return this->tracer_ ? this->tracer_->bytes() : 0; }
+  std::size_t bytesOfTable() const { return this->tracer_ ? this->tracer_->bytesOfTable() : 0; }
+  std::size_t bytesOfRays() const { return this->tracer_ ? this->tracer_->bytesOfRays() : 0; }
+  ///@}
+
+private:
+  Frame& frame_;
+  const Occluders& occluders_;
+  std::optional<SharedTracer> tracer_;
+};
+
+} // namespace gnomon
