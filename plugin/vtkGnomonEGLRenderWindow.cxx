@@ -149,7 +149,7 @@ void vtkGnomonEGLRenderWindow::WindowRemap()
 //------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::Start()
 {
-  if (this->HasContext())
+  if (this->EnsureContext())
   {
     this->Superclass::Start();
   }
@@ -159,7 +159,7 @@ void vtkGnomonEGLRenderWindow::Start()
 void vtkGnomonEGLRenderWindow::Render()
 {
   const gnomon::CurrentContext restored;
-  if (this->HasContext())
+  if (this->EnsureContext())
   {
     this->Superclass::Render();
   }
@@ -192,8 +192,8 @@ void vtkGnomonEGLRenderWindow::BecomeCurrent()
 }
 
 //------------------------------------------------------------------------------
-/// True if the context is ready and current, else the reason is reported.
-bool vtkGnomonEGLRenderWindow::HasContext()
+/// Make the context ready and current; report the reason if that fails, and return false.
+bool vtkGnomonEGLRenderWindow::EnsureContext()
 {
   this->Initialize();
   this->BecomeCurrent();
@@ -267,7 +267,7 @@ void vtkGnomonEGLRenderWindow::OpenGLInitContext()
 const char* vtkGnomonEGLRenderWindow::ReportCapabilities()
 {
   const gnomon::CurrentContext restored;
-  return this->HasContext() ? this->Superclass::ReportCapabilities() : "";
+  return this->EnsureContext() ? this->Superclass::ReportCapabilities() : "";
 }
 
 //------------------------------------------------------------------------------
@@ -345,7 +345,7 @@ int vtkGnomonEGLRenderWindow::WithFrame(const void* pixels, const Call& call)
   int result = VTK_ERROR;
   {
     const gnomon::CurrentContext restored;
-    result = this->HasContext() ? call() : VTK_ERROR;
+    result = this->EnsureContext() ? call() : VTK_ERROR;
   }
   // Filters make the window current to read it. A selection goes on afterwards.
   if (!this->IsSelecting())
@@ -369,38 +369,39 @@ bool vtkGnomonEGLRenderWindow::IsSelecting()
 }
 
 //------------------------------------------------------------------------------
-int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
+/// Ask OpenGL about the bound frame.
+/// @param otherwise returned if there is none
+template <typename Ask>
+int vtkGnomonEGLRenderWindow::AskFrame(int otherwise, const Ask& ask)
 {
   const gnomon::CurrentContext restored;
-  if (rgba)
+  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->EnsureContext())
   {
-    std::fill_n(rgba, 4, 0);
-  }
-  // A context without a surface has no other buffers, and newer VTK warns when it asks for them.
-  if (!rgba || !this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
-  {
-    return 0;
+    return otherwise;
   }
   this->GetState()->PushFramebufferBindings();
   this->RenderFramebuffer->Bind();
-  const int sum = this->Superclass::GetColorBufferSizes(rgba);
+  const int answer = ask();
   this->GetState()->PopFramebufferBindings();
-  return sum;
+  return answer;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
+{
+  if (!rgba)
+  {
+    return 0;
+  }
+  // A context without a surface has no other buffers, and newer VTK warns when it asks for them.
+  std::fill_n(rgba, 4, 0);
+  return this->AskFrame(0, [&] { return this->Superclass::GetColorBufferSizes(rgba); });
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetDepthBufferSize()
 {
-  const gnomon::CurrentContext restored;
-  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex() || !this->HasContext())
-  {
-    return 24; // as in VTK's own windows
-  }
-  this->GetState()->PushFramebufferBindings();
-  this->RenderFramebuffer->Bind();
-  const int bits = this->Superclass::GetDepthBufferSize();
-  this->GetState()->PopFramebufferBindings();
-  return bits;
+  return this->AskFrame(24, [&] { return this->Superclass::GetDepthBufferSize(); });
 }
 
 //------------------------------------------------------------------------------

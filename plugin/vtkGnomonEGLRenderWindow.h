@@ -191,7 +191,9 @@ private:
   void operator=(const vtkGnomonEGLRenderWindow&) = delete;
 
   void BecomeCurrent();
-  bool HasContext();
+  bool EnsureContext();
+  template <typename Ask>
+  int AskFrame(int otherwise, const Ask& ask);
   bool IsSelecting();
   template <typename Call>
   int WithFrame(const void* pixels, const Call& call);

@@ -21,7 +21,7 @@ enum class EmbreeRays
 
 #if RTC_VERSION_MAJOR >= 4
 
-/// A query's arguments besides its rays. Callbacks receive the address of the first member.
+/// The arguments of a query besides its rays. Callbacks receive the address of the first member.
 struct EmbreeContext
 {
   explicit EmbreeContext(EmbreeRays rays = EmbreeRays::Incoherent)
@@ -34,7 +34,7 @@ struct EmbreeContext
   RTCRayQueryContext context;
   RTCRayQueryFlags flags;
   RTCFilterFunctionN filter = nullptr; ///< of this query alone, in scenes with `queriesFilter`
-  const OwnSurface* own = nullptr;     ///< what the filter asks for
+  const OwnSurface* own = nullptr;     ///< the surface that the filter asks about
 };
 
 inline constexpr RTCSceneFlags queriesFilter = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
@@ -85,7 +85,7 @@ inline void occlude(const int* valid, RTCScene scene, EmbreeContext& context, RT
 
 #else
 
-/// A query's arguments besides its rays. Callbacks receive the address of the first member.
+/// The arguments of a query besides its rays. Callbacks receive the address of the first member.
 struct EmbreeContext
 {
   explicit EmbreeContext(EmbreeRays rays = EmbreeRays::Incoherent)
@@ -97,7 +97,7 @@ struct EmbreeContext
 
   RTCIntersectContext context;
   RTCFilterFunctionN filter = nullptr; ///< of this query alone, in scenes with `queriesFilter`
-  const OwnSurface* own = nullptr;     ///< what the filter asks for
+  const OwnSurface* own = nullptr;     ///< the surface that the filter asks about
 };
 
 inline constexpr RTCSceneFlags queriesFilter = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;

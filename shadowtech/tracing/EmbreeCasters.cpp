@@ -33,18 +33,6 @@ EmbreeCasters::EmbreeCasters()
 }
 
 //------------------------------------------------------------------------------
-void EmbreeCasters::check(const char* what) const
-{
-  const RTCError error = rtcGetDeviceError(this->device.get());
-  if (error != RTC_ERROR_NONE)
-  {
-    throw std::runtime_error(std::string("Embree failed while ") + what + ": " +
-      (error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory"
-                                        : "error " + std::to_string(static_cast<int>(error))));
-  }
-}
-
-//------------------------------------------------------------------------------
 /// Share the snapshot's current arrays with Embree. Indices count over all its vertices.
 void EmbreeCasters::setBuffers(
   Caster& caster, const Surface& surface, const Occluders& occluders) const
@@ -247,7 +235,13 @@ EmbreeTracer::Update EmbreeCasters::update(const Occluders& occluders)
   this->casters = std::move(casters);
   this->nameSurfaces(occluders);
   rtcCommitScene(this->scene.get());
-  this->check("building the acceleration structure");
+  const RTCError error = rtcGetDeviceError(this->device.get());
+  if (error != RTC_ERROR_NONE)
+  {
+    throw std::runtime_error("Embree failed while building the acceleration structure: " +
+      (error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory"
+                                        : "error " + std::to_string(static_cast<int>(error))));
+  }
   this->topologyVersion_ = occluders.topologyVersion;
   this->positionsVersion_ = occluders.positionsVersion;
   return update;

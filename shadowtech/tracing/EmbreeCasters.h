@@ -68,7 +68,6 @@ private:
   void attachInstances(Caster& caster, const Surface& surface) const;
   void move(Caster& caster, const Surface& surface) const;
   void nameSurfaces(const Occluders& occluders);
-  void check(const char* what) const;
 
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;
