@@ -176,6 +176,10 @@ void BlockFinder::addAll(const DrawnActor& drawn, const DrawnProp& prop)
     for (vtkPolyData* data : drawnBlocks(drawn.actor, mapper, prop.translucent))
     {
       this->blocks_.push_back({ data });
+      if (kind == MapperKind::Composite)
+      {
+        this->takePixelSizes(drawn.actor, this->blocks_.back());
+      }
     }
   }
   else if (kind == MapperKind::Solids)

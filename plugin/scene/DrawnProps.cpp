@@ -361,7 +361,9 @@ void Finder::addActor(vtkProp* leaf, vtkMatrix4x4* matrix)
   {
     return;
   }
-  if (asPoints && taken.kind != MapperKind::PlainPolyData && taken.kind != MapperKind::PolyData)
+  const bool drawsCells = taken.kind == MapperKind::PlainPolyData ||
+    taken.kind == MapperKind::PolyData || taken.kind == MapperKind::Composite;
+  if (asPoints && !drawsCells)
   {
     if (taken.lit)
     {

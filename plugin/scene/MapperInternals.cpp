@@ -169,9 +169,10 @@ std::optional<SurfaceCells> cellsAboutToBeDrawn(vtkAbstractMapper* mapper)
 //------------------------------------------------------------------------------
 std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells)
 {
-  const int primitiveType = cells == SurfaceCells::Polygons
-    ? vtkOpenGLPolyDataMapper::PrimitiveTris
-    : vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
+  const int primitiveType = cells == SurfaceCells::Polygons ? vtkOpenGLPolyDataMapper::PrimitiveTris
+    : cells == SurfaceCells::PointSpheres ? vtkOpenGLPolyDataMapper::PrimitivePoints
+    : cells == SurfaceCells::LineTubes    ? vtkOpenGLPolyDataMapper::PrimitiveLines
+                                          : vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
   if (auto calls = blockDrawCalls(mapper, primitiveType))
   {
     return *std::move(calls);

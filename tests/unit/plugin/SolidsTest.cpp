@@ -4,9 +4,11 @@
 #include "RandomScenes.h"
 
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtk_versions/SharedBlocksMapper.h"
 
 #include <vtkActorCollection.h>
 #include <vtkCellArray.h>
+#include <vtkCompositeDataDisplayAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageActor.h>
@@ -780,6 +782,38 @@ TEST_F(SolidsTest, pointsAsSpheresCastAsSpheres)
     EXPECT_GT(dark, 1000u);
     EXPECT_LE(different, 5u); // outlines, to within a rounding of the radius
   }
+}
+
+//------------------------------------------------------------------------------
+/// A mapper of composite data, as ParaView's, draws the same spheres and tubes of each block.
+TEST_F(SolidsTest, pixelSizedSolidsOfBlocksAreThoseOfTheirData)
+{
+  PixelSizedScene scene;
+  scene.showPoints();
+  scene.showTubes();
+  scene.pass->SetTechnique("raytraced");
+  const VisibilityImages truth = drawKept(scene);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, scene.data);
+  vtkNew<vtkPolyData> empty;
+  blocks->SetBlock(1, empty);
+  vtkNew<gnomon::SharedBlocksMapper> mapper;
+  vtkNew<vtkCompositeDataDisplayAttributes> attributes;
+  mapper->SetCompositeDataDisplayAttributes(attributes);
+  mapper->SetInputDataObject(blocks);
+  scene.actor->SetMapper(mapper);
+  const VisibilityImages kept = drawKept(scene);
+  EXPECT_EQ(scene.report().instances, 120u);
+  EXPECT_THAT(scene.report().notes, testing::IsEmpty());
+  std::size_t dark = 0;
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < truth.coverage.size(); ++i)
+  {
+    dark += truth.visibility[0][i] == 0.0f ? 1 : 0;
+    different += truth.visibility[0][i] != kept.visibility[0][i] ? 1 : 0;
+  }
+  EXPECT_GT(dark, 1000u);
+  EXPECT_LE(different, 5u); // outlines
 }
 
 //------------------------------------------------------------------------------
