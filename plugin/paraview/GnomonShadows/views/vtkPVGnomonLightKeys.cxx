@@ -1,7 +1,6 @@
 #include "vtkPVGnomonLightKeys.h"
 
-#include "lights/vtkGnomonLightKeys.h"
-
+#include "vtkGnomonLightKeys.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"

@@ -2,9 +2,12 @@
 
 #include "vtkCameraPass.h"
 #include "vtkCommand.h"
+#include "vtkGnomonPropKeys.h"
 #include "vtkGnomonShadowPass.h"
 #include "vtkImageData.h"
 #include "vtkImageProcessingPass.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
 #include "vtkMultiProcessController.h"
@@ -13,6 +16,8 @@
 #include "vtkPVRenderView.h"
 #include "vtkPVSession.h"
 #include "vtkProcessModule.h"
+#include "vtkProp.h"
+#include "vtkPropCollection.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkXMLImageDataWriter.h"
@@ -80,7 +85,7 @@ void setSetting(vtkGnomonShadowPass* pass, const char* name, Value value)
 vtkPVGnomonShadows::vtkPVGnomonShadows()
 {
   this->SetNumberOfInputPorts(0);
-  this->Pass->SetTechnique("raytraced");
+  this->Pass->SetTechnique("auto");
   // An observer keeps the pass's warnings from ParaView's output window, which opens on each
   // process. The report has them as notes.
   this->Pass->AddObserver(vtkCommand::WarningEvent, this, &vtkPVGnomonShadows::LeaveToReport);
@@ -141,13 +146,7 @@ void vtkPVGnomonShadows::PlacePass()
     this->Pass->SetDelegatePass(camera->GetDelegatePass());
     camera->SetDelegatePass(this->Pass);
   }
-  vtkCollectionSimpleIterator iterator;
-  vtkLightCollection* const lights = renderer->GetLights();
-  lights->InitTraversal(iterator);
-  while (vtkLight* const light = lights->GetNextLight(iterator))
-  {
-    light->SetShadowAttenuation(static_cast<float>(this->ShadowStrength));
-  }
+  this->SetKeys();
   const bool interactive = isInteractive(this->View);
   const bool isComposited =
     isDistributed(this->View) && this->Pass->GetDelegatePass()->IsA("vtkIceTCompositePass");
@@ -158,6 +157,37 @@ void vtkPVGnomonShadows::PlacePass()
                     : this->View->GetStillRenderImageReductionFactor());
   this->Pass->SetInteractive(
     interactive ? vtkGnomonShadowPass::INTERACTIVE_ON : vtkGnomonShadowPass::INTERACTIVE_OFF);
+}
+
+//----------------------------------------------------------------------------
+/// Tell the view's lights and props what the properties ask of them.
+void vtkPVGnomonShadows::SetKeys()
+{
+  vtkRenderer* const renderer = this->View->GetRenderer();
+  vtkCollectionSimpleIterator iterator;
+  vtkLightCollection* const lights = renderer->GetLights();
+  lights->InitTraversal(iterator);
+  while (vtkLight* const light = lights->GetNextLight(iterator))
+  {
+    light->SetShadowAttenuation(static_cast<float>(this->ShadowStrength));
+  }
+  vtkPropCollection* const props = renderer->GetViewProps();
+  props->InitTraversal(iterator);
+  while (vtkProp* const prop = props->GetNextProp(iterator))
+  {
+    vtkInformation* const keys = prop->GetPropertyKeys();
+    const bool isAsked = keys && keys->Has(vtkGnomonPropKeys::CASTS());
+    const bool asks =
+      this->TranslucentCasts && prop->IsA("vtkActor") && prop->HasTranslucentPolygonalGeometry();
+    if (asks && !isAsked)
+    {
+      vtkGnomonPropKeys::SetCasts(prop, true);
+    }
+    else if (isAsked && !asks)
+    {
+      keys->Remove(vtkGnomonPropKeys::CASTS());
+    }
+  }
 }
 
 //----------------------------------------------------------------------------
@@ -282,6 +312,7 @@ void vtkPVGnomonShadows::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ShowShadows: " << this->ShowShadows << "\n";
   os << indent << "ShadowStrength: " << this->ShadowStrength << "\n";
+  os << indent << "TranslucentCasts: " << this->TranslucentCasts << "\n";
   os << indent << "VisibilityFile: " << this->VisibilityFile << "\n";
   os << indent << "Pass:\n";
   this->Pass->PrintSelf(os, indent.GetNextIndent());

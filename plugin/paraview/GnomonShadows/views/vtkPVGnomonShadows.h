@@ -43,6 +43,14 @@ public:
   vtkSetClampMacro(ShadowStrength, double, 0.0, 1.0);
   vtkGetMacro(ShadowStrength, double);
 
+  ///@{
+  /**
+   * Whether translucent surfaces cast, as opaque ones do. Default off.
+   */
+  vtkSetMacro(TranslucentCasts, bool);
+  vtkGetMacro(TranslucentCasts, bool);
+  ///@}
+
   /**
    * Which lights cast, as vtkGnomonShadowPass::SetCasting().
    */
@@ -50,7 +58,7 @@ public:
 
   ///@{
   /**
-   * Of all lights: vtkGnomonShadowPass::SetTechnique(), by default "raytraced"; the settings
+   * Of all lights: vtkGnomonShadowPass::SetTechnique(), by default "auto"; the settings
    * `edge_samples`, `light_radius` (world units, of directional lights degrees) and
    * `light_samples`.
    */
@@ -88,6 +96,7 @@ protected:
 
   bool ShowShadows = false;
   double ShadowStrength = 1.0;
+  bool TranslucentCasts = false;
 
 private:
   vtkPVGnomonShadows(const vtkPVGnomonShadows&) = delete;
@@ -96,6 +105,7 @@ private:
   void BeginFrame();
   void EndFrame();
   void PlacePass();
+  void SetKeys();
   void WriteVisibility();
   void ShareReport();
   void TellOnce(const char* why);
