@@ -2,8 +2,10 @@
 # Builds the plugin for ParaView in a chroot of Debian bookworm, and draws with it on several
 # processes: what they show must be what one process shows. Runs as root and needs debootstrap.
 #
-#   tests/paraview/run.sh [--fresh] [--measure]
+#   tests/paraview/run.sh [--fresh] [--measure] [--users]
 #
+# It prints a table of what users draw, and writes it to docs/results/paraview.csv; --users draws
+# nothing else.
 # The chroot stays in the temporary folder (TMPDIR) for the next run; --fresh makes a new one.
 # --measure measures times instead, and writes docs/results/paraview.md.
 set -euo pipefail
@@ -14,12 +16,14 @@ arguments=("$@")
 
 fresh=no
 measure=no
+users=no
 for argument in "$@"; do
   case "$argument" in
     --fresh) fresh=yes ;;
     --measure) measure=yes ;;
+    --users) users=yes ;;
     *)
-      echo "Usage: tests/paraview/run.sh [--fresh] [--measure]" >&2
+      echo "Usage: tests/paraview/run.sh [--fresh] [--measure] [--users]" >&2
       exit 2
       ;;
   esac
@@ -144,7 +148,9 @@ echo "$SECONDS s: installing packages"
 # shellcheck disable=SC2046 # the packages are words
 logged packages install_inside "$root" \
   $(sed 's/#.*//' "$project/cmake/paraview-packages.txt" | xargs)
-inside "$root" dpkg-query -W -f '${Package} ${Version}\n' paraview openmpi-bin libgl1-mesa-dri
+versions=$(inside "$root" dpkg-query -W -f 'version,,${Package},${Version}\n' \
+  paraview openmpi-bin libgl1-mesa-dri)
+echo "$versions"
 
 echo "$SECONDS s: building"
 logged configure inside "$root" cmake -S /src/plugin/paraview -B /build/paraview \
@@ -166,6 +172,25 @@ PAGE
   exit "$failures"
 fi
 
+for case in surface_lic reduced annotations views looks casters dragging; do
+  for processes in 1 2 3; do
+    scenario "users-$case-$processes" batch "$processes" users.py "$case" "$work/users"
+  done
+done
+scenario users-reduced-client beside_server 2 "" users.py reduced "$work/users"
+
+# The table, from the rows that the scenarios print.
+table=$project/docs/results/paraview.csv
+{
+  echo "case,processes,what,figure"
+  echo "$versions"
+  sed -n 's/^row,//p' "$folder"/users-*.log
+} > "$table"
+sed 's/,,/, ,/g' "$table" | column -s , -t
+if [ "$users" = yes ]; then
+  exit "$failures"
+fi
+
 logged prepare inside "$root" env PYTHONDONTWRITEBYTECODE=1 python3 $scripts/prepare.py "$data"
 for processes in 2 3 4; do
   scenario "draw-$processes" batch "$processes" same_visibility.py shared "$data" "$work"
@@ -176,12 +201,6 @@ scenario random-alone batch 1 random_changes.py alone "$data" "$work/random"
 scenario selections batch 3 selects.py "$data"
 scenario batch-picture batch 3 picture.py "$data" "$work/batch.png"
 scenario client beside_server 3 "" picture.py "$data" "$work/client.png" "$work/batch.png"
-for case in surface_lic reduced annotations views looks; do
-  for processes in 1 2 3; do
-    scenario "users-$case-$processes" batch "$processes" users.py "$case" "$work/users"
-  done
-done
-scenario users-reduced-client beside_server 2 "" users.py reduced "$work/users"
 expected="Tile displays and CAVEs have no shadows|Warning: In vtkPVGnomonShadows"
 scenario tiles beside_server 2 "--tdx 2 --tdy 1" tiles.py
 expect tiles 3 "Tile displays and CAVEs have no shadows"

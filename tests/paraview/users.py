@@ -15,8 +15,9 @@ import time
 
 from paraview import servermanager
 from paraview.simple import Box, Calculator, Connect, Contour, CreateView, Delete
-from paraview.simple import GetActiveViewOrCreate, LoadState, Plane, Render, ResetSession, Ruler
-from paraview.simple import SaveScreenshot, SaveState, Show, Sphere, StreamTracer, Wavelet
+from paraview.simple import GetActiveView, GetActiveViewOrCreate, Line, LoadState, Plane
+from paraview.simple import PointSource, Render, ResetSession, Ruler, SaveScreenshot, SaveState
+from paraview.simple import Show, Sphere, StreamTracer, Wavelet
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
@@ -30,15 +31,16 @@ DARKER = 40  # of 255: in shadow
 class Pictures:
     """The pictures of a case."""
 
-    def __init__(self, case, out):
+    def __init__(self, case, out, is_client):
         self.case = case
+        self.processes = "client" if is_client else scenario.processes()
         self.out = pathlib.Path(out)
         self.out.mkdir(parents=True, exist_ok=True)
 
     def path(self, view, name):
         kind = "shadows" if getattr(view, "ShowShadows", 0) else "plain"
         name = name.replace(" ", "-")
-        return str(self.out / f"{self.case}-{name}-{scenario.processes()}-{kind}.png")
+        return str(self.out / f"{self.case}-{name}-{self.processes}-{kind}.png")
 
     def take(self, view, name, size=SIZE):
         """Return a screenshot."""
@@ -61,7 +63,7 @@ class Pictures:
         return scenario.read_picture(self.path(view, name))
 
     def row(self, what, figure):
-        print(f"row,{self.case},{scenario.processes()},{what},{figure}", flush=True)
+        print(f"row,{self.case},{self.processes},{what},{figure}", flush=True)
 
 
 def in_shadow(picture, plain):
@@ -205,16 +207,15 @@ def annotations(pictures):
 
 
 def views(pictures):
-    """Views of all kinds have the shadows, and sources find them; a state without them gains them."""
-    def switch(view, value):
-        view.ShowShadows = value
+    """Views of all kinds have shadows, sources find these views, and plain states gain shadows."""
+    def check(name, view):
+        view.ShowShadows = 0
+        plain = pictures.take(view, name)
+        view.ShowShadows = 1
+        judge(name, plain, pictures.take(view, name))
 
-    def check(name, view, switch=switch):
-        pair = []
-        for value in (0, 1):
-            switch(view, value)
-            pair.append(pictures.take(view, f"{name}-{value}"))
-        share = in_shadow(pair[1], pair[0]).mean()
+    def judge(name, plain, shadows):
+        share = in_shadow(shadows, plain).mean()
         pictures.row(name, f"{100 * share:.1f} %")
         scenario.check(f"{name} shows shadows", 0.01 < share < 0.2, f"{100 * share:.1f} % of it")
 
@@ -247,12 +248,11 @@ def views(pictures):
     view.UseLight = 1
     view.OrientationAxesVisibility = view.CenterAxesVisibility = 0
     show_box(view)
-    root = view.SMProxy.GetRootView()
-
-    def switch_root(_, value):
-        servermanager._getPyProxy(root).ShowShadows = value
-
-    check("a comparative view", view, switch_root)
+    plain = pictures.take(view, "comparative")
+    root = GetActiveView().SMProxy.GetRootView()
+    servermanager.vtkSMPropertyHelper(root, "ShowShadows").Set(1)
+    root.UpdateVTKObjects()
+    judge("a comparative view", plain, pictures.take(view, "comparative-with-shadows"))
 
 
 def looks(pictures):
@@ -286,6 +286,34 @@ def looks(pictures):
     scenario.check("casting lights", counts == {"all": 2, "brightest": 1}, str(counts))
 
 
+def casters(pictures):
+    """What the Display panel makes of data casts: spheres, tubes, and translucent surfaces."""
+    floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
+    box = Box(XLength=2, YLength=2, ZLength=2, Center=[0, 0, 2])
+    line = Line(Point1=[-3, -2, 2], Point2=[3, 2, 2], Resolution=6)
+    points = PointSource(Center=[0, 0, 2], Radius=1.5, NumberOfPoints=10)
+
+    def share(name, source, **properties):
+        view = scenario.make_view(False, SIZE)
+        show(floor, view)
+        display = show(source, view)
+        for key, value in properties.items():
+            setattr(display, key, value)
+        look(view, (6, -14, 12), (0, 0, 0.5))
+        scenario.add_light(view, "sun", (-4, -3, 9))
+        plain = pictures.take(view, name)
+        view.ShowShadows = view.TranslucentCasts = 1
+        dark = in_shadow(pictures.take(view, name), plain).mean()
+        pictures.row(name, f"{100 * dark:.1f} %")
+        scenario.check(f"{name} casts", 0.001 < dark < 0.1, f"{100 * dark:.1f} % of the picture")
+        Delete(view)
+
+    share("tubes", line, RenderLinesAsTubes=1, LineWidth=12.0)
+    share("spheres", points, RenderPointsAsSpheres=1, PointSize=24.0)
+    if pictures.processes == 1:  # Debian's ParaView cannot redistribute data to order it
+        share("a translucent box", box, Opacity=0.5)
+
+
 def dragging(pictures):
     """A soft light while the view is turned: frames beside those of a plain view."""
 
@@ -308,6 +336,7 @@ def dragging(pictures):
         return statistics.median(times[3:])
 
     plain, view = draw(False), draw(True)
+    scenario.check("auto is the default", view.Technique == "auto", view.Technique)
     view.LightSize = 4.0
     ratio = {}
     for technique in ("raytraced", "auto"):
@@ -321,7 +350,7 @@ def dragging(pictures):
 
 CASES = {
     function.__name__: function
-    for function in (surface_lic, reduced, annotations, views, looks, dragging)
+    for function in (surface_lic, reduced, annotations, views, looks, casters, dragging)
 }
 
 
@@ -331,8 +360,9 @@ def main():
         Connect("127.0.0.1", int(sys.argv[3]))
         scenario.load_plugin(remote=True)
     scenario.load_plugin()
-    CASES[case](Pictures(case, out))
+    CASES[case](Pictures(case, out, len(sys.argv) > 3))
     scenario.finish()
 
 
-main()
+if __name__ == "__main__":
+    main()

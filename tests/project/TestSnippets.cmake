@@ -49,7 +49,7 @@ file(GLOB_RECURSE cpp_files "${SOURCE_DIR}/examples/*.cxx" "${SOURCE_DIR}/tests/
   "${SOURCE_DIR}/lights/*.h" "${SOURCE_DIR}/lights/*.cpp" "${SOURCE_DIR}/shadowtech/*.h"
   "${SOURCE_DIR}/shadowtech/*.cpp")
 file(GLOB_RECURSE python_files "${SOURCE_DIR}/examples/*.py" "${SOURCE_DIR}/tests/clients/*.py"
-  "${SOURCE_DIR}/tests/python/*.py")
+  "${SOURCE_DIR}/tests/paraview/*.py" "${SOURCE_DIR}/tests/python/*.py")
 file(GLOB_RECURSE glsl_files "${SOURCE_DIR}/shadowtech/*.glsl")
 
 # A snippet is snippet_<number>, of page_<number>; its number is in numbers_<language>.
