@@ -262,6 +262,12 @@ void vtkPVGnomonShadows::SetCasting(int casting)
 }
 
 //----------------------------------------------------------------------------
+void vtkPVGnomonShadows::SetSmoothTerminators(bool smooth)
+{
+  this->Pass->SetSmoothTerminators(smooth);
+}
+
+//----------------------------------------------------------------------------
 void vtkPVGnomonShadows::SetTechnique(const char* name)
 {
   this->Pass->SetTechnique(name);

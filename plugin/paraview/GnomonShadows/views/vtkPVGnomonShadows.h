@@ -52,6 +52,11 @@ public:
   ///@}
 
   /**
+   * As vtkGnomonShadowPass::SetSmoothTerminators(). Default on.
+   */
+  void SetSmoothTerminators(bool smooth);
+
+  /**
    * Which lights cast, as vtkGnomonShadowPass::SetCasting().
    */
   void SetCasting(int casting);
