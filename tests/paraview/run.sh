@@ -172,7 +172,7 @@ PAGE
   exit "$failures"
 fi
 
-for case in surface_lic reduced annotations views looks casters dragging; do
+for case in surface_lic reduced annotations views looks terminators casters dragging; do
   for processes in 1 2 3; do
     scenario "users-$case-$processes" batch "$processes" users.py "$case" "$work/users"
   done

@@ -286,6 +286,20 @@ def looks(pictures):
     scenario.check("casting lights", counts == {"all": 2, "brightest": 1}, str(counts))
 
 
+def terminators(pictures):
+    """A coarse sphere looks alike on one process and on several, if it is asked to."""
+    view = scenario.make_view(True, SIZE)
+    show(Sphere(Radius=2.5, ThetaResolution=10, PhiResolution=10), view)
+    look(view, (6, -14, 12))
+    scenario.add_light(view, "sun", (-8, -3, 6))
+    smooth = pictures.take(view, "smooth")
+    view.SmoothTerminators = 0
+    differ = int((pictures.take(view, "as-it-is") != smooth).any(axis=2).sum())
+    pictures.row("pixels of smooth terminators", differ)
+    passes = differ > 300 if pictures.processes == 1 else differ == 0
+    scenario.check("terminators", passes, f"{differ} pixels differ")
+
+
 def casters(pictures):
     """What the Display panel makes of data casts: spheres, tubes, and translucent surfaces."""
     floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
@@ -350,7 +364,16 @@ def dragging(pictures):
 
 CASES = {
     function.__name__: function
-    for function in (surface_lic, reduced, annotations, views, looks, casters, dragging)
+    for function in (
+        surface_lic,
+        reduced,
+        annotations,
+        views,
+        looks,
+        terminators,
+        casters,
+        dragging,
+    )
 }
 
 

@@ -176,14 +176,14 @@ void vtkPVGnomonShadows::SetKeys()
   while (vtkProp* const prop = props->GetNextProp(iterator))
   {
     vtkInformation* const keys = prop->GetPropertyKeys();
-    const bool isAsked = keys && keys->Has(vtkGnomonPropKeys::CASTS());
+    const bool hasKey = keys && keys->Has(vtkGnomonPropKeys::CASTS());
     const bool asks =
       this->TranslucentCasts && prop->IsA("vtkActor") && prop->HasTranslucentPolygonalGeometry();
-    if (asks && !isAsked)
+    if (asks && !hasKey)
     {
       vtkGnomonPropKeys::SetCasts(prop, true);
     }
-    else if (isAsked && !asks)
+    else if (hasKey && !asks && vtkGnomonPropKeys::GetCasts(prop))
     {
       keys->Remove(vtkGnomonPropKeys::CASTS());
     }
