@@ -9,7 +9,6 @@
 
 #include "vtkAssembly.h"
 #include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkCompositePolyDataMapper.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
 #include "vtkFollower.h"
@@ -437,37 +436,27 @@ TEST(OccluderProps, WhatIsNoSurfaceIsNoted)
   EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
 }
 
-/// The snapshot holds only the triangles of these mappers, and the picture shows spheres.
-TEST(OccluderProps, PointsAsSpheresOfOtherMappersAreNoted)
+/// The snapshot holds only the triangles of glyphs, and the picture shows spheres.
+TEST(OccluderProps, PointsAsSpheresOfGlyphsAreNoted)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, makeSquare());
-  vtkNew<vtkCompositePolyDataMapper> parts;
-  vtkNew<SharedBlocksMapper> composite;
-  parts->SetInputDataObject(blocks);
-  composite->SetInputDataObject(blocks);
   vtkNew<vtkGlyph3DMapper> glyphs;
   glyphs->SetInputData(makeSquare());
   glyphs->SetSourceData(makeSquare());
-  for (vtkMapper* mapper : std::initializer_list<vtkMapper*>{ parts, composite, glyphs })
-  {
-    SCOPED_TRACE(mapper->GetClassName());
-    Scene scene;
-    vtkActor* const actor = scene.add(makeSquare());
-    actor->SetMapper(mapper);
-    EXPECT_EQ(scene.collectSurfaces(), 1u);
-    actor->GetProperty()->SetRepresentationToPoints();
-    actor->GetProperty()->RenderPointsAsSpheresOn();
-    EXPECT_EQ(scene.collectSurfaces(), 0u);
-    EXPECT_THAT(scene.collector.leftOut(), testing::ElementsAre("vtkOpenGLActor (as points)"));
-    actor->GetProperty()->LightingOff();
-    EXPECT_EQ(scene.collectSurfaces(), 0u);
-    EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
-    actor->GetProperty()->LightingOn();
-    actor->GetProperty()->SetDiffuse(0.0); // as the outlines of picked props are
-    EXPECT_EQ(scene.collectSurfaces(), 0u);
-    EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
-  }
+  Scene scene;
+  vtkActor* const actor = scene.add(makeSquare());
+  actor->SetMapper(glyphs);
+  EXPECT_EQ(scene.collectSurfaces(), 1u);
+  actor->GetProperty()->SetRepresentationToPoints();
+  actor->GetProperty()->RenderPointsAsSpheresOn();
+  EXPECT_EQ(scene.collectSurfaces(), 0u);
+  EXPECT_THAT(scene.collector.leftOut(), testing::ElementsAre("vtkOpenGLActor (as points)"));
+  actor->GetProperty()->LightingOff();
+  EXPECT_EQ(scene.collectSurfaces(), 0u);
+  EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
+  actor->GetProperty()->LightingOn();
+  actor->GetProperty()->SetDiffuse(0.0); // as the outlines of picked props are
+  EXPECT_EQ(scene.collectSurfaces(), 0u);
+  EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
 }
 
 TEST(OccluderProps, VerticesThatShaderCodeMayMoveAreNoted)
