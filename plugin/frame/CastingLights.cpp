@@ -3,6 +3,7 @@
 #include "lights/LightPointSettings.h"
 #include "lights/SettingsTable.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/moment_map/MomentMapTechnique.h"
 
 #include <vtkLightCollection.h>
 #include <vtkRenderer.h>
@@ -183,11 +184,9 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   scene.compose = this->compose_ = [drawsMaps](ShadowLight light)
   { return composeHere(std::move(light), drawsMaps); };
   scene.drawsMaps = drawsMaps;
-  const auto namesSamples = [](const ShadowSettings& settings)
-  { return settings.named.count("map_samples") > 0; };
   if (drawsMaps &&
-    (namesSamples(defaults) ||
-      std::any_of(scene.set.lights.begin(), scene.set.lights.end(), namesSamples)))
+    std::any_of(scene.set.lights.begin(), scene.set.lights.end(),
+      [](const ShadowLight& light) { return light.of<MomentMapSettings>().samples > 1; }))
   {
     scene.mostMapSamples = mostMapSamples();
   }
