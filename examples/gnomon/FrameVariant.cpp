@@ -3,8 +3,8 @@
 #include "Errors.h"
 #include "SettingOptions.h"
 
-#include "shadowtech/base/Clock.h"
 #include "shadowtech/Registry.h"
+#include "shadowtech/base/Clock.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkCameraPass.h>

@@ -51,8 +51,8 @@ std::string techniquesOfOldOpenGl()
   return names;
 }
 
-/// Complete a light. If its technique traces no samples of an area, it shows the hard shadows of the
-/// area's centre.
+/// Complete a light. If its technique traces no samples of an area, it shows the hard shadows of
+/// the area's centre.
 /// @param drawsMaps true if OpenGL is new enough for techniques on the GPU
 Composition composeHere(ShadowLight light, bool drawsMaps)
 {

@@ -94,8 +94,8 @@ void ReceiversStage::countRest()
 
 //------------------------------------------------------------------------------
 /// On llvmpipe triangle numbers cost 25 ns a triangle or more, even where no image takes them.
-/// Switching them off makes VTK rebuild shaders, which costs some 0.2 ms a surface. So it waits until
-/// receivers rest, and for scenes where eight frames pay for it.
+/// Switching them off makes VTK rebuild shaders, which costs some 0.2 ms a surface. So it waits
+/// until receivers rest, and for scenes where eight frames pay for it.
 bool ReceiversStage::namesTriangles() const
 {
   constexpr int patience = 3; // frames

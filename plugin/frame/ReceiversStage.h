@@ -48,8 +48,8 @@ public:
   bool areDue() const { return this->due_.has_value(); }
 
   ///@{
-  /// Deferred route: count the frames in a row that kept their receivers, and return true if shaders
-  /// write triangle numbers, whether or not this frame takes them.
+  /// Deferred route: count the frames in a row that kept their receivers, and return true if
+  /// shaders write triangle numbers, whether or not this frame takes them.
   void countRest();
   bool namesTriangles() const;
   ///@}
@@ -60,9 +60,9 @@ public:
   void update(const vtkRenderState* s, vtkObjectBase* pass);
   /// Begin a stage in which the props' programs draw receivers, with or without the picture.
   void begin(const vtkRenderState* s);
-  /// Check the numbers of receivers that were just drawn. If any is wrong, they are drawn again with
-  /// numbers by geometry shaders, which stay if fewer are wrong then. Else the snapshot differs from
-  /// the picture, and the driver is right.
+  /// Check the numbers of receivers that were just drawn. If any is wrong, they are drawn again
+  /// with numbers by geometry shaders, which stay if fewer are wrong then. Else the snapshot
+  /// differs from the picture, and the driver is right.
   /// @return false if the receivers must be drawn again
   bool ensureRightNumbers(const vtkRenderState* s);
   /// Cache the receivers that were drawn, if they were due.

@@ -10,8 +10,8 @@
 namespace gnomon
 {
 
-/// The structure of a snapshot that answers rays, of all lights and views. It is built where a stage
-/// first asks.
+/// The structure of a snapshot that answers rays, of all lights and views. It is built where a
+/// stage first asks.
 class SnapshotTracer
 {
 public:

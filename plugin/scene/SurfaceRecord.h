@@ -1,7 +1,7 @@
 #pragma once
 
-#include "plugin/scene/DrawnProps.h"
 #include "lights/Hash.h"
+#include "plugin/scene/DrawnProps.h"
 #include "plugin/scene/KeptInstances.h"
 #include "plugin/scene/SurfaceExtraction.h"
 

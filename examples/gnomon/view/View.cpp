@@ -4,8 +4,8 @@
 #include "Vec3.h"
 #include "VtkMessages.h"
 
-#include "shadowtech/base/Clock.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "shadowtech/base/Clock.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkActorCollection.h>
