@@ -157,7 +157,7 @@ void vtkGnomonLightSamplingPass::Render(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-/// Has the delegate draw alone where the mean cannot be shown.
+/// Let the delegate draw alone where the mean cannot be shown.
 /// @return how much of the mean this frame shows, or all of what there is
 double vtkGnomonLightSamplingPass::DrawMeanOrAlone(const vtkRenderState* s)
 {
@@ -233,7 +233,7 @@ double vtkGnomonLightSamplingPass::DrawMean(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-/// Draws pictures from the lights' next points until there are as many as wanted.
+/// Draw pictures from the lights' next points until there are as many as wanted.
 void vtkGnomonLightSamplingPass::AddPictures(const vtkRenderState* s, std::size_t wanted)
 {
   Internals& internal = *this->Internal;
@@ -274,8 +274,7 @@ double vtkGnomonLightSamplingPass::GammaOf(const vtkRenderState* s) const
 }
 
 //------------------------------------------------------------------------------
-/// What a picture from given points of the lights depends on: the same number means the same
-/// picture.
+/// Return a hash of all that a picture from given points of the lights depends on.
 std::size_t vtkGnomonLightSamplingPass::HashOfShown(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();

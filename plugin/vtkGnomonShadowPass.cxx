@@ -33,7 +33,7 @@ vtkStandardNewMacro(vtkGnomonShadowPass);
 namespace
 {
 
-/// Whether a picture has pixels at all; VTK draws nothing of others.
+/// True if a picture has any pixels; VTK draws nothing of others.
 bool hasPixels(const vtkRenderState* s)
 {
   int size[2];
@@ -42,7 +42,7 @@ bool hasPixels(const vtkRenderState* s)
   return s->GetFrameBuffer() || (size[0] > 0 && size[1] > 0);
 }
 
-/// Whether an outer pass has the scene drawn into a framebuffer of its own. Not all of them say so
+/// True if an outer pass has the scene drawn into a framebuffer of its own. Not all of them say so
 /// in the render state.
 bool drawsIntoOuterPass(const vtkRenderState* s)
 {
@@ -383,7 +383,7 @@ void vtkGnomonShadowPass::EndPlain(const vtkRenderState* s, const gnomon::FrameE
 }
 
 //------------------------------------------------------------------------------
-/// Has all processes compare what they have drawn with what they have traced.
+/// Let all processes compare their pictures with their receivers.
 void vtkGnomonShadowPass::CompareSurfaces(const vtkRenderState* s, bool failed)
 {
   gnomon::Ranks& ranks = *this->Internal->ranks;
@@ -482,7 +482,7 @@ void vtkGnomonShadowPass::BeginView(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-/// What the pass is set to.
+/// Return the pass's settings for a frame.
 gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
 {
   gnomon::FrameWishes wishes;

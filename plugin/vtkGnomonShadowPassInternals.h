@@ -48,7 +48,7 @@ struct vtkGnomonShadowPass::Internals
   vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
   bool shadowed = false;            ///< whether the last frame was the manager's, which has it
   ///@{
-  /// Of a frame that was drawn without the manager, or that the manager's resources outlived.
+  /// The report and visibility of a frame without the manager, or of one that outlives it.
   gnomon::FrameReport report;
   gnomon::VisibilityImages visibility;
   ///@}

@@ -37,7 +37,7 @@ void vtkGnomonShadowPass::SetMemoryBudget(double mebibytes)
 }
 
 //------------------------------------------------------------------------------
-/// Sets a number in [0, most]; anything else is an error and changes nothing.
+/// Set a number in [0, most]; anything else is an error and changes nothing.
 void vtkGnomonShadowPass::SetNumber(const char* name, double value, double most, double& number)
 {
   if (!(value >= 0.0 && value <= most))

@@ -27,7 +27,7 @@ std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int h
   return flipped;
 }
 
-/// What the camera sees.
+/// Return images of the receivers, without visibility.
 VisibilityImages imagesOf(const ReceiverPixels& receivers, const SceneFrame& frame)
 {
   VisibilityImages images;

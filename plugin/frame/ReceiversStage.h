@@ -76,8 +76,8 @@ public:
   /// over them.
   void store();
   ///@{
-  /// Of several processes: the receivers, shared once; and which surface each pixel shows, if
-  /// lights' edges are smoothed.
+  /// Share the receivers of several processes, once; and the surface of each pixel, if edges of
+  /// lights are smoothed.
   SharedReceivers& shared();
   void shareSurfaces(const std::vector<SurfaceName>& names);
   ///@}

@@ -286,8 +286,8 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
 }
 
 //------------------------------------------------------------------------------
-/// What a light's maps are drawn from. A moving picture that leaves the technique to the pass would
-/// stand still while an optional map is baked.
+/// Return the inputs of a light's maps. A moving picture that leaves the technique to the pass
+/// would stand still while an optional map is baked.
 MapStage RenderManager::mapStage(const CastingLight& casting)
 {
   const bool bakesOptional = !(casting.asked && this->frame_.moves);

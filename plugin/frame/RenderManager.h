@@ -42,7 +42,7 @@ public:
   /// @param programs of the pass, which serve all of its renderers
   explicit RenderManager(PassPrograms& programs);
 
-  /// Starts a frame's report and clock.
+  /// Start a frame's report and clock.
   /// @param ranks the processes that draw the picture; null: this one alone
   void beginFrame(const FrameWishes& wishes, Ranks* ranks);
 
@@ -55,18 +55,18 @@ public:
   /// camera is in it.
   void collectOccluders(const vtkRenderState* s);
 
-  /// Notes lights, camera and props.
+  /// Note lights, camera and props.
   /// @return true if they differ from what this noted last for the same view
   bool changes(const vtkRenderState* s);
 
-  /// Chooses for lights that leave their technique to the pass; maps that it takes are baked.
+  /// Choose for lights that leave their technique to the pass. Maps that they take are baked.
   /// @param moves true if the frame is one of a moving picture
   /// @param mayRefine true if more frames at rest follow an unfinished one
   /// @return true if a picture at rest may differ from this choice's
   /// @throws std::runtime_error as bakeMaps() and computeVisibility()
   bool chooseTechniques(bool moves, bool mayRefine);
 
-  /// Chooses how visibility reaches the picture, and states it in the report.
+  /// Plan how visibility reaches the picture, and state it in the report.
   /// @param drawnPlainly true if no render pass of the user's draws the props
   /// @return false when a route is asked for that cannot be taken; it is the image route then, for
   /// the reason in the report
@@ -105,14 +105,14 @@ public:
   /// show no shadows then
   bool endShading();
 
-  /// Counts where the picture shows another process's surface than its receivers. This is a
+  /// Count where the picture shows another process's surface than its receivers. This is a
   /// collective frame of its own (Ranks), after the picture was drawn and the report completed.
   void compareSurfaces(const vtkRenderState* s);
 
-  /// Completes the report, after VTK has drawn the props.
+  /// Complete the report, after VTK has drawn the props.
   void endFrame(const vtkRenderState* s);
 
-  /// Gives back what a stage holds that an error has ended early.
+  /// End a stage that an error has ended early.
   void abandonFrame();
 
   /// For the hook: sets a program's parameters for the prop that is about to be drawn.

@@ -21,7 +21,7 @@ namespace gnomon
 namespace
 {
 
-/// How many samples an area light has in this frame. With several views it has all of them: the
+/// Return the samples of an area light in this frame. With several views it has all of them: the
 /// pass's progress is that of the last view alone.
 /// @param before in the frame before; 0 where that showed something else
 int samplesOf(const CastingLight& casting, int before, bool severalViews)
@@ -40,7 +40,7 @@ bool leavesTiles(const std::set<std::string>& changedParts)
     [](const std::string& name) { return name == propsPart || name == snapshotPart; });
 }
 
-/// How many pixels are of each class.
+/// Return the number of pixels of each class.
 std::vector<ClassCount> countClasses(
   const std::vector<PixelClass>& classes, const std::vector<std::uint8_t>& ofPixels)
 {
@@ -92,7 +92,7 @@ ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
 }
 
 //------------------------------------------------------------------------------
-/// Whether it is asked for how pixels were decided.
+/// True if this frame stores pixel classes.
 bool VisibilityStage::classifies() const
 {
   return this->frame_.wishes.keepVisibility || this->frame_.wishes.measureStages;
@@ -173,7 +173,7 @@ void VisibilityStage::agreeOnStale()
 }
 
 //------------------------------------------------------------------------------
-/// Finds what is known of lights' tiles, of those whose techniques heed it.
+/// Classify tiles without rays, where the technique can skip them.
 void VisibilityStage::judge()
 {
   const std::optional<ReceiverBoxes>& boxes = this->frame_.view->receivers.boxes;
@@ -274,7 +274,7 @@ void VisibilityStage::dropImages()
 }
 
 //------------------------------------------------------------------------------
-/// Begins a light's image where tiles of the one before may stay.
+/// Begin a light's image, in which unchanged tiles of the last one may be reused.
 /// @param traced the light, with as many samples as the image has
 /// @return null where all tiles are computed
 TracedTiles* VisibilityStage::beginTiles(
@@ -304,7 +304,7 @@ TracedTiles* VisibilityStage::beginTiles(
 }
 
 //------------------------------------------------------------------------------
-/// Has a light's technique fill its layers.
+/// Fill a light's layers by its technique.
 /// @param verdicts null: nothing is known of its tiles
 /// @param value whose classes, if they are asked for, and notes are filled
 void VisibilityStage::fill(
@@ -350,7 +350,7 @@ void VisibilityStage::fill(
 }
 
 //------------------------------------------------------------------------------
-/// Has a technique that traces fill a light's layers or bit.
+/// Fill a light's layers or bit by a technique that traces.
 /// @param verdicts null: nothing is known of its tiles
 void VisibilityStage::trace(
   CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value, LightReport& report)

@@ -32,7 +32,7 @@ public:
   VisibilityStage(Frame& frame, const Occluders& occluders, OccluderBuffers& buffers,
     SnapshotTracer& tracer, ReceiversStage& receivers, ShaderLibrary& shaders);
 
-  /// Says of each light whether its visibility is computed in this frame, or reused as it is. The
+  /// Decide for each light whether this frame computes its visibility or reuses it. The
   /// receivers are there.
   void findStale();
 
@@ -75,7 +75,7 @@ private:
   SharedReceivers sharedSamples_; ///< of edges, if several processes draw the picture
   std::vector<float> onCpu_;      ///< a light's; kept, as new memory costs more than old
   ///@{
-  /// Of this frame: what is known of its lights' tiles, and the bits of those that are dark.
+  /// The verdicts on this frame's tiles by light, and the bits of lights that are dark everywhere.
   std::vector<std::optional<TileVerdicts>> verdicts_;
   std::vector<int> darkBits_;
   ///@}

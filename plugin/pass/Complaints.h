@@ -15,7 +15,7 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What errors and warnings of a frame are about. Each is looked at by itself, so that a frame that
+/// The topics of a frame's errors and warnings. Each is looked at by itself, so that a frame that
 /// ends early mends nothing that it did not reach.
 enum class Topic
 {
@@ -34,7 +34,7 @@ enum class Topic
 /// @param text empty for none
 void tell(vtkObject* teller, unsigned long event, const std::string& text);
 
-/// What an object says of its frames: each text once, until it is no longer true of any renderer.
+/// Remembers errors and warnings of frames, to say each once while it is true of any renderer.
 class Complaints
 {
 public:

@@ -8,7 +8,7 @@
 namespace gnomon
 {
 
-/// How a frame of the pass ended.
+/// The end of a frame of the pass.
 struct FrameEnd
 {
   ShownPicture picture;                ///< that is shown; with shadows alone

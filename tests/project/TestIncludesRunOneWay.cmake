@@ -1,6 +1,6 @@
 # Check that includes run one way, folder by folder. Each folder lists the folders that it may
 # include beside itself, all of them above it, so the list has no cycles. Nothing includes examples/
-# or tests/, and lights/ includes no OpenGL.
+# or tests/, lights/ includes no OpenGL, and plugin/plan/ neither OpenGL, VTK nor the report.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -94,6 +94,8 @@ foreach(file IN LISTS files)
       string(APPEND faults "${file}: ${name} is in ${target}/, and this header is for all\n")
     elseif(folder STREQUAL "lights" AND name MATCHES "${opengl}")
       string(APPEND faults "${file}: ${name} is OpenGL\n")
+    elseif(folder STREQUAL "plugin/plan" AND name MATCHES "(^|/)(vtk|Gl[.A-Z]|GL/)")
+      string(APPEND faults "${file}: ${name} is no value, and plans are functions of values\n")
     endif()
   endforeach()
 endforeach()
