@@ -124,6 +124,14 @@ Bounds visibleBounds(vtkRenderer* renderer)
   return { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
 }
 
+/// True if a cached technique may shade a light's translucent surfaces, or its next motion: its map
+/// must not be one of a larger memory budget.
+bool mayServeAsPlain(const LightPlan& plan, const EstimatorEntry& estimator)
+{
+  const bool isInBudget = !plan.asked || plan.asked->mapSizeTexels <= plan.mostMapTexels;
+  return isInBudget && &estimator == findTechnique(plainTechnique)->estimator;
+}
+
 LightReport reportOfSkipped(const SkippedLight& skipped)
 {
   LightReport report;
@@ -223,6 +231,17 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
 
   this->ofView_ = &ofView;
   this->lights_.clear();
+  for (TechniqueCache* const cache : { &this->ofAllViews_, this->ofView_ })
+  {
+    cache->dropUnless(
+      [&](int sceneIndex, const EstimatorEntry& estimator)
+      {
+        const auto plan = std::find_if(plans.lights.begin(), plans.lights.end(),
+          [&](const LightPlan& of) { return of.light.sceneIndex == sceneIndex; });
+        return plan != plans.lights.end() && &this->cacheOf(plan->light) == cache &&
+          (plan->estimator == &estimator || mayServeAsPlain(*plan, estimator));
+      });
+  }
   for (LightPlan& plan : plans.lights)
   {
     CastingLight& casting = this->lights_.emplace_back();
@@ -311,10 +330,9 @@ void CastingLights::endFrame()
   const EstimatorEntry& plain = *findTechnique(plainTechnique)->estimator;
   for (const CastingLight& casting : this->lights_)
   {
-    // The next motion may reuse a map, unless that was made for a larger memory budget.
     if (casting.asked && casting.asked->mapSizeTexels <= casting.mostMapTexels)
     {
-      this->cacheOf(casting.light).keep(casting.light.sceneIndex, plain);
+      this->cacheOf(casting.light).keep(casting.light.sceneIndex, plain); // for the next motion
     }
   }
   this->ofAllViews_.dropUnused();

@@ -19,6 +19,17 @@ LightTechnique& TechniqueCache::of(int sceneIndex, const EstimatorEntry& estimat
 }
 
 //------------------------------------------------------------------------------
+void TechniqueCache::dropUnless(
+  const std::function<bool(int sceneIndex, const EstimatorEntry&)>& isWanted)
+{
+  for (auto cached = this->techniques_.begin(); cached != this->techniques_.end();)
+  {
+    const auto& [sceneIndex, estimator] = cached->first;
+    cached = isWanted(sceneIndex, *estimator) ? std::next(cached) : this->techniques_.erase(cached);
+  }
+}
+
+//------------------------------------------------------------------------------
 void TechniqueCache::keep(int sceneIndex, const EstimatorEntry& estimator)
 {
   const auto found = this->techniques_.find({ sceneIndex, &estimator });

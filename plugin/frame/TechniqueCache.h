@@ -3,6 +3,7 @@
 #include "plugin/frame/LightTechnique.h"
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -15,6 +16,8 @@ class TechniqueCache
 public:
   /// Return a light's technique; a new one unless it is cached. It lasts until dropUnused().
   LightTechnique& of(int sceneIndex, const EstimatorEntry& estimator);
+  /// Drop techniques for which a predicate does not hold, before others take their memory.
+  void dropUnless(const std::function<bool(int sceneIndex, const EstimatorEntry&)>& isWanted);
   /// Keep a technique that this frame does not use, if it is cached.
   void keep(int sceneIndex, const EstimatorEntry& estimator);
   /// End a frame: drop techniques that it neither used nor kept.
