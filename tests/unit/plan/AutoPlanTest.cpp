@@ -212,6 +212,17 @@ TEST_F(AutoPlans, areaLightsTakeTheFewestSamplesThatKeepTheError)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(AutoPlans, areaLightsKeepAllSamplesWithoutAnError)
+{
+  this->addArea(0.5);
+  this->wishes.maximumSoftError = 0.0;
+  const AutoPlan planned = this->plan();
+  ASSERT_FALSE(planned.needs);
+  EXPECT_EQ(planned.choices.at(0).way, Way::Resting);
+  EXPECT_EQ(planned.choices.at(0).lightSamples, 0);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(AutoPlans, areaLightsThatGrowAreProvedAnew)
 {
   this->addArea(0.1);

@@ -271,6 +271,21 @@ TEST(Plan, choosesTheRoute)
 }
 
 //------------------------------------------------------------------------------
+TEST(Plan, notesSamplesOnTheImageRouteAlone)
+{
+  ShadowLight light;
+  light.technique = "a technique";
+  FrameWishes wishes;
+  PictureFacts facts;
+  facts.samples = 4;
+  EXPECT_THAT(planPicture({ { light, compare().info } }, wishes, facts, {}).notes, IsEmpty());
+  EXPECT_THAT(planPicture({ { light, rays().info } }, wishes, facts, {}).notes,
+    Contains(HasSubstr("4 samples per pixel")));
+  facts.samples = 1;
+  EXPECT_THAT(planPicture({ { light, layers().info } }, wishes, facts, {}).notes, IsEmpty());
+}
+
+//------------------------------------------------------------------------------
 TEST(Plan, letsTranslucentSurfacesReceive)
 {
   ShadowLight light;
