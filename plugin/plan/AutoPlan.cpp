@@ -79,14 +79,28 @@ public:
     , evidence_(evidence)
     , history_(history)
   {
+    for (const AutoLight& light : facts.lights)
+    {
+      if (light.asked)
+      {
+        this->asked_.push_back({ light, { light.light.sceneIndex } });
+      }
+    }
   }
 
   AutoPlan plan();
 
 private:
+  /// A light that leaves its technique to the pass, with this frame's.
+  struct Asked
+  {
+    const AutoLight& light;
+    AutoChoice choice;
+  };
+
   FrameCounters takeChanges();
   void rest();
-  std::string move(const FrameCounters& counters, std::vector<AutoChoice>& choices);
+  std::string move(const FrameCounters& counters);
   std::string whyNoMaps() const;
   std::string whyRaysAreFast(double byMaps, double byRays) const;
   std::string tryMap(const AutoLight& light, AutoChoice& choice);
@@ -102,6 +116,7 @@ private:
   const std::vector<Evidence>& evidence_;
   std::size_t evidenceUsed_ = 0;
   AutoHistory history_;
+  std::vector<Asked> asked_;
 };
 
 bool isSoft(const AutoLight& light)
@@ -113,57 +128,41 @@ bool isSoft(const AutoLight& light)
 AutoPlan Planner::plan()
 {
   AutoPlan plan;
-  std::vector<AutoChoice> choices;
-  for (const AutoLight& light : this->facts_.lights)
+  const auto isSoftOne = [](const Asked& asked) { return isSoft(asked.light); };
+  if (!this->asked_.empty())
   {
-    if (light.asked)
+    const FrameCounters counters = this->takeChanges();
+    if (!this->facts_.moves)
     {
-      choices.push_back({ light.light.sceneIndex });
-    }
-  }
-  const auto each = [&](bool soft, const auto& work)
-  {
-    auto choice = choices.begin();
-    for (const AutoLight& light : this->facts_.lights)
-    {
-      if (light.asked)
+      for (Asked& asked : this->asked_)
       {
-        if (isSoft(light) == soft)
-        {
-          work(light, *choice);
-        }
-        ++choice;
+        // An area light's first frame at rest shows as many samples as the motion.
+        asked.choice.firstSamples =
+          this->facts_.mayRefine ? this->historyOf(asked.light).samples : 0;
       }
+      this->rest();
+      plan.choice = "the picture rests: exact";
     }
-  };
-  if (choices.empty())
-  {
-    plan.history = std::move(this->history_);
-    return plan;
+    else if (std::any_of(this->asked_.begin(), this->asked_.end(), isSoftOne))
+    {
+      for (Asked& asked : this->asked_)
+      {
+        if (isSoftOne(asked))
+        {
+          this->takeSamples(asked.light, asked.choice);
+        }
+      }
+      plan.choice = "the picture moves: rays, as area lights are traced in any case";
+    }
+    else
+    {
+      plan.choice = this->move(counters);
+    }
   }
-  bool anySoft = false;
-  each(true, [&](const AutoLight&, AutoChoice&) { anySoft = true; });
-  const FrameCounters counters = this->takeChanges();
-  if (!this->facts_.moves)
+  for (const Asked& asked : this->asked_)
   {
-    // An area light's first frame at rest shows as many samples as the motion.
-    each(true,
-      [&](const AutoLight& light, AutoChoice& choice)
-      { choice.firstSamples = this->facts_.mayRefine ? this->historyOf(light).samples : 0; });
-    this->rest();
-    plan.choice = "the picture rests: exact";
+    plan.choices.push_back(asked.choice);
   }
-  else if (anySoft)
-  {
-    each(
-      true, [&](const AutoLight& light, AutoChoice& choice) { this->takeSamples(light, choice); });
-    plan.choice = "the picture moves: rays, as area lights are traced in any case";
-  }
-  else
-  {
-    plan.choice = this->move(counters, choices);
-  }
-  plan.choices = std::move(choices);
   plan.history = std::move(this->history_);
   return plan;
 }
@@ -236,7 +235,7 @@ void Planner::rest()
 //------------------------------------------------------------------------------
 /// Choose between maps and rays for lights with hard shadows.
 /// @return the report's sentence
-std::string Planner::move(const FrameCounters& counters, std::vector<AutoChoice>& choices)
+std::string Planner::move(const FrameCounters& counters)
 {
   AutoHistory& history = this->history_;
   const double byMaps = costByMaps(counters, this->facts_.factors);
@@ -258,19 +257,14 @@ std::string Planner::move(const FrameCounters& counters, std::vector<AutoChoice>
       history.byRays = 0;
     }
   }
-  auto choice = choices.begin();
-  for (const AutoLight& light : this->facts_.lights)
+  for (auto asked = this->asked_.begin(); asked != this->asked_.end() && whyRays.empty(); ++asked)
   {
-    if (light.asked && whyRays.empty())
+    whyRays = this->tryMap(asked->light, asked->choice);
+    if (!whyRays.empty())
     {
-      whyRays = this->tryMap(light, *choice);
-      if (!whyRays.empty())
-      {
-        history.patience = std::clamp(2 * history.patience, leastPatience, mostPatience);
-        history.byRays = 0;
-      }
+      history.patience = std::clamp(2 * history.patience, leastPatience, mostPatience);
+      history.byRays = 0;
     }
-    choice += light.asked ? 1 : 0;
   }
   const bool takesMaps = whyRays.empty();
   history.whyRays = mayHaveMaps ? whyRays : "";
@@ -284,11 +278,11 @@ std::string Planner::move(const FrameCounters& counters, std::vector<AutoChoice>
   }
   else
   {
-    for (AutoChoice& of : choices)
+    for (Asked& asked : this->asked_)
     {
-      of.way = AutoChoice::Way::Resting;
-      history.lights[of.sceneIndex].isProbed = false; // the next map is proved before it is shown
-      history.lights[of.sceneIndex].probe = {};
+      asked.choice.way = AutoChoice::Way::Resting;
+      this->historyOf(asked.light).isProbed = false; // the next map is proved before it is shown
+      this->historyOf(asked.light).probe = {};
     }
     text += "rays, as " + whyRays;
   }

@@ -72,7 +72,7 @@ struct DrawnActor
   MapperKind kind = MapperKind::Other;
   bool lit = false;         ///< showsLight()
   bool copies = false;      ///< hasOwnFramebuffer()
-  bool seenThrough = false; ///< isSeenThrough()
+  bool seenThrough = false; ///< isSeenThrough(), or it copies
 };
 
 /// Lists the blocks that mappers draw, with their inputs up to date.

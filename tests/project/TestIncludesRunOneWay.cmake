@@ -45,7 +45,8 @@ folder(plugin/ranks lights shadowtech/base)
 folder(plugin/plan lights shadowtech shadowtech/base shadowtech/probing shadowtech/tracing)
 folder(plugin/frame ${shared} shadowtech plugin/plan plugin/ranks plugin/scene plugin/window)
 folder(plugin/pass lights shadowtech/base plugin/plan)
-folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/pass plugin/plan plugin/ranks plugin/scene plugin/vtk_versions plugin/window)
+folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/pass plugin/plan plugin/ranks
+  plugin/scene plugin/vtk_versions plugin/window)
 folder(plugin/paraview/GnomonShadows/views lights plugin)
 
 # Public headers of plugin/ that its folders may include: they include nothing of it.
