@@ -311,37 +311,36 @@ void vtkGnomonShadowPass::DrawShadows(
   // lights
   std::optional<gnomon::ReducedPicture> reduced(std::in_place, renderer, wishes.reductionFactor);
   this->BeginView(s);
-  const bool goesOn = manager.collectLights(renderer, this->Internal->settings->GetValues(),
-    this->Internal->viewCount.areSeveral(renderer));
-  gnomon::tellOfLights(this, renderer, complaints, manager.report());
-  std::optional<HookMarks> marks;
-  if (goesOn)
+  if (manager.readLights(renderer, this->Internal->settings->GetValues(),
+        this->Internal->viewCount.areSeveral(renderer)))
   {
     // occluders
-    manager.collectOccluders(s);
-    gnomon::tellWhatIsLeftOut(this, renderer, complaints, manager.report());
-
-    // choice
+    gnomon::tellWhatIsLeftOut(this, renderer, complaints, manager.readProps(s));
     end.picture.moves = this->Moves(s);
-    end.picture.isApproximate = manager.chooseTechniques(end.picture.moves, this->MayRefine(s));
-    const vtkRenderPass* delegate = this->FindDelegate(s);
-    const bool isTaken = manager.chooseRoute(s, !delegate || delegate == this->Internal->steps);
-    gnomon::tellOfRoute(this, renderer, complaints, manager.report(),
-      isTaken                         ? ""
-        : this->Route == ROUTE_INLINE ? "inline"
-                                      : "deferred");
+  }
+
+  // plan
+  const vtkRenderPass* delegate = this->FindDelegate(s);
+  const gnomon::FramePlan& plan = manager.plan(
+    s, end.picture.moves, this->MayRefine(s), !delegate || delegate == this->Internal->steps);
+  end.picture.isApproximate = plan.isApproximate;
+  gnomon::tellOfPlan(this, renderer, complaints, plan, wishes.route);
+  std::optional<HookMarks> marks;
+  if (plan.hasShadows)
+  {
     marks.emplace(this, s); // from here on, mappers call the hook
   }
-  if (goesOn && manager.route() == gnomon::Route::Deferred)
+  const gnomon::RouteChoice& route = plan.picture.route;
+  if (plan.hasShadows && route.route == gnomon::Route::Deferred)
   {
     end.isDrawn = true;
     this->DrawDeferred(s);
   }
   else
   {
-    if (goesOn)
+    if (plan.hasShadows)
     {
-      this->ComputeShadows(s);
+      this->ComputeShadows(s, route.route == gnomon::Route::Image);
     }
     if (ranks)
     {
@@ -351,10 +350,9 @@ void vtkGnomonShadowPass::DrawShadows(
     end.isDrawn = true;
     this->DrawScene(s);
   }
-  if (goesOn)
+  if (plan.hasShadows)
   {
-    const vtkRenderPass* delegate = this->FindDelegate(s);
-    gnomon::tellOfResolution(this, renderer, complaints, manager.report(),
+    gnomon::tellOfResolution(this, renderer, complaints, route,
       manager.endShading() ? ""
         : delegate         ? delegate->GetClassName()
                            : "the renderer");
@@ -402,10 +400,10 @@ void vtkGnomonShadowPass::CompareSurfaces(const vtkRenderState* s, bool failed)
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::ComputeShadows(const vtkRenderState* s)
+/// @param onImage true on the image route
+void vtkGnomonShadowPass::ComputeShadows(const vtkRenderState* s, bool onImage)
 {
   gnomon::RenderManager& manager = this->Internal->manager();
-  const bool onImage = manager.route() == gnomon::Route::Image;
 
   // receivers
   if (onImage)

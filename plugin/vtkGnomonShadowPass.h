@@ -457,7 +457,7 @@ private:
   gnomon::FrameWishes Wishes() const;
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
-  void ComputeShadows(const vtkRenderState* s);
+  void ComputeShadows(const vtkRenderState* s, bool onImage);
   void DrawDeferred(const vtkRenderState* s);
   void CompareSurfaces(const vtkRenderState* s, bool failed);
   void DrawPlain(const vtkRenderState* s);

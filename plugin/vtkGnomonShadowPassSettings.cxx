@@ -2,8 +2,8 @@
 #include "vtkGnomonShadowPassInternals.h"
 
 #include "lights/SettingsTable.h"
-#include "plugin/frame/ReportText.h"
 #include "plugin/frame/VisibilityData.h"
+#include "plugin/pass/ReportText.h"
 #include "shadowtech/Registry.h"
 
 #include "vtkMultiProcessController.h"

@@ -47,7 +47,7 @@ const TechniqueEntry* findTechnique(const std::string& name);
 std::string techniqueNames();
 
 /// The name by which a light leaves its technique to the pass. The pass chooses an exact technique
-/// while the picture rests, and a fast enough one while it moves (plugin/frame/TechniqueChoice.h).
+/// while the picture rests, and a fast enough one while it moves (plugin/plan/AutoPlan.h).
 inline constexpr const char* automaticTechnique = "auto";
 
 /// What it chooses while the picture rests, of lights with hard and with soft shadows.

@@ -13,7 +13,7 @@
 #include "view/View.h"
 
 #include "lights/LightManager.h"
-#include "plugin/frame/ReportText.h"
+#include "plugin/pass/ReportText.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonShadowPass.h"

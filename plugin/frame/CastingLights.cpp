@@ -1,338 +1,89 @@
 #include "plugin/frame/CastingLights.h"
 
-#include "lights/LightPointSettings.h"
-#include "lights/SettingsTable.h"
-#include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/moment_map/MomentMapTechnique.h"
-
-#include <vtkLightCollection.h>
-#include <vtkRenderer.h>
-
-#include <algorithm>
-#include <iterator>
-#include <utility>
+#include "lights/LightViews.h"
 
 namespace gnomon
 {
 namespace
 {
 
-/// Return the value of a setting as text; empty if an estimator does not have it.
-std::string valueOf(const char* setting, const TechniqueInfo& info, const ShadowLight& light)
+const EstimatorEntry& plainEstimator()
 {
-  return has(info, setting) ? findSetting(setting)->get(light) : "";
+  return *findTechnique(plainTechnique)->estimator;
 }
 
-/// Return the value of an integer setting; 0 if an estimator does not have it.
-int numberOf(const char* setting, const TechniqueInfo& info, const ShadowLight& light)
+/// True if a light that leaves its technique to the pass may have a map, in this frame or another:
+/// the map must not be one of a larger memory budget.
+bool mayTakeMap(const LightPlan& plan)
 {
-  const std::string value = valueOf(setting, info, light);
-  return value.empty() ? 0 : std::stoi(value);
-}
-
-/// True if an estimator needs no newer OpenGL than 3.2: it draws on the CPU, its maps included.
-bool servesOldOpenGl(const TechniqueInfo& info)
-{
-  const bool drawsMaps = info.bakesMap() && !info.conservativeMap;
-  return info.evaluation == Evaluation::ScreenCpu && !drawsMaps;
-}
-
-/// Return the names of the techniques for which that holds: "'a', 'b'".
-std::string techniquesOfOldOpenGl()
-{
-  std::string names;
-  for (const TechniqueEntry& technique : registry())
-  {
-    if (servesOldOpenGl(technique.estimator->info))
-    {
-      names += (names.empty() ? "'" : ", '") + technique.name + "'";
-    }
-  }
-  return names;
-}
-
-/// Complete a light. If its technique traces no samples of an area, it shows the hard shadows of
-/// the area's centre.
-/// @param drawsMaps true if OpenGL is new enough for techniques on the GPU
-Composition composeHere(ShadowLight light, bool drawsMaps)
-{
-  const EstimatorEntry* estimator = nullptr;
-  try
-  {
-    estimator = &compose(light);
-  }
-  catch (const CompositionError& error)
-  {
-    return { std::move(light), nullptr, error.what() };
-  }
-  const TechniqueInfo& info = estimator->info;
-  if (!drawsMaps && !servesOldOpenGl(info))
-  {
-    std::string refusal = "'" + light.technique +
-      "' needs OpenGL 4.3, and this context has less; it suffices for " + techniquesOfOldOpenGl();
-    return { std::move(light), nullptr, std::move(refusal) };
-  }
-  if (info.evaluation == Evaluation::ScreenCpu && !info.has(lightSampleSettings()))
-  {
-    light.area.reset();
-  }
-  return { std::move(light), estimator, {} };
-}
-
-/// True if a light's technique has a setting. A light that leaves its technique to the pass has the
-/// settings of all techniques that the pass may choose, in this frame or another.
-bool mayHave(const ShadowLight& light, const std::string& settingName)
-{
-  const auto hasIt = [&](const char* technique)
-  { return has(findTechnique(technique)->estimator->info, settingName); };
-  return has(estimatorOfLight(light).info, settingName) ||
-    (isAutomatic(light) && (hasIt(plainTechnique) || hasIt(restingHard) || hasIt(restingSoft)));
-}
-
-/// Return the errors of named settings that are without effect: a light's own that its technique
-/// lacks, and those of the pass that every light's technique lacks.
-std::vector<std::string> findMisfits(
-  const std::vector<ShadowLight>& lights, const ShadowSettings& defaults)
-{
-  std::vector<std::string> misfits;
-  for (const ShadowLight& light : lights)
-  {
-    for (const std::string& name : light.named)
-    {
-      if (!mayHave(light, name))
-      {
-        misfits.push_back(
-          nameOf(light) + " has the technique '" + light.technique + "', and " + whoHas(name));
-      }
-    }
-  }
-  for (const std::string& name : defaults.named)
-  {
-    const auto isHad = [&](const ShadowLight& light) { return mayHave(light, name); };
-    if (!lights.empty() && std::none_of(lights.begin(), lights.end(), isHad))
-    {
-      misfits.push_back("No light's technique has it: " + whoHas(name));
-    }
-  }
-  return misfits;
-}
-
-Bounds visibleBounds(vtkRenderer* renderer)
-{
-  double bounds[6];
-  renderer->ComputeVisiblePropBounds(bounds);
-  return { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
-}
-
-/// True if a cached technique may shade a light's translucent surfaces, or its next motion: its map
-/// must not be one of a larger memory budget.
-bool mayServeAsPlain(const LightPlan& plan, const EstimatorEntry& estimator)
-{
-  const bool isInBudget = !plan.asked || plan.asked->mapSizeTexels <= plan.mostMapTexels;
-  return isInBudget && &estimator == findTechnique(plainTechnique)->estimator;
-}
-
-LightReport reportOfSkipped(const SkippedLight& skipped)
-{
-  LightReport report;
-  report.sceneIndex = skipped.sceneIndex;
-  report.reason = skipped.reason;
-  return report;
-}
-
-LightReport reportOfCasting(const ShadowLight& light, const TechniqueInfo& info)
-{
-  LightReport report;
-  report.sceneIndex = light.sceneIndex;
-  report.casts = true;
-  report.technique = light.technique;
-  report.estimator = light.estimator;
-  report.projection = valueOf("projection", info, light);
-  report.mapSizeTexels = info.bakesMap() ? light.mapSizeTexels : 0;
-  report.kernel = info.kernel.empty() ? valueOf("kernel", info, light) : info.kernel;
-  report.kernelTexels = numberOf("kernel_size", info, light);
-  report.mapSamples = numberOf("map_samples", info, light);
-  return report;
+  return plan.asked && plan.asked->mapSizeTexels <= plan.mostMapTexels;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-bool isOnCpu(const CastingLight& casting)
+const PointwiseTechnique* CastingLight::pointwise() const
 {
-  return casting.own->info().evaluation == Evaluation::ScreenCpu;
+  switch (this->plan.shadedBy)
+  {
+    case ShadedBy::Own:
+      return this->own->as<PointwiseTechnique>();
+    case ShadedBy::Plain:
+      return this->plain->as<PointwiseTechnique>();
+    case ShadedBy::Fetch:
+      break;
+  }
+  return nullptr;
 }
 
 //------------------------------------------------------------------------------
-std::size_t edgeSamplesOf(const CastingLight& casting)
+void CastingLights::begin(const std::vector<LightPlan>& lights, TechniqueCache& ofView)
 {
-  return edgeSamplesOf(casting.own->info(), casting.light);
-}
-
-//------------------------------------------------------------------------------
-bool smoothsEdges(const CastingLights& lights)
-{
-  return std::any_of(lights.begin(), lights.end(),
-    [](const CastingLight& casting) { return edgeSamplesOf(casting) > 1; });
-}
-
-//------------------------------------------------------------------------------
-bool canDrawMaps()
-{
-  return GNOMON_HAS_GL(VERSION_4_3);
-}
-
-//------------------------------------------------------------------------------
-void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& defaults,
-  const FrameWishes& wishes, TechniqueCache& ofView, FrameReport& report)
-{
-  const bool drawsMaps = canDrawMaps();
-  SceneLights scene;
-  scene.set = this->manager_.collect(renderer, defaults, wishes.casting);
-  scene.compose = this->compose_ = [drawsMaps](ShadowLight light)
-  { return composeHere(std::move(light), drawsMaps); };
-  scene.drawsMaps = drawsMaps;
-  if (drawsMaps &&
-    std::any_of(scene.set.lights.begin(), scene.set.lights.end(),
-      [](const ShadowLight& light) { return light.of<MomentMapSettings>().samples > 1; }))
-  {
-    scene.mostMapSamples = mostMapSamples();
-  }
-  if (wishes.memoryBudget > 0.0)
-  {
-    const int* const size = renderer->GetSize();
-    scene.pixels = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
-    scene.seenWorld = visibleBounds(renderer);
-  }
-  report.headlightIsAlone = scene.set.headlightIsAlone;
-  if (scene.set.headlightIsAlone)
-  {
-    report.notes.push_back("no shadow can be seen: all light comes from the camera. Add a light "
-                           "from the side");
-  }
-  report.misfits = findMisfits(scene.set.lights, defaults);
-  if (renderer->GetLights()->GetNumberOfItems() == 0)
-  {
-    report.notes.push_back("no light: VTK shades nothing, and nothing casts");
-  }
-
-  LightPlans plans = planLights(std::move(scene), wishes);
-  report.misfits.insert(report.misfits.end(), plans.misfits.begin(), plans.misfits.end());
-  report.notes.insert(report.notes.end(), plans.notes.begin(), plans.notes.end());
-  for (const LightPlan& plan : plans.lights)
-  {
-    report.lights.push_back(reportOfCasting(plan.light, plan.estimator->info));
-    report.lights.back().budgetReason = plan.budgetReason;
-  }
-  std::transform(
-    plans.skipped.begin(), plans.skipped.end(), std::back_inserter(report.lights), reportOfSkipped);
-  std::sort(report.lights.begin(), report.lights.end(),
-    [](const LightReport& a, const LightReport& b) { return a.sceneIndex < b.sceneIndex; });
-
-  this->ofView_ = &ofView;
   this->lights_.clear();
+  this->ofView_ = &ofView;
   for (TechniqueCache* const cache : { &this->ofAllViews_, this->ofView_ })
   {
     cache->dropUnless(
       [&](int sceneIndex, const EstimatorEntry& estimator)
       {
-        const auto plan = std::find_if(plans.lights.begin(), plans.lights.end(),
+        const auto plan = std::find_if(lights.begin(), lights.end(),
           [&](const LightPlan& of) { return of.light.sceneIndex == sceneIndex; });
-        return plan != plans.lights.end() && &this->cacheOf(plan->light) == cache &&
-          (plan->estimator == &estimator || mayServeAsPlain(*plan, estimator));
+        return plan != lights.end() && &this->cacheOf(plan->light) == cache &&
+          (plan->estimator == &estimator || plan->resting == &estimator ||
+            (&estimator == &plainEstimator() && (!plan->asked || mayTakeMap(*plan))));
       });
   }
-  for (LightPlan& plan : plans.lights)
-  {
-    CastingLight& casting = this->lights_.emplace_back();
-    casting.own = &this->cacheOf(plan.light).of(plan.light.sceneIndex, *plan.estimator);
-    casting.identity = identityOf(plan.light);
-    casting.channels = channelsOf(plan.estimator->info, plan.light);
-    casting.light = std::move(plan.light);
-    casting.asked = std::move(plan.asked);
-    casting.mostMapTexels = plan.mostMapTexels;
-  }
-  this->placeVisibility();
 }
 
 //------------------------------------------------------------------------------
-void CastingLights::enter(const SceneFrame& frame, FrameReport& report)
+void CastingLights::take(const std::vector<LightPlan>& lights)
 {
-  const auto isSkipped = [&](CastingLight& casting)
+  for (const LightPlan& plan : lights)
   {
-    const std::string reason = enterFrame(casting.light, frame);
-    casting.identity = identityOf(casting.light);
-    if (casting.asked)
-    {
-      enterFrame(*casting.asked, frame);
-    }
-    if (!reason.empty())
-    {
-      reportOf(report, casting.light) = reportOfSkipped({ casting.light.sceneIndex, reason });
-    }
-    return !reason.empty();
-  };
-  this->lights_.erase(
-    std::remove_if(this->lights_.begin(), this->lights_.end(), isSkipped), this->lights_.end());
-  this->placeVisibility();
-}
-
-//------------------------------------------------------------------------------
-/// Assign layers, and bits to lights with hard shadows.
-void CastingLights::placeVisibility()
-{
-  this->layers_ = 0;
-  this->bits_ = 0;
-  for (CastingLight& casting : this->lights_)
-  {
-    casting.layer = 0;
-    casting.bit = noBit;
-    if (isBit(casting.own->info(), casting.light) && this->bits_ < VisibilityLayers::mostBits)
-    {
-      casting.bit = this->bits_++;
-    }
-    else
-    {
-      casting.layer = this->layers_;
-      this->layers_ += casting.channels;
-    }
+    LightTechnique& own = this->techniqueOf(plan.light, *plan.estimator);
+    LightTechnique* const plain =
+      plan.shadedBy == ShadedBy::Plain ? &this->techniqueOf(plan.light, plainEstimator()) : nullptr;
+    this->lights_.push_back({ plan, &own, plain });
   }
 }
 
 //------------------------------------------------------------------------------
-void CastingLights::take(CastingLight& casting, Composition other, FrameReport& report)
+LightTechnique& CastingLights::techniqueOf(
+  const ShadowLight& light, const EstimatorEntry& estimator)
 {
-  casting.own = &this->techniqueOf(other);
-  casting.light = std::move(other.light);
-  casting.identity = identityOf(casting.light);
-  casting.channels = channelsOf(casting.own->info(), casting.light);
-  reportOf(report, casting.light) = reportOfCasting(casting.light, casting.own->info());
-  this->placeVisibility();
-}
-
-//------------------------------------------------------------------------------
-const PointwiseTechnique* CastingLights::pointwiseOn(
-  CastingLight& casting, Route route, bool translucentReceivers)
-{
-  const PointwiseTechnique* own = casting.own->as<PointwiseTechnique>();
-  if (own || !translucentReceivers)
-  {
-    return translucentReceivers || route == Route::Inline ? own : nullptr;
-  }
-  casting.plain = &this->cacheOf(casting.light)
-                     .of(casting.light.sceneIndex, *findTechnique(plainTechnique)->estimator);
-  return casting.plain->as<PointwiseTechnique>();
+  return this->cacheOf(light).of(light.sceneIndex, estimator);
 }
 
 //------------------------------------------------------------------------------
 void CastingLights::endFrame()
 {
-  const EstimatorEntry& plain = *findTechnique(plainTechnique)->estimator;
   for (const CastingLight& casting : this->lights_)
   {
-    if (casting.asked && casting.asked->mapSizeTexels <= casting.mostMapTexels)
+    TechniqueCache& cache = this->cacheOf(casting.light());
+    cache.keep(casting.light().sceneIndex, *casting.plan.resting);
+    if (mayTakeMap(casting.plan))
     {
-      this->cacheOf(casting.light).keep(casting.light.sceneIndex, plain); // for the next motion
+      cache.keep(casting.light().sceneIndex, plainEstimator()); // for the next motion
     }
   }
   this->ofAllViews_.dropUnused();
@@ -351,10 +102,10 @@ TechniqueCache& CastingLights::cacheOf(const ShadowLight& light)
 }
 
 //------------------------------------------------------------------------------
-LightReport& reportOf(FrameReport& report, const ShadowLight& light)
+bool smoothsEdges(const CastingLights& lights)
 {
-  return *std::find_if(report.lights.begin(), report.lights.end(),
-    [&](const LightReport& of) { return of.sceneIndex == light.sceneIndex; });
+  return std::any_of(lights.begin(), lights.end(),
+    [](const CastingLight& casting) { return casting.edgeSamples() > 1; });
 }
 
 } // namespace gnomon

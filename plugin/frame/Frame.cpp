@@ -11,15 +11,15 @@ void Frame::endStage(const std::string& name)
   if (this->wishes.measureStages)
   {
     glFinish();
-    this->report.stages.push_back({ name, steadyMilliseconds() - this->stageStart });
+    this->counts.stages.push_back({ name, steadyMilliseconds() - this->stageStart });
     this->stageStart = steadyMilliseconds();
   }
 }
 
 //------------------------------------------------------------------------------
-void Frame::tellReuse(const std::string& value, const std::string& changes)
+void Frame::noteReuse(const std::string& value, const std::string& changes)
 {
-  this->report.values.push_back({ value, changes.empty(), changes });
+  this->counts.values.push_back({ value, changes.empty(), changes });
 }
 
 } // namespace gnomon

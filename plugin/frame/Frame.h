@@ -3,12 +3,11 @@
 #include "lights/CameraView.h"
 #include "plugin/frame/CastingLights.h"
 #include "plugin/frame/ViewValues.h"
-#include "plugin/plan/FrameWishes.h"
-#include "plugin/plan/Route.h"
+#include "plugin/plan/FramePlan.h"
 #include "plugin/ranks/Ranks.h"
 #include "shadowtech/base/Clock.h"
 #include "shadowtech/base/Technique.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameCounts.h"
 
 #include <glm/glm.hpp>
 
@@ -21,26 +20,24 @@ namespace gnomon
 struct Frame
 {
   FrameWishes wishes;
-  Ranks* ranks = nullptr; ///< the processes that draw the picture; null: this one alone
-  FrameReport report;
-  bool moves = false;     ///< true if it is one of a moving picture
-  bool mayRefine = false; ///< true if more frames at rest follow an unfinished one
-  CastingLights lights;
-  glm::ivec2 size{ 0 };      ///< of the picture, in pixels
-  CameraView camera;         ///< that draws it
-  ReceiverSpace space;       ///< the camera's
-  std::size_t triangles = 0; ///< of the snapshot, those of instances among them
-  Route route = Route::Inline;
+  Ranks* ranks = nullptr;     ///< the processes that draw the picture; null: this one alone
+  Scene scene;                ///< what there is
+  FramePlan plan;             ///< what is decided
+  CastingLights lights;       ///< the plan's, with their techniques
+  FrameCounts counts;         ///< what the stages did
+  glm::ivec2 size{ 0 };       ///< of the picture, in pixels
+  CameraView camera;          ///< that draws it
+  ReceiverSpace space;        ///< the camera's
   ViewValues* view = nullptr; ///< cached values of the view
-  bool severalViews = false;  ///< true if the pass draws other views, too
   double start = 0.0;         ///< by steadyMilliseconds()
   double stageStart = 0.0;    ///< as start
 
+  Route route() const { return this->plan.picture.route.route; }
   /// End the clock of a stage, or of a part of it, if stages are measured.
   void endStage(const std::string& name);
-  /// Report whether a value was reused.
+  /// Note whether a value was reused.
   /// @param changes why it was not reused; empty if it was
-  void tellReuse(const std::string& value, const std::string& changes);
+  void noteReuse(const std::string& value, const std::string& changes);
 };
 
 } // namespace gnomon

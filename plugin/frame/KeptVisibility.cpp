@@ -99,15 +99,15 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
   const auto add = [&](const std::vector<float>& visibility, LightChannel channel)
   {
     images.visibility.push_back(topRowFirst(visibility, images.width, images.height));
-    images.sceneIndices.push_back(casting.light.sceneIndex);
+    images.sceneIndices.push_back(casting.light().sceneIndex);
     images.channels.push_back(channel);
     images.classes.push_back(classes);
   };
   std::vector<float> visibility;
-  if (!casting.light.texture)
+  if (!casting.light().texture)
   {
-    casting.bit == noBit ? layers.read(casting.layer, visibility)
-                         : layers.readBit(casting.bit, visibility);
+    casting.plan.bit == noBit ? layers.read(casting.plan.layer, visibility)
+                              : layers.readBit(casting.plan.bit, visibility);
     add(visibility, LightChannel::All);
     return;
   }
@@ -115,9 +115,9 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
     LightChannel::Blue };
   for (int channel = 0; channel < 3; ++channel)
   {
-    const bool seen = casting.channels == 3;
-    layers.read(casting.layer + (seen ? channel : 0), visibility);
-    const float lit = seen ? 1.0f : casting.light.texture->mean[channel];
+    const bool seen = casting.plan.channels == 3;
+    layers.read(casting.plan.layer + (seen ? channel : 0), visibility);
+    const float lit = seen ? 1.0f : casting.light().texture->mean[channel];
     std::transform(
       visibility.begin(), visibility.end(), visibility.begin(), [&](float v) { return lit * v; });
     add(visibility, channels[static_cast<std::size_t>(channel)]);
@@ -136,7 +136,7 @@ VisibilityImages keepVisibility(const CastingLights& lights, const ViewValues& v
   auto value = view.visibility.begin();
   for (const CastingLight& casting : lights)
   {
-    ClassImage classImage{ casting.own->info().classes, {} };
+    ClassImage classImage{ casting.info().classes, {} };
     if (!classImage.classes.empty())
     {
       classImage.ofPixels = topRowFirst(value->classes, images.width, images.height);

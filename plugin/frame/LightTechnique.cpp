@@ -19,57 +19,6 @@ LightTechnique::LightTechnique(const EstimatorEntry& estimator)
 }
 
 //------------------------------------------------------------------------------
-void LightTechnique::chooseFit(
-  ShadowLight& light, Route route, bool translucentReceivers, LightReport& report) const
-{
-  if (!this->info().bakesMap())
-  {
-    return;
-  }
-  const bool fitted = isFittedToCamera(this->technique().lightOfMap(light));
-  report.fitReason = fitted ? this->reasonAgainstReceivers(light, route, translucentReceivers) : "";
-  light.fittedToReceivers = fitted && report.fitReason.empty();
-  report.fit = light.fittedToReceivers ? "receivers" : fitted ? "frustum" : "off";
-}
-
-//------------------------------------------------------------------------------
-/// Return why a light's views cannot be fitted to the drawn receivers; empty if they can.
-std::string LightTechnique::reasonAgainstReceivers(
-  const ShadowLight& light, Route route, bool translucentReceivers) const
-{
-  if (route == Route::Inline)
-  {
-    return "the inline route does not draw the receivers first";
-  }
-  if (!this->info().isPointwise())
-  {
-    return "the technique works on the screen, so receivers are found after the maps";
-  }
-  if (light.fit == ViewFit::Off)
-  {
-    return "it needs the setting fit=frame";
-  }
-  if (light.projection == Projection::Splits && light.splitBlend > 0.0)
-  {
-    return "blended splits overlap, but each receiver counts for one split";
-  }
-  if (light.fit == ViewFit::Once)
-  {
-    return "a fit made once must also hold later views";
-  }
-  if (translucentReceivers)
-  {
-    return "translucent surfaces receive, but the receivers drawn first are opaque";
-  }
-  if (this->technique().mapReach(light).dependsOnViews())
-  {
-    return "the border of a kernel with a width in world units, or of penumbrae, depends on "
-           "the fit";
-  }
-  return {};
-}
-
-//------------------------------------------------------------------------------
 /// Return why an optional map is neither used nor baked later, as a clause; empty if it may be.
 std::string LightTechnique::reasonAgainstMap(
   const ShadowLight& light, const MapStage& stage, bool isBaked) const
@@ -87,7 +36,7 @@ std::string LightTechnique::reasonAgainstMap(
 
 //------------------------------------------------------------------------------
 void LightTechnique::updateMaps(
-  const ShadowLight& light, const MapStage& stage, LightReport& report)
+  const ShadowLight& light, const MapStage& stage, LightCounts& counts)
 {
   if (!this->info().bakesMap())
   {
@@ -112,7 +61,7 @@ void LightTechnique::updateMaps(
   }
   if (isOptional)
   {
-    report.mapReason = against;
+    counts.mapReason = against;
   }
   if (!this->usesMap_)
   {
@@ -121,12 +70,12 @@ void LightTechnique::updateMaps(
     return;
   }
   const std::string changes = this->baked_.changesTo(wanted);
-  stage.report.values.push_back({ "maps of " + nameOf(light), changes.empty(), changes });
+  stage.counts.values.push_back({ "maps of " + nameOf(light), changes.empty(), changes });
   if (!changes.empty())
   {
     this->bake(light, stage, std::move(wanted));
   }
-  report.castersLeftOut = this->baked_.castersLeftOut;
+  counts.castersLeftOut = this->baked_.castersLeftOut;
 }
 
 //------------------------------------------------------------------------------
@@ -204,7 +153,7 @@ void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake 
   namingLight(light, [&] { this->technique().bake(input); });
   wanted.castersLeftOut = onCpu ? 0 : stage.buffers.countUnseen(wanted.views.views);
   this->baked_ = std::move(wanted);
-  ++stage.report.mapBakes;
+  ++stage.counts.mapBakes;
 }
 
 //------------------------------------------------------------------------------

@@ -6,11 +6,10 @@
 #include "lights/ShadowLight.h"
 #include "plugin/frame/ValueKey.h"
 #include "plugin/plan/BakeBackoff.h"
-#include "plugin/plan/Route.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameCounts.h"
 #include "shadowtech/fitting/ReceiverFit.h"
 
 #include <cstddef>
@@ -35,7 +34,7 @@ struct MapStage
   std::size_t receiversNumber;       ///< ReceiversValue::number
   ///@}
   bool bakesOptional; ///< false: bakes of optional maps wait for a later frame
-  FrameReport& report;
+  FrameCounts& counts;
 };
 
 /// One light's technique, with its maps and their inputs, cached from frame to frame. BakeBackoff
@@ -56,16 +55,9 @@ public:
     return technique ? technique->get() : nullptr;
   }
 
-  /// Choose the target of the views' fit on a route, and store it in the light and in the report.
-  /// The receivers that are drawn give the tightest fit. They are the target unless there is a
-  /// reason against it.
-  /// @param translucentReceivers true if translucent surfaces receive
-  void chooseFit(
-    ShadowLight& light, Route route, bool translucentReceivers, LightReport& report) const;
-
   /// Bake the maps if they are stale and worth it.
   /// @throws TextureMemoryError that names the light, for maps without room
-  void updateMaps(const ShadowLight& light, const MapStage& stage, LightReport& report);
+  void updateMaps(const ShadowLight& light, const MapStage& stage, LightCounts& counts);
   /// True if this frame's visibility uses the maps.
   bool usesMap() const { return this->usesMap_; }
 
@@ -89,8 +81,6 @@ private:
     std::string changesTo(const Bake& wanted) const;
   };
 
-  std::string reasonAgainstReceivers(
-    const ShadowLight& light, Route route, bool translucentReceivers) const;
   std::string reasonAgainstMap(const ShadowLight& light, const MapStage& stage, bool isBaked) const;
   LightViews layOut(const ShadowLight& light, const MapStage& stage, const MapReach& reach);
   Bake wantedIn(const ShadowLight& light, const MapStage& stage);

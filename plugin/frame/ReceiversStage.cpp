@@ -34,8 +34,8 @@ ReceiversStage::ReceiversStage(Frame& frame, const OccluderCollector& collector,
 //------------------------------------------------------------------------------
 bool ReceiversStage::readsPoints() const
 {
-  return this->frame_.lights.anyTechnique(
-    [](const TechniqueInfo& info) { return info.evaluation != Evaluation::ScreenCpu; });
+  return std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
+    [](const CastingLight& casting) { return !casting.isOnCpu(); });
 }
 
 //------------------------------------------------------------------------------
@@ -45,7 +45,7 @@ std::size_t ReceiversStage::shownProps(const vtkRenderState* s)
   {
     this->shownProps_ = hashOfShownProps(s, this->stamps_);
     const std::vector<std::string> notes = this->stamps_.notes();
-    this->frame_.report.notes.insert(this->frame_.report.notes.end(), notes.begin(), notes.end());
+    this->frame_.counts.notes.insert(this->frame_.counts.notes.end(), notes.begin(), notes.end());
   }
   return *this->shownProps_;
 }
@@ -54,16 +54,14 @@ std::size_t ReceiversStage::shownProps(const vtkRenderState* s)
 /// Return the key of the picture of the receivers.
 ValueKey ReceiversStage::keyOf(const vtkRenderState* s)
 {
-  std::size_t view = 0;
-  hashView(view, this->frame_.camera, this->frame_.size);
-  const Occluders& occluders = this->collector_.occluders();
+  const Scene& scene = this->frame_.scene;
   ValueKey key;
-  key.add("the camera", view);
+  key.add("the camera", scene.picture.view);
   key.add(propsPart, this->shownProps(s));
-  key.add(snapshotPart, std::pair(occluders.topologyVersion, occluders.positionsVersion));
+  key.add(snapshotPart, scene.props.casters);
   key.add("what is read of receivers", this->readsPoints());
   key.add("the processes", this->frame_.ranks ? this->frame_.ranks->serial() : 0);
-  key.add("where they are drawn", std::tuple(this->frame_.route, originOf(s)));
+  key.add("where they are drawn", std::tuple(this->frame_.route(), originOf(s)));
   return key;
 }
 
@@ -73,7 +71,7 @@ void ReceiversStage::findStale(const vtkRenderState* s)
   ReceiversValue& value = this->frame_.view->receivers;
   ValueKey key = this->keyOf(s);
   const std::string changes = value.key ? key.changesFrom(*value.key) : "there were none";
-  this->frame_.tellReuse("receivers", changes);
+  this->frame_.noteReuse("receivers", changes);
   if (changes.empty())
   {
     this->due_.reset();
@@ -87,21 +85,10 @@ void ReceiversStage::findStale(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void ReceiversStage::countRest()
+int ReceiversStage::countRest()
 {
   this->restingFrames_ = this->due_ ? 0 : this->restingFrames_ + 1;
-}
-
-//------------------------------------------------------------------------------
-/// On llvmpipe triangle numbers cost 25 ns a triangle or more, even where no image takes them.
-/// Switching them off makes VTK rebuild shaders, which costs some 0.2 ms a surface. So it waits
-/// until receivers rest, and for scenes where eight frames pay for it.
-bool ReceiversStage::namesTriangles() const
-{
-  constexpr int patience = 3; // frames
-  constexpr std::size_t leastTriangles = 1000;
-  return this->restingFrames_ < patience || this->frame_.severalViews ||
-    this->frame_.triangles < leastTriangles * this->collector_.occluders().surfaces.size();
+  return this->restingFrames_;
 }
 
 //------------------------------------------------------------------------------
@@ -164,7 +151,7 @@ NumberCheck ReceiversStage::checkNumbers(const vtkRenderState* s)
       from.readDepths(truth.windowDepths);
     }
   };
-  this->frame_.route == Route::Deferred ? read(receivers.deferred) : read(receivers.target);
+  this->frame_.route() == Route::Deferred ? read(receivers.deferred) : read(receivers.target);
   images.rays = pixelRays(this->frame_.camera.clipFromView, this->frame_.space.centredFromView,
     images.width, images.height);
   truth.clipFromCentred = this->frame_.camera.clipFromCentred();
@@ -184,15 +171,15 @@ bool ReceiversStage::ensureRightNumbers(const vtkRenderState* s)
   {
     return true;
   }
-  FrameReport& report = this->frame_.report;
+  FrameCounts& counts = this->frame_.counts;
   ShaderManager& shaders = this->programs_.shaders;
   const NumberCheck check = this->checkNumbers(s);
   this->frame_.endStage("receivers: check numbers");
-  report.numbersChecked += check.allPixels();
+  counts.numbersChecked += check.allPixels();
   if (wrongByDriver > 0)
   {
     const bool isBetter = check.allWrong() < wrongByDriver;
-    report.numbersWrong = isBetter ? wrongByDriver : 0;
+    counts.numbersWrong = isBetter ? wrongByDriver : 0;
     shaders.numberByGeometryShaders(isBetter);
     return isBetter;
   }
@@ -218,7 +205,7 @@ void ReceiversStage::take()
     }
     value.key = std::move(this->due_);
     value.number = ++this->numbered_;
-    ++this->frame_.report.receiversDrawn;
+    ++this->frame_.counts.receiversDrawn;
   }
 }
 
@@ -226,7 +213,8 @@ void ReceiversStage::take()
 /// True if any light's technique traces on the CPU.
 bool ReceiversStage::tracesOnCpu() const
 {
-  return std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(), isOnCpu);
+  return std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
+    [](const CastingLight& casting) { return casting.isOnCpu(); });
 }
 
 //------------------------------------------------------------------------------
@@ -318,7 +306,7 @@ void ReceiversStage::readImages()
   ReceiversValue& value = this->frame_.view->receivers;
   value.images.rays = pixelRays(this->frame_.camera.clipFromView,
     this->frame_.space.centredFromView, this->frame_.size.x, this->frame_.size.y);
-  if (this->frame_.route == Route::Deferred)
+  if (this->frame_.route() == Route::Deferred)
   {
     value.deferred.read(value.images);
   }
@@ -339,8 +327,8 @@ void ReceiversStage::store()
   const auto images = std::count_if(this->frame_.lights.begin(), this->frame_.lights.end(),
     [](const CastingLight& casting)
     {
-      const bool isDecidedByMap = casting.own->info().conservativeMap && casting.own->usesMap();
-      return casting.isStale && isOnCpu(casting) && !isDecidedByMap;
+      const bool isDecidedByMap = casting.info().conservativeMap && casting.own->usesMap();
+      return casting.isStale && casting.isOnCpu() && !isDecidedByMap;
     });
   if (++value.framesTraced > patience || images > 1)
   {

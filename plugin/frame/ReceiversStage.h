@@ -47,12 +47,8 @@ public:
   void findStale(const vtkRenderState* s);
   bool areDue() const { return this->due_.has_value(); }
 
-  ///@{
-  /// Deferred route: count the frames in a row that kept their receivers, and return true if
-  /// shaders write triangle numbers, whether or not this frame takes them.
-  void countRest();
-  bool namesTriangles() const;
-  ///@}
+  /// Deferred route: count the frames in a row that kept their receivers.
+  int countRest();
 
   /// Image route: draw the receivers if they are stale, and points for techniques that read them on
   /// the GPU.

@@ -4,6 +4,7 @@
 #include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
+#include "shadowtech/base/Gl.h"
 #include "shadowtech/base/GlState.h"
 
 #include <vtkMapper.h>
@@ -12,8 +13,7 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <optional>
-#include <tuple>
+#include <stdexcept>
 #include <utility>
 
 namespace gnomon
@@ -26,26 +26,33 @@ vtkOpenGLRenderWindow* windowOf(const vtkRenderState* s)
   return vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
 }
 
-void hashLight(std::size_t& seed, const CastingLight& casting)
-{
-  hashCombine(seed, casting.light.sceneIndex);
-  hashCombine(seed, casting.identity.hash);
-}
-
 /// Return a number that differs where lights differ in what decides their rays.
-std::uint64_t hashOf(const CastingLights& lights)
+/// @param withSettings true if it also differs with the settings of raytraced
+std::uint64_t hashOf(const LightSet& lights, bool withSettings)
 {
-  std::size_t seed = lights.size();
-  for (const CastingLight& casting : lights)
+  std::size_t seed = lights.lights.size();
+  for (const ShadowLight& light : lights.lights)
   {
-    hashLight(seed, casting);
-    for (const std::string& value :
-      valuesOf(casting.own->info(), SettingsOf::Estimator, casting.light))
+    hashCombine(seed, light.sceneIndex);
+    hashCombine(seed, identityOf(light).hash);
+    if (withSettings)
     {
-      hashCombine(seed, value);
+      for (const std::string& value :
+        valuesOf(findTechnique("raytraced")->estimator->info, SettingsOf::Estimator, light))
+      {
+        hashCombine(seed, value);
+      }
     }
   }
   return seed;
+}
+
+CostFactors factorsOf(const FrameWishes& wishes)
+{
+  const GLubyte* const name = glGetString(GL_RENDERER);
+  return wishes.factors
+    ? *wishes.factors
+    : defaultFactors(isSoftwareRenderer(name ? reinterpret_cast<const char*>(name) : ""));
 }
 
 } // namespace
@@ -59,15 +66,15 @@ RenderManager::RenderManager(PassPrograms& programs)
 //------------------------------------------------------------------------------
 void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
 {
-  this->frame_.report = FrameReport{};
+  Frame& frame = this->frame_;
+  frame.counts = FrameCounts{};
+  frame.counts.numbersChecked = std::exchange(this->checkedBefore_, 0);
+  frame.scene = Scene{};
   this->receivers_.beginFrame();
-  this->frame_.report.numbersChecked = std::exchange(this->checkedBefore_, 0);
-  this->frame_.wishes = wishes;
-  this->frame_.ranks = ranks;
-  this->frame_.moves = false;
-  this->frame_.mayRefine = false;
-  this->frame_.wishes.isShared = ranks != nullptr;
-  this->frame_.wishes.smoothTerminators = wishes.smoothTerminators && !ranks;
+  frame.wishes = wishes;
+  frame.ranks = ranks;
+  frame.wishes.isShared = ranks != nullptr;
+  frame.wishes.smoothTerminators = wishes.smoothTerminators && !ranks;
   if (!wishes.keepVisibility)
   {
     this->visibility_.dropImages();
@@ -76,40 +83,36 @@ void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
   {
     glFinish(); // what was pending before the frame is not the frame's
   }
-  this->frame_.start = this->frame_.stageStart = steadyMilliseconds();
+  frame.start = frame.stageStart = steadyMilliseconds();
   const PassPrograms& programs = this->programs_;
   this->compilesBefore_ = programs.library.compiles() + programs.shaders.rebuilds();
   this->newProgramsBefore_ = programs.library.compiles() + programs.shaders.newPrograms();
 }
 
 //------------------------------------------------------------------------------
-bool RenderManager::collectLights(
+bool RenderManager::readLights(
   vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews)
 {
-  Ranks* const ranks = this->frame_.ranks;
-  this->frame_.view = &this->views_.of(renderer);
-  this->frame_.severalViews = severalViews;
-  this->frame_.lights.collect(
-    renderer, defaults, this->frame_.wishes, this->frame_.view->techniques, this->frame_.report);
-  if (ranks)
+  Frame& frame = this->frame_;
+  frame.view = &this->views_.of(renderer);
+  frame.scene.picture.severalViews = severalViews;
+  frame.scene.picture.drawsMaps = canDrawMaps();
+  frame.scene.lights = this->lights_.read(renderer, defaults, frame.wishes);
+  const LightSet& lights = frame.scene.lights.set;
+  if (frame.ranks)
   {
-    ranks->requireSame(hashOf(this->frame_.lights), "lights");
+    frame.ranks->requireSame(hashOf(lights, true), "lights");
   }
-  this->frame_.endStage("lights");
-  if (this->frame_.lights.empty())
-  {
-    this->frame_.report.route = "none";
-    this->frame_.report.routeReason = "no light casts a shadow";
-    this->visibility_.dropImages(); // that of an earlier frame
-  }
-  return !this->frame_.lights.empty() || this->frame_.wishes.keepVisibility;
+  frame.endStage("lights");
+  return !lights.lights.empty() || frame.wishes.keepVisibility;
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::collectOccluders(const vtkRenderState* s)
+const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s)
 {
+  Frame& frame = this->frame_;
   OtherProcesses others;
-  if (Ranks* const ranks = this->frame_.ranks)
+  if (Ranks* const ranks = frame.ranks)
   {
     others.unite = [ranks](const Bounds& own) { return ranks->united(own); };
     others.gather = [ranks](const std::vector<GlyphCount>& own)
@@ -120,144 +123,113 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
     };
   }
   const SnapshotChange change =
-    this->collector_.collect(s->GetRenderer(), this->frame_.wishes.smoothTerminators, others);
+    this->collector_.collect(s->GetRenderer(), frame.wishes.smoothTerminators, others);
+  frame.counts.surfacesExtracted = change.extracted;
+  frame.counts.surfacesRetransformed = change.retransformed;
   const Occluders& occluders = this->collector_.occluders();
-  FrameReport& report = this->frame_.report;
-  this->frame_.lights.enter(occluders.frame, report);
-  report.surfacesExtracted = change.extracted;
-  report.surfacesRetransformed = change.retransformed;
-  report.notes.insert(
-    report.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
-  report.leftOut = this->collector_.leftOut();
-  this->names_.clear();
-  if (this->frame_.ranks ? smoothsEdges(this->frame_.lights) : this->frame_.wishes.keepVisibility)
-  {
-    this->names_ = surfaceNames(s->GetRenderer(), this->collector_.records());
-  }
-  this->frame_.triangles = 0;
-  for (const Surface& surface : occluders.surfaces)
-  {
-    const std::size_t instances = surface.centredFromSource.size();
-    report.instances += instances;
-    this->frame_.triangles += surface.triangleCount * std::max<std::size_t>(instances, 1);
-  }
-  report.triangles = this->frame_.triangles;
-  report.droppedNonFinite = occluders.droppedNonFinite;
-  report.droppedZeroArea = occluders.droppedZeroArea;
-  this->frame_.size = sizeOf(s, this->frame_.wishes.reductionFactor);
+  frame.scene.props = gnomon::readProps(occluders);
+  frame.scene.props.seenThrough = this->collector_.anySeenThrough();
+  frame.scene.props.translucent = this->collector_.translucentReceivers() > 0;
+  frame.size = sizeOf(s, frame.wishes.reductionFactor);
   const ShownView shown = shownView(s->GetRenderer(), occluders.frame);
-  this->frame_.camera = shown.camera;
-  this->frame_.space = { shown.centredFromView, shown.camera.pixelSide(this->frame_.size) };
-  this->stageValues_.space = this->frame_.space;
+  frame.camera = shown.camera;
+  frame.space = { shown.centredFromView, shown.camera.pixelSide(frame.size) };
+  this->stageValues_.space = frame.space;
   this->stageValues_.viewFromVtkView = shown.viewFromVtkView;
   this->stageValues_.eyeView = shown.camera.eyeView();
-  this->stageValues_.reductionFactor = this->frame_.wishes.reductionFactor;
-  if (this->frame_.ranks)
+  this->stageValues_.reductionFactor = frame.wishes.reductionFactor;
+  hashView(frame.scene.picture.view, frame.camera, frame.size);
+  if (frame.ranks)
   {
-    std::size_t hash = 0;
-    hashView(hash, this->frame_.camera, this->frame_.size);
-    this->frame_.ranks->requireSame(hash, "cameras or sizes of the picture");
+    frame.ranks->requireSame(frame.scene.picture.view, "cameras or sizes of the picture");
   }
-  this->frame_.endStage("occluders");
+  frame.endStage("occluders");
+  return this->collector_.leftOut();
 }
 
 //------------------------------------------------------------------------------
 bool RenderManager::changes(const vtkRenderState* s)
 {
-  std::size_t shown = this->frame_.lights.size();
-  for (const CastingLight& casting : this->frame_.lights)
-  {
-    hashLight(shown, casting);
-  }
-  hashView(shown, this->frame_.camera, this->frame_.size);
+  std::size_t shown = hashOf(this->frame_.scene.lights.set, false);
+  hashCombine(shown, this->frame_.scene.picture.view);
   hashCombine(shown, this->receivers_.shownProps(s));
-  const Occluders& occluders = this->collector_.occluders();
-  hashCombine(shown, occluders.topologyVersion);
-  hashCombine(shown, occluders.positionsVersion);
+  hashCombine(shown, this->frame_.scene.props.casters.first);
+  hashCombine(shown, this->frame_.scene.props.casters.second);
   return std::exchange(this->frame_.view->shown, shown) != shown;
 }
 
 //------------------------------------------------------------------------------
-bool RenderManager::chooseTechniques(bool moves, bool mayRefine)
-{
-  if (this->frame_.ranks)
-  {
-    return false; // all lights have rays
-  }
-  this->frame_.moves = moves;
-  this->frame_.mayRefine = mayRefine;
-  this->choice_.choose(
-    [this](const CastingLight& casting, const ShadowLight& map, LightTechnique& technique)
-    {
-      LightReport ofMap; // the light's own is that of the technique that is chosen
-      technique.updateMaps(map, this->mapStage(casting), ofMap);
-    });
-  this->frame_.endStage("choice");
-  return moves &&
-    std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
-      [](const CastingLight& casting) { return casting.asked; });
-}
-
-//------------------------------------------------------------------------------
-/// Plan how visibility reaches the picture, from what there is.
-PicturePlan RenderManager::planOfPicture(const vtkRenderState* s, bool drawnPlainly) const
+/// Read what a plan must know of the picture.
+void RenderManager::readPicture(
+  const vtkRenderState* s, bool moves, bool mayRefine, bool drawnPlainly)
 {
   vtkRenderer* const renderer = s->GetRenderer();
-  std::vector<PictureLight> lights;
-  for (const CastingLight& casting : this->frame_.lights)
-  {
-    lights.push_back({ casting.light, casting.own->info() });
-  }
-  PictureFacts facts;
-  facts.samples = samplesOfBoundFramebuffer();
-  facts.drawsMaps = canDrawMaps();
-  facts.drawnPlainly =
+  ScenePicture& picture = this->frame_.scene.picture;
+  picture.pixels =
+    static_cast<std::size_t>(this->frame_.size.x) * static_cast<std::size_t>(this->frame_.size.y);
+  picture.samples = samplesOfBoundFramebuffer();
+  picture.moves = moves;
+  picture.mayRefine = mayRefine;
+  picture.drawnPlainly =
     drawnPlainly && !renderer->GetUseSSAO() && !renderer->GetUseHiddenLineRemoval();
-  facts.seenThrough = this->collector_.anySeenThrough();
-  facts.translucent = this->collector_.translucentReceivers() > 0;
-  PropFacts props;
-  if (whyNotDeferred(lights, this->frame_.wishes, facts).empty())
-  {
-    facts.whyNoDeferred = DeferredPicture::whyUnsupported();
-    props = { anyPropHasOwnShaders(s), hasPartsOfBothKinds(s) };
-  }
-  return planPicture(lights, this->frame_.wishes, facts, props);
+  picture.factors = factorsOf(this->frame_.wishes);
 }
 
 //------------------------------------------------------------------------------
-bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
+const FramePlan& RenderManager::plan(
+  const vtkRenderState* s, bool moves, bool mayRefine, bool drawnPlainly)
 {
-  FrameReport& report = this->frame_.report;
-  const PicturePlan plan = this->planOfPicture(s, drawnPlainly);
-  this->frame_.route = plan.route.route;
-  this->shadesTranslucent_ = plan.shadesTranslucent;
-  report.route = nameOf(plan.route.route);
-  report.routeReason = plan.route.reason;
-  report.notes.insert(report.notes.end(), plan.notes.begin(), plan.notes.end());
-
-  std::vector<ShadedLight> shaded;
-  for (CastingLight& casting : this->frame_.lights)
+  this->readPicture(s, moves, mayRefine, drawnPlainly);
+  const FramePlan& plan = this->frame_.plan;
+  this->planner_.plan(
+    [this](const ShadowLight& map, LightTechnique& technique)
+    {
+      LightCounts ofMap; // the light's own are those of the technique that is chosen
+      technique.updateMaps(map, this->mapStage(true), ofMap);
+    },
+    [s]
+    {
+      return DeferredFacts{ anyPropHasOwnShaders(s), hasPartsOfBothKinds(s),
+        DeferredPicture::whyUnsupported() };
+    });
+  if (plan.lights.empty())
   {
-    casting.own->chooseFit(
-      casting.light, plan.route.route, plan.shadesTranslucent, reportOf(report, casting.light));
-    const PointwiseTechnique* pointwise =
-      this->frame_.lights.pointwiseOn(casting, plan.route.route, plan.shadesTranslucent);
-    casting.shadesAtPoints = pointwise != nullptr;
-    shaded.push_back({ casting.light, casting.channels, casting.layer, casting.bit, pointwise });
+    this->visibility_.dropImages(); // that of an earlier frame
   }
-  bool namesTriangles = true;
-  if (this->frame_.route == Route::Deferred)
+  if (plan.hasShadows)
+  {
+    const bool areNamed =
+      this->frame_.ranks ? smoothsEdges(this->frame_.lights) : this->frame_.wishes.keepVisibility;
+    this->names_ = areNamed ? surfaceNames(s->GetRenderer(), this->collector_.records())
+                            : std::vector<SurfaceName>{};
+    this->configureShaders(s);
+  }
+  this->frame_.endStage("plan");
+  return plan;
+}
+
+//------------------------------------------------------------------------------
+/// Give the hook its tasks in this frame.
+void RenderManager::configureShaders(const vtkRenderState* s)
+{
+  Frame& frame = this->frame_;
+  std::vector<ShadedLight> shaded;
+  for (const CastingLight& casting : frame.lights)
+  {
+    const LightPlan& plan = casting.plan;
+    shaded.push_back({ plan.light, plan.channels, plan.layer, plan.bit, casting.pointwise() });
+  }
+  bool writes = true;
+  if (frame.route() == Route::Deferred)
   {
     this->receivers_.findStale(s);
-    this->receivers_.countRest();
-    namesTriangles = this->receivers_.namesTriangles();
+    writes = writesNumbers({ this->receivers_.countRest(), frame.scene.picture.severalViews,
+      frame.scene.props.triangles, this->collector_.occluders().surfaces.size() });
   }
   this->programs_.shaders.configure(
-    { this->frame_.route, this->receivers_.readsPoints(), samplesOfBoundFramebuffer() > 1,
-      namesTriangles, this->stageValues_.viewFromVtkView == glm::dmat4(1.0),
-      this->collector_.anySeenThrough() },
+    { frame.route(), this->receivers_.readsPoints(), frame.scene.picture.samples > 1, writes,
+      this->stageValues_.viewFromVtkView == glm::dmat4(1.0), frame.scene.props.seenThrough },
     shaded);
-  return plan.isAsTold;
 }
 
 //------------------------------------------------------------------------------
@@ -265,8 +237,8 @@ void RenderManager::makeRoomForLayers()
 {
   VisibilityLayers& layers = this->frame_.view->layers;
   const glm::ivec2& size = this->frame_.size;
-  const int count = this->frame_.lights.layers();
-  const int bits = this->frame_.lights.bits();
+  const int count = this->frame_.plan.layers;
+  const int bits = this->frame_.plan.bits;
   if (count + bits > 0 && !layers.have(size.x, size.y, count, bits))
   {
     this->frame_.view->visibility.clear();
@@ -286,15 +258,14 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
 }
 
 //------------------------------------------------------------------------------
-/// Return the inputs of a light's maps. A moving picture that leaves the technique to the pass
-/// would stand still while an optional map is baked.
-MapStage RenderManager::mapStage(const CastingLight& casting)
+/// Return the inputs of maps.
+/// @param bakesOptional false: bakes of optional maps wait for a later frame
+MapStage RenderManager::mapStage(bool bakesOptional)
 {
-  const bool bakesOptional = !(casting.asked && this->frame_.moves);
   return { this->frame_.camera, this->collector_.occluders(), this->buffers_,
     this->programs_.library, this->frame_.view->receivers.target,
     this->frame_.space.centredFromView, this->frame_.view->receivers.number, bakesOptional,
-    this->frame_.report };
+    this->frame_.counts };
 }
 
 //------------------------------------------------------------------------------
@@ -302,16 +273,17 @@ void RenderManager::bakeMaps()
 {
   for (CastingLight& casting : this->frame_.lights)
   {
-    const MapStage stage = this->mapStage(casting);
-    LightReport& report = reportOf(this->frame_.report, casting.light);
-    const bool shadesByOwn = casting.shadesAtPoints && casting.own->info().isPointwise();
-    if (this->frame_.route == Route::Inline || casting.isStale || shadesByOwn)
+    const LightPlan& plan = casting.plan;
+    // A moving picture that leaves the technique to the pass would stand still meanwhile.
+    const MapStage stage = this->mapStage(!(plan.asked && this->frame_.plan.moves));
+    const bool isInline = this->frame_.route() == Route::Inline;
+    if (isInline || casting.isStale || plan.shadedBy == ShadedBy::Own)
     {
-      casting.own->updateMaps(casting.light, stage, report);
+      casting.own->updateMaps(plan.light, stage, casting.counts);
     }
-    if (casting.plain && casting.shadesAtPoints)
+    if (plan.shadedBy == ShadedBy::Plain)
     {
-      casting.plain->updateMaps(casting.light, stage, report);
+      casting.plain->updateMaps(plan.light, stage, casting.counts);
     }
   }
   this->frame_.endStage("maps");
@@ -337,7 +309,7 @@ void RenderManager::endOpaque(const vtkRenderState* s)
   this->frame_.endStage("shading: lit and in shadow");
   if (this->receivers_.areDue() && !this->receivers_.ensureRightNumbers(s))
   {
-    this->checkedBefore_ = this->frame_.report.numbersChecked;
+    this->checkedBefore_ = this->frame_.counts.numbersChecked;
     throw FrameMustBeDrawnAgain();
   }
   this->receivers_.take();
@@ -348,7 +320,7 @@ void RenderManager::endOpaque(const vtkRenderState* s)
 void RenderManager::drawShadows()
 {
   this->frame_.view->receivers.deferred.darken(
-    this->frame_.lights.bits() > 0 ? this->stageValues_.bits : this->stageValues_.layers,
+    this->frame_.plan.bits > 0 ? this->stageValues_.bits : this->stageValues_.layers,
     this->programs_.library);
   this->frame_.endStage("shading: shadows");
 }
@@ -364,7 +336,7 @@ void RenderManager::beginShading(const vtkRenderState* s)
 bool RenderManager::endShading()
 {
   const bool fitted = this->programs_.shaders.endStage();
-  this->frame_.endStage(this->frame_.route == Route::Deferred ? "shading: the rest" : "shading");
+  this->frame_.endStage(this->frame_.route() == Route::Deferred ? "shading: the rest" : "shading");
   return fitted;
 }
 
@@ -390,56 +362,49 @@ void RenderManager::compareSurfaces(const vtkRenderState* s)
     const bool isShown = drawn[pixel] == nearest[pixel] && drawn[pixel] < 1.0f;
     others += isReceiver && isShown && !shared.isOwn(pixel) ? 1 : 0;
   }
-  this->frame_.report.otherSurfaces = this->frame_.ranks->sum(others);
+  this->report_.otherSurfaces = this->frame_.ranks->sum(others);
 }
 
 //------------------------------------------------------------------------------
 void RenderManager::endFrame(const vtkRenderState* s)
 {
-  this->receivers_.endFrame(s->GetRenderer());
-  FrameReport& report = this->frame_.report;
+  Frame& frame = this->frame_;
   const PassPrograms& programs = this->programs_;
-  report.numbersByGeometryShaders = programs.shaders.numbersByGeometryShaders();
-  report.programCompiles =
+  this->receivers_.endFrame(s->GetRenderer());
+  frame.lights.endFrame();
+  frame.counts.programCompiles =
     programs.library.compiles() + programs.shaders.rebuilds() - this->compilesBefore_;
-  report.newPrograms =
+  frame.counts.newPrograms =
     programs.library.compiles() + programs.shaders.newPrograms() - this->newProgramsBefore_;
-  report.bytesOccluders =
+  FrameTotals totals;
+  totals.numbersByGeometryShaders = programs.shaders.numbersByGeometryShaders();
+  totals.bytesOccluders =
     this->collector_.bytes() + this->buffers_.bytes() + this->tracer_.bytesOfTable();
-  report.bytesBvh = this->tracer_.bytes();
-  this->frame_.lights.endFrame();
-  report.bytesMaps = this->frame_.lights.bytesOfMaps() + this->views_.bytesOfMaps();
-  if (this->frame_.route != Route::Inline)
+  totals.bytesBvh = this->tracer_.bytes();
+  totals.bytesMaps = frame.lights.bytesOfMaps() + this->views_.bytesOfMaps();
+  totals.bytesImages = this->planner_.bytes();
+  if (frame.route() != Route::Inline)
   {
-    report.bytesImages =
+    totals.bytesImages +=
       this->views_.bytesOfImages() + this->visibility_.bytesOfRays() + this->tracer_.bytesOfRays();
   }
-  report.bytesImages += this->choice_.bytes();
-  if (this->frame_.moves && this->frame_.wishes.timeBudget > 0.0)
+  if (frame.plan.moves && frame.wishes.timeBudget > 0.0)
   {
     glFinish(); // so that the frame's time is known
   }
-  if (const Ranks* const ranks = this->frame_.ranks)
-  {
-    report.processes = ranks->count();
-    report.bytesShared = static_cast<std::int64_t>(ranks->bytesShared());
-    if (const SharedReceivers& shared = this->frame_.view->receivers.shared; shared.areShared())
-    {
-      report.ownReceivers = static_cast<std::int64_t>(shared.ownCount());
-      report.depthTies = static_cast<std::int64_t>(shared.ties());
-    }
-  }
-  report.wallMilliseconds = steadyMilliseconds() - this->frame_.start;
-  this->choice_.endFrame(report.wallMilliseconds, report.newPrograms == 0 && report.bvhBuilds == 0);
+  totals.wallMilliseconds = steadyMilliseconds() - frame.start;
+  this->planner_.remember(
+    totals.wallMilliseconds, frame.counts.newPrograms == 0 && frame.counts.bvhBuilds == 0);
+  this->report_ = reportOf(frame, this->collector_, totals);
 }
 
 //------------------------------------------------------------------------------
 double RenderManager::progress() const
 {
   double progress = 1.0;
-  for (const LightReport& light : this->frame_.report.lights)
+  for (const CastingLight& casting : this->frame_.lights)
   {
-    progress = std::min(progress, light.progress);
+    progress = std::min(progress, casting.counts.progress);
   }
   return progress;
 }
@@ -470,8 +435,9 @@ void RenderManager::setShaderParameters(
     }
   }
   // The layers of the image route hold what is behind.
-  drawn.translucent |= this->frame_.route == Route::Image && this->collector_.isSeenThrough(prop);
-  drawn.receives = drawn.receives && (!drawn.translucent || this->shadesTranslucent_);
+  drawn.translucent |= this->frame_.route() == Route::Image && this->collector_.isSeenThrough(prop);
+  drawn.receives =
+    drawn.receives && (!drawn.translucent || this->frame_.plan.picture.shadesTranslucent);
   this->programs_.shaders.setParameters(program, drawn);
 }
 

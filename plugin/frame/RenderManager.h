@@ -2,21 +2,18 @@
 
 #include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/Frame.h"
+#include "plugin/frame/FramePlanner.h"
+#include "plugin/frame/FrameReporting.h"
 #include "plugin/frame/PassPrograms.h"
 #include "plugin/frame/ReceiversStage.h"
+#include "plugin/frame/SceneReading.h"
 #include "plugin/frame/SnapshotTracer.h"
-#include "plugin/frame/TechniqueChoice.h"
 #include "plugin/frame/VisibilityStage.h"
-#include "plugin/plan/PicturePlan.h"
 #include "plugin/scene/OccluderCollector.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
-
 #include "shadowtech/base/OccluderBuffers.h"
 
-#include <glm/glm.hpp>
-
 #include <cstdint>
-#include <string>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -34,7 +31,8 @@ struct FrameMustBeDrawnAgain
 {
 };
 
-/// The stages of one renderer's frame, in the order in which the pass calls them. Each takes values
+/// One renderer's frames. A frame reads what there is (Scene), plans (FramePlan), executes the plan
+/// in stages, and reports. The pass calls what follows from top to bottom. Each stage takes values
 /// of the stages above it, and reuses its own last value while what that was made from is the same.
 class RenderManager
 {
@@ -42,36 +40,30 @@ public:
   /// @param programs of the pass, which serve all of its renderers
   explicit RenderManager(PassPrograms& programs);
 
-  /// Start a frame's report and clock.
+  /// Start a frame's counts and clock.
   /// @param ranks the processes that draw the picture; null: this one alone
   void beginFrame(const FrameWishes& wishes, Ranks* ranks);
 
-  /// lights: which of the renderer's lights cast, with which technique.
+  /// lights: reads which of the renderer's lights may cast.
   /// @param severalViews whether the pass draws others beside this one
   /// @return whether the frame goes on: to shadows, or to receivers that are kept
-  bool collectLights(vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews);
+  bool readLights(vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews);
 
   /// snapshot: brings it up to date with the renderer's props. From here on it is known where the
   /// camera is in it.
-  void collectOccluders(const vtkRenderState* s);
+  /// @return the kinds of visible props that are left out of it
+  const std::vector<std::string>& readProps(const vtkRenderState* s);
 
   /// Note lights, camera and props.
   /// @return true if they differ from what this noted last for the same view
   bool changes(const vtkRenderState* s);
 
-  /// Choose for lights that leave their technique to the pass. Maps that they take are baked.
+  /// Plan the frame. Maps that the plan must look at first are baked.
   /// @param moves true if the frame is one of a moving picture
   /// @param mayRefine true if more frames at rest follow an unfinished one
-  /// @return true if a picture at rest may differ from this choice's
-  /// @throws std::runtime_error as bakeMaps() and computeVisibility()
-  bool chooseTechniques(bool moves, bool mayRefine);
-
-  /// Plan how visibility reaches the picture, and state it in the report.
   /// @param drawnPlainly true if no render pass of the user's draws the props
-  /// @return false when a route is asked for that cannot be taken; it is the image route then, for
-  /// the reason in the report
-  bool chooseRoute(const vtkRenderState* s, bool drawnPlainly);
-  Route route() const { return this->frame_.route; }
+  /// @throws std::runtime_error as bakeMaps() and computeVisibility()
+  const FramePlan& plan(const vtkRenderState* s, bool moves, bool mayRefine, bool drawnPlainly);
 
   /// receivers (image route): draws which triangle each pixel shows, and points for techniques that
   /// read them on the GPU. Then it is known which lights' visibility is another one than the view
@@ -109,7 +101,7 @@ public:
   /// collective frame of its own (Ranks), after the picture was drawn and the report completed.
   void compareSurfaces(const vtkRenderState* s);
 
-  /// Complete the report, after VTK has drawn the props.
+  /// Remember the frame, and report it, after VTK has drawn the props.
   void endFrame(const vtkRenderState* s);
 
   /// End a stage that an error has ended early.
@@ -117,17 +109,19 @@ public:
 
   /// For the hook: sets a program's parameters for the prop that is about to be drawn.
   void setShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop);
-  /// Return the share of its points that the light with the fewest shows (LightReport::progress).
+  /// Return the share of its points that the light with the fewest shows (LightCounts::progress).
   double progress() const;
-  const FrameReport& report() const { return this->frame_.report; }
+  const FrameReport& report() const { return this->report_; }
   const VisibilityImages& visibility() const { return this->visibility_.images(); }
 
 private:
-  MapStage mapStage(const CastingLight& casting);
-  PicturePlan planOfPicture(const vtkRenderState* s, bool drawnPlainly) const;
+  void readPicture(const vtkRenderState* s, bool moves, bool mayRefine, bool drawnPlainly);
+  void configureShaders(const vtkRenderState* s);
+  MapStage mapStage(bool bakesOptional);
   void makeRoomForLayers();
 
   Frame frame_;
+  LightReading lights_;
   OccluderCollector collector_;
   std::vector<SurfaceName> names_; ///< of the snapshot's surfaces, if they are needed
   OccluderBuffers buffers_;
@@ -137,9 +131,9 @@ private:
   ReceiversStage receivers_{ frame_, collector_, programs_, stageValues_ };
   VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, tracer_, receivers_,
     programs_.library };
-  TechniqueChoice choice_{ frame_, collector_.occluders(), tracer_, programs_.library };
+  FramePlanner planner_{ frame_, collector_.occluders(), tracer_, programs_.library };
   RendererViews views_;
-  bool shadesTranslucent_ = false; ///< whether translucent surfaces show shadows in this frame
+  FrameReport report_;             ///< of the last frame
   std::int64_t checkedBefore_ = 0; ///< triangle numbers, in a frame that is drawn again
   ///@{
   /// Before the frame.

@@ -27,8 +27,8 @@ void SnapshotTracer::update()
   try
   {
     const EmbreeTracer::Update update = this->tracer_->update(this->occluders_);
-    this->frame_.report.bvhBuilds += update.builds;
-    this->frame_.report.bvhRefits += update.refits;
+    this->frame_.counts.bvhBuilds += update.builds;
+    this->frame_.counts.bvhRefits += update.refits;
   }
   catch (const std::exception&)
   {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lights/vtkGnomonVersions.h"
-#include "plugin/frame/CastingLights.h"
+#include "plugin/frame/TechniqueCache.h"
 #include "plugin/frame/ValueKey.h"
 #include "plugin/ranks/SharedReceivers.h"
 
@@ -10,7 +10,7 @@
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/VisibilityLayers.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameCounts.h"
 #include "shadowtech/tracing/TracedTiles.h"
 
 #include <array>
@@ -58,9 +58,9 @@ struct VisibilityValue
 {
   std::optional<ValueKey> key;       ///< none: there is no value
   int samples = 0;                   ///< of an area light's image while it refines
-  LightReport report;                ///< the light's report from the frame that computed it
+  LightCounts counts;                ///< of the frame that computed it
   std::optional<double> tracedShare; ///< of its tiles, the part that had rays; none: not counted
-  std::vector<std::string> notes;    ///< its notes (FrameReport::notes)
+  std::vector<std::string> notes;    ///< its notes (FrameCounts::notes)
   bool classified = false;
   std::vector<std::uint8_t> classes; ///< of each pixel, if `classified`
   ///@{

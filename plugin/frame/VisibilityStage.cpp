@@ -26,10 +26,10 @@ namespace
 /// @param before in the frame before; 0 where that showed something else
 int samplesOf(const CastingLight& casting, int before, bool severalViews)
 {
-  const ShadowLight& light = casting.light;
-  const bool refines = !severalViews && casting.own->info().has(refinementSettings()) && light.area;
+  const ShadowLight& light = casting.light();
+  const bool refines = !severalViews && casting.info().has(refinementSettings()) && light.area;
   const int named = light.of<RefinementSettings>().movingSamples;
-  const int first = named > 0 ? named : casting.firstSamples;
+  const int first = named > 0 ? named : casting.plan.firstSamples;
   return samplesOfStep(refines ? first : 0, before, light.lightSamples);
 }
 
@@ -82,12 +82,12 @@ VisibilityStage::VisibilityStage(Frame& frame, const Occluders& occluders, Occlu
 /// The key of a light's visibility; its maps follow from the same parts.
 ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
 {
-  const TechniqueInfo& info = casting.own->info();
+  const TechniqueInfo& info = casting.info();
   ValueKey key = *this->frame_.view->receivers.key;
-  key.add("the light", casting.identity);
-  key.add("its technique", std::pair(&casting.own->estimator(), casting.light.fittedToReceivers));
-  key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light));
-  key.add("its layer", std::pair(casting.layer, casting.bit));
+  key.add("the light", casting.plan.identity);
+  key.add("its technique", std::pair(&casting.own->estimator(), casting.light().fittedToReceivers));
+  key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light()));
+  key.add("its layer", std::pair(casting.plan.layer, casting.plan.bit));
   return key;
 }
 
@@ -112,7 +112,7 @@ void VisibilityStage::findStale()
     casting.mayKeepTiles =
       value->key && !changes.empty() && leavesTiles(key.changedParts(*value->key));
     value->samples = changes.empty() ? value->samples : 0;
-    if (changes.empty() && value->report.progress < 1.0)
+    if (changes.empty() && value->counts.progress < 1.0)
     {
       changes = "more of the light's points";
     }
@@ -133,14 +133,12 @@ void VisibilityStage::findStale()
   for (CastingLight& casting : this->frame_.lights)
   {
     const bool isOthers = casting.isStale && changes->empty();
-    this->frame_.tellReuse("visibility of " + nameOf(casting.light),
+    this->frame_.noteReuse("visibility of " + nameOf(casting.light()),
       isOthers ? "another process's part of the scene" : *changes);
     ++changes;
     if (!casting.isStale)
     {
-      LightReport& report = reportOf(this->frame_.report, casting.light);
-      report = value->report;
-      report.sceneIndex = casting.light.sceneIndex;
+      casting.counts = value->counts;
       casting.tracedShare = value->tracedShare;
     }
     else
@@ -185,10 +183,10 @@ void VisibilityStage::judge()
     [&](std::size_t i)
     {
       const CastingLight& casting = this->frame_.lights.begin()[static_cast<std::ptrdiff_t>(i)];
-      if (casting.isStale && isOnCpu(casting) && casting.own->info().exact &&
-        !casting.light.texture && edgeSamplesOf(casting) == 1)
+      if (casting.isStale && casting.isOnCpu() && casting.info().exact &&
+        !casting.light().texture && casting.edgeSamples() == 1)
       {
-        this->verdicts_[i].emplace(casting.light, this->occluders_, *boxes, this->tracer_.get());
+        this->verdicts_[i].emplace(casting.light(), this->occluders_, *boxes, this->tracer_.get());
       }
     });
   this->frame_.endStage("visibility: judge tiles");
@@ -197,12 +195,12 @@ void VisibilityStage::judge()
 //------------------------------------------------------------------------------
 void VisibilityStage::compute(const std::vector<SurfaceName>& names)
 {
-  FrameReport& frameReport = this->frame_.report;
+  FrameCounts& counts = this->frame_.counts;
   ViewValues& view = *this->frame_.view;
   this->verdicts_.clear();
   this->verdicts_.resize(this->frame_.lights.size());
   if (std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
-        [](const CastingLight& casting) { return casting.isStale && isOnCpu(casting); }))
+        [](const CastingLight& casting) { return casting.isStale && casting.isOnCpu(); }))
   {
     this->tracer_.update();
     if (this->frame_.ranks)
@@ -222,20 +220,19 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
   {
     if (casting.isStale)
     {
-      LightReport& report = reportOf(frameReport, casting.light);
       value->classified = this->classifies();
-      this->fill(casting, verdicts->has_value() ? &**verdicts : nullptr, *value, report);
-      const std::vector<PixelClass>& named = casting.own->info().classes;
+      this->fill(casting, verdicts->has_value() ? &**verdicts : nullptr, *value);
+      const std::vector<PixelClass>& named = casting.info().classes;
       if (value->classified && !named.empty())
       {
-        report.classes = countClasses(named, value->classes);
+        casting.counts.classes = countClasses(named, value->classes);
       }
       value->key = this->keyOf(casting);
-      value->report = report;
-      ++frameReport.visibilityComputed;
-      frameReport.raysTraced += report.rays;
+      value->counts = casting.counts;
+      ++counts.visibilityComputed;
+      counts.raysTraced += casting.counts.rays;
     }
-    frameReport.notes.insert(frameReport.notes.end(), value->notes.begin(), value->notes.end());
+    counts.notes.insert(counts.notes.end(), value->notes.begin(), value->notes.end());
     ++value;
     ++verdicts;
   }
@@ -250,7 +247,7 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
   static const std::vector<SurfaceName> none; // other processes' surfaces have other names
   const std::vector<SurfaceName>& kept = this->frame_.ranks ? none : names;
   bool keeps = this->frame_.wishes.keepVisibility &&
-    (frameReport.visibilityComputed > 0 || this->imagesOf_ != &view ||
+    (counts.visibilityComputed > 0 || this->imagesOf_ != &view ||
       this->images_.visibility.empty() || this->imageNames_ != kept);
   if (this->frame_.ranks)
   {
@@ -282,10 +279,10 @@ TracedTiles* VisibilityStage::beginTiles(
 {
   const Occluders& occluders = this->occluders_;
   const ReceiversValue& receivers = this->frame_.view->receivers;
-  const TechniqueInfo& info = casting.own->info();
+  const TechniqueInfo& info = casting.info();
   const bool isDecidedByMap = info.conservativeMap && casting.own->usesMap();
   // Of a single surface nothing stays where it was.
-  if (!info.exact || isDecidedByMap || edgeSamplesOf(casting) > 1 || this->frame_.ranks ||
+  if (!info.exact || isDecidedByMap || casting.edgeSamples() > 1 || this->frame_.ranks ||
     occluders.surfaces.size() < 2)
   {
     value.dropTiles();
@@ -308,23 +305,23 @@ TracedTiles* VisibilityStage::beginTiles(
 /// @param verdicts null: nothing is known of its tiles
 /// @param value whose classes, if they are asked for, and notes are filled
 void VisibilityStage::fill(
-  CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value, LightReport& report)
+  CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value)
 {
   value.notes.clear();
   value.tracedShare.reset();
-  if (!isOnCpu(casting))
+  if (!casting.isOnCpu())
   {
     value.dropTiles();
   }
   std::vector<std::uint8_t>* const classes = value.classified ? &value.classes : nullptr;
-  const ShadowLight& light = casting.light;
+  const ShadowLight& light = casting.light();
   const Occluders& occluders = this->occluders_;
   const ReceiversValue& receivers = this->frame_.view->receivers;
   VisibilityLayers& layers = this->frame_.view->layers;
   if (auto* pointwise = casting.own->as<PointwiseTechnique>())
   {
-    layers.estimate(casting.layer, *pointwise, light, receivers.target, this->frame_.space,
-      this->shaders_, casting.own->info().classes.empty() ? nullptr : classes);
+    layers.estimate(casting.plan.layer, *pointwise, light, receivers.target, this->frame_.space,
+      this->shaders_, casting.info().classes.empty() ? nullptr : classes);
     this->frame_.endStage("visibility: estimate");
   }
   else if (auto* onGpu = casting.own->as<GpuScreenTechnique>())
@@ -336,16 +333,16 @@ void VisibilityStage::fill(
         onGpu->drawVisibility(
           { light, casting.own->fitting(), this->frame_.camera, this->frame_.space, occluders,
             this->buffers_, receivers.target, this->frame_.view->receivers.number,
-            receivers.drawnSurfaces, layers, casting.layer, this->frame_.severalViews,
-            this->shaders_, classes != nullptr, classes, value.notes,
-            this->frame_.report.mapBakes },
-          report);
+            receivers.drawnSurfaces, layers, casting.plan.layer,
+            this->frame_.scene.picture.severalViews, this->shaders_, classes != nullptr, classes,
+            value.notes, this->frame_.counts.mapBakes },
+          casting.counts);
       });
     this->frame_.endStage("visibility: draw");
   }
   else
   {
-    this->trace(casting, verdicts, value, report);
+    this->trace(casting, verdicts, value);
   }
 }
 
@@ -353,32 +350,32 @@ void VisibilityStage::fill(
 /// Fill a light's layers or bit by a technique that traces.
 /// @param verdicts null: nothing is known of its tiles
 void VisibilityStage::trace(
-  CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value, LightReport& report)
+  CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value)
 {
-  const ShadowLight& light = casting.light;
+  const ShadowLight& light = casting.light();
   VisibilityLayers& layers = this->frame_.view->layers;
   std::vector<std::uint8_t>* const classes = value.classified ? &value.classes : nullptr;
   auto& technique = *casting.own->as<CpuScreenTechnique>();
-  const std::size_t edgeSamples = edgeSamplesOf(casting);
+  const std::size_t edgeSamples = casting.edgeSamples();
   std::vector<std::uint8_t> classesForEdges;
   ShadowLight traced = light;
-  traced.lightSamples =
-    samplesOf(casting, value.samples, this->frame_.severalViews || this->frame_.ranks);
+  traced.lightSamples = samplesOf(
+    casting, value.samples, this->frame_.scene.picture.severalViews || this->frame_.ranks);
   value.samples = traced.lightSamples;
-  report.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
+  casting.counts.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
   Receivers& onCpu = this->receivers_.onCpu();
-  const bool hasBit = casting.bit != noBit;
+  const bool hasBit = casting.plan.bit != noBit;
 
   if (verdicts)
   {
-    casting.tracedShare = value.tracedShare = verdicts->tell(light, report);
+    casting.tracedShare = value.tracedShare = verdicts->tell(light, casting.counts);
   }
   casting.own->tellRays(!verdicts || verdicts->needManyRays());
-  const bool isDeferred = this->frame_.route == Route::Deferred;
+  const bool isDeferred = this->frame_.route() == Route::Deferred;
   if (verdicts && hasBit && !isDeferred && verdicts->areAllDark())
   {
     value.dropTiles();
-    this->darkBits_.push_back(casting.bit);
+    this->darkBits_.push_back(casting.plan.bit);
     if (classes)
     {
       verdicts->classifyAllDark(*classes);
@@ -390,21 +387,22 @@ void VisibilityStage::trace(
   std::vector<float>& visibility = tiles && !hasBit ? value.onCpu : this->onCpu_;
   if (tiles && hasBit && casting.mayKeepTiles)
   {
-    layers.readBit(casting.bit, visibility);
+    layers.readBit(casting.plan.bit, visibility);
   }
   const ScreenInput input{ traced, casting.own->fitting(), this->receivers_.surfaces(), onCpu,
     this->tracer_.get(), casting.own->usesMap(),
     classes || edgeSamples == 1 ? classes : &classesForEdges, tiles, verdicts,
-    this->frame_.report.mapBakes };
-  namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });
+    this->frame_.counts.mapBakes };
+  namingLight(light, [&] { technique.computeVisibility(input, visibility, casting.counts); });
   this->frame_.endStage("visibility: trace");
   if (edgeSamples > 1)
   {
     namingLight(
-      light, [&] { this->smoothEdges(technique, input, edgeSamples, visibility, report); });
+      light, [&] { this->smoothEdges(technique, input, edgeSamples, visibility, casting.counts); });
     this->frame_.endStage("visibility: edges");
   }
-  hasBit ? layers.fillBit(casting.bit, visibility) : layers.upload(casting.layer, visibility);
+  hasBit ? layers.fillBit(casting.plan.bit, visibility)
+         : layers.upload(casting.plan.layer, visibility);
   if (isDeferred)
   {
     this->frame_.view->receivers.deferred.keepShadows(visibility);
@@ -414,11 +412,11 @@ void VisibilityStage::trace(
 
 //------------------------------------------------------------------------------
 void VisibilityStage::smoothEdges(CpuScreenTechnique& technique, const ScreenInput& input,
-  std::size_t edgeSamples, std::vector<float>& visibility, LightReport& report)
+  std::size_t edgeSamples, std::vector<float>& visibility, LightCounts& counts)
 {
   const auto smooth = [&](const SharedPicture* several)
   {
-    this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, several, report);
+    this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, several, counts);
   };
   Ranks* const ranks = this->frame_.ranks;
   if (!ranks)

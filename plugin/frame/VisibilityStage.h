@@ -56,14 +56,12 @@ private:
   bool classifies() const;
   void agreeOnStale();
   void smoothEdges(CpuScreenTechnique& technique, const ScreenInput& input, std::size_t edgeSamples,
-    std::vector<float>& visibility, LightReport& report);
+    std::vector<float>& visibility, LightCounts& counts);
   void judge();
   TracedTiles* beginTiles(
     const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value);
-  void fill(CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value,
-    LightReport& report);
-  void trace(CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value,
-    LightReport& report);
+  void fill(CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value);
+  void trace(CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value);
 
   Frame& frame_;
   const Occluders& occluders_;

@@ -2,7 +2,7 @@
 
 #include "lights/SettingsTable.h"
 #include "plugin/pass/Complaints.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
+#include "plugin/plan/FramePlan.h"
 
 #include <vtkCommand.h>
 
@@ -10,27 +10,32 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-void tellOfLights(
-  vtkObject* pass, vtkRenderer* renderer, Complaints& complaints, const FrameReport& report)
+void tellOfPlan(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
+  const FramePlan& plan, RouteWish wished)
 {
-  for (const std::string& misfit : complaints.news(renderer, Topic::Lights, report.misfits))
+  for (const std::string& misfit : complaints.news(renderer, Topic::Lights, plan.misfits))
   {
     tell(pass, vtkCommand::ErrorEvent, misfit + ".");
   }
   const std::string warning = complaints.news(renderer, Topic::Headlight,
-    report.headlightIsAlone
+    plan.headlightIsAlone
       ? "The only light is a headlight, which casts no shadow that could be seen. Add a "
         "light, as vtkGnomonLightPlacement::MakeKeyLight() makes it, or have the "
         "headlight cast by vtkGnomonLightKeys::SetCasts()."
       : "");
   tell(pass, vtkCommand::WarningEvent, warning);
+  complaints.tellError(pass, renderer, Topic::Route,
+    plan.picture.isAsTold ? ""
+                          : std::string("The ") +
+        (wished == RouteWish::Inline ? "inline" : "deferred") + " route was asked for, but " +
+        plan.picture.route.reason + "; this frame takes the image route.");
 }
 
 //------------------------------------------------------------------------------
-void tellWhatIsLeftOut(
-  vtkObject* pass, vtkRenderer* renderer, Complaints& complaints, const FrameReport& report)
+void tellWhatIsLeftOut(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
+  const std::vector<std::string>& leftOut)
 {
-  const std::string kinds = listOf(complaints.news(renderer, Topic::LeftOut, report.leftOut));
+  const std::string kinds = listOf(complaints.news(renderer, Topic::LeftOut, leftOut));
   if (!kinds.empty())
   {
     tell(pass, vtkCommand::WarningEvent,
@@ -40,23 +45,13 @@ void tellWhatIsLeftOut(
 }
 
 //------------------------------------------------------------------------------
-void tellOfRoute(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
-  const FrameReport& report, const std::string& route)
-{
-  complaints.tellError(pass, renderer, Topic::Route,
-    route.empty() ? ""
-                  : "The " + route + " route was asked for, but " + report.routeReason +
-        "; this frame takes the image route.");
-}
-
-//------------------------------------------------------------------------------
 void tellOfResolution(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
-  const FrameReport& report, const std::string& shader)
+  const RouteChoice& route, const std::string& shader)
 {
   complaints.tellError(pass, renderer, Topic::Resolution,
     shader.empty() ? ""
                    : "Props were drawn without shadows: " + shader +
-        " shades at another resolution than the receivers were drawn, and " + report.routeReason +
+        " shades at another resolution than the receivers were drawn, and " + route.reason +
         ". Let such a pass have this one as its delegate instead.");
 }
 

@@ -3,6 +3,7 @@
 #include "lights/vtkGnomonVersions.h"
 
 #include <string>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkObject;
@@ -13,23 +14,22 @@ namespace gnomon
 {
 
 class Complaints;
-struct FrameReport;
+enum class RouteWish;
+struct FramePlan;
+struct RouteChoice;
 
-///@{
-/// Let a pass say what is news in a frame's report: lights whose settings do not fit, a lone
-/// headlight, props that are left out, a route that was asked for and cannot be taken.
-void tellOfLights(
-  vtkObject* pass, vtkRenderer* renderer, Complaints& complaints, const FrameReport& report);
-void tellWhatIsLeftOut(
-  vtkObject* pass, vtkRenderer* renderer, Complaints& complaints, const FrameReport& report);
-/// @param route that was asked for; empty if it is taken
-void tellOfRoute(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
-  const FrameReport& report, const std::string& route);
-///@}
+/// Let a pass say what is news in a frame's plan: lights whose settings do not fit, a lone
+/// headlight, a route that was wished for and cannot be taken.
+void tellOfPlan(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
+  const FramePlan& plan, RouteWish wished);
+
+/// Let a pass say which kinds of visible props are left out of the snapshot.
+void tellWhatIsLeftOut(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
+  const std::vector<std::string>& leftOut);
 
 /// Let a pass say that props were shaded at another resolution than their receivers.
 /// @param shader the class that shades them; empty if all is well
 void tellOfResolution(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
-  const FrameReport& report, const std::string& shader);
+  const RouteChoice& route, const std::string& shader);
 
 } // namespace gnomon

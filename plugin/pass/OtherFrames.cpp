@@ -1,5 +1,6 @@
 #include "plugin/pass/OtherFrames.h"
 
+#include <vtkCommand.h>
 #include <vtkRenderer.h>
 
 #include <utility>

@@ -72,14 +72,15 @@ struct Needs
 class Planner
 {
 public:
-  Planner(const AutoFacts& facts, const FrameWishes& wishes, const AutoHistory& history,
-    const std::vector<Evidence>& evidence)
-    : facts_(facts)
+  Planner(const Scene& scene, const std::vector<LightPlan>& lights, const FrameWishes& wishes,
+    const AutoHistory& history, const std::vector<Evidence>& evidence)
+    : scene_(scene)
+    , lights_(lights)
     , wishes_(wishes)
     , evidence_(evidence)
     , history_(history)
   {
-    for (const AutoLight& light : facts.lights)
+    for (const LightPlan& light : lights)
     {
       if (light.asked)
       {
@@ -94,7 +95,7 @@ private:
   /// A light that leaves its technique to the pass, with this frame's.
   struct Asked
   {
-    const AutoLight& light;
+    const LightPlan& light;
     AutoChoice choice;
   };
 
@@ -103,15 +104,16 @@ private:
   std::string move(const FrameCounters& counters);
   std::string whyNoMaps() const;
   std::string whyRaysAreFast(double byMaps, double byRays) const;
-  std::string tryMap(const AutoLight& light, AutoChoice& choice);
-  void takeSamples(const AutoLight& light, AutoChoice& choice);
+  std::string tryMap(const LightPlan& light, AutoChoice& choice);
+  void takeSamples(const LightPlan& light, AutoChoice& choice);
   const Evidence& evidenceFor(const EvidenceRequest& request);
-  AutoHistory::Light& historyOf(const AutoLight& light)
+  AutoHistory::Light& historyOf(const LightPlan& light)
   {
     return this->history_.lights[light.light.sceneIndex];
   }
 
-  const AutoFacts& facts_;
+  const Scene& scene_;
+  const std::vector<LightPlan>& lights_;
   const FrameWishes& wishes_;
   const std::vector<Evidence>& evidence_;
   std::size_t evidenceUsed_ = 0;
@@ -119,7 +121,7 @@ private:
   std::vector<Asked> asked_;
 };
 
-bool isSoft(const AutoLight& light)
+bool isSoft(const LightPlan& light)
 {
   return light.light.area || light.light.texture;
 }
@@ -132,13 +134,13 @@ AutoPlan Planner::plan()
   if (!this->asked_.empty())
   {
     const FrameCounters counters = this->takeChanges();
-    if (!this->facts_.moves)
+    if (!this->scene_.picture.moves)
     {
       for (Asked& asked : this->asked_)
       {
         // An area light's first frame at rest shows as many samples as the motion.
         asked.choice.firstSamples =
-          this->facts_.mayRefine ? this->historyOf(asked.light).samples : 0;
+          this->scene_.picture.mayRefine ? this->historyOf(asked.light).samples : 0;
       }
       this->rest();
       plan.choice = "the picture rests: exact";
@@ -171,18 +173,19 @@ AutoPlan Planner::plan()
 /// Return the present counts, and note what changed since the last frame.
 FrameCounters Planner::takeChanges()
 {
-  const AutoFacts& facts = this->facts_;
+  const SceneProps& props = this->scene_.props;
+  const ScenePicture& picture = this->scene_.picture;
   AutoHistory& history = this->history_;
   FrameCounters counters;
   // The first frame's casters have not moved.
-  counters.castersMoved = history.casters.first != 0 && facts.casters != history.casters;
-  counters.viewMoved = counters.castersMoved || facts.view != history.view;
-  counters.triangles = facts.triangles;
-  counters.drawn = facts.drawn;
-  counters.pixels = facts.pixels;
+  counters.castersMoved = history.casters.first != 0 && props.casters != history.casters;
+  counters.viewMoved = counters.castersMoved || picture.view != history.view;
+  counters.triangles = props.triangles;
+  counters.drawn = props.drawn;
+  counters.pixels = picture.pixels;
 
   std::map<int, AutoHistory::Light> known;
-  for (const AutoLight& of : facts.lights)
+  for (const LightPlan& of : this->lights_)
   {
     const ShadowLight& light = of.light;
     AutoHistory::Light choice = history.lights[light.sceneIndex];
@@ -212,8 +215,8 @@ FrameCounters Planner::takeChanges()
     known[light.sceneIndex] = choice;
   }
   history.lights = std::move(known); // drops lights that are gone
-  history.view = facts.view;
-  history.casters = facts.casters;
+  history.view = picture.view;
+  history.casters = props.casters;
   return counters;
 }
 
@@ -238,8 +241,8 @@ void Planner::rest()
 std::string Planner::move(const FrameCounters& counters)
 {
   AutoHistory& history = this->history_;
-  const double byMaps = costByMaps(counters, this->facts_.factors);
-  const double byRays = costByRays(counters, this->facts_.factors);
+  const double byMaps = costByMaps(counters, this->scene_.picture.factors);
+  const double byRays = costByRays(counters, this->scene_.picture.factors);
   const double budget = this->wishes_.timeBudget;
   std::string whyRays = this->whyNoMaps();
   const bool mayHaveMaps = whyRays.empty();
@@ -301,7 +304,7 @@ std::string Planner::move(const FrameCounters& counters)
 /// may.
 std::string Planner::whyNoMaps() const
 {
-  const std::vector<AutoLight>& lights = this->facts_.lights;
+  const std::vector<LightPlan>& lights = this->lights_;
   if (this->wishes_.route == RouteWish::Image || this->wishes_.route == RouteWish::Deferred)
   {
     return "the route is asked for";
@@ -314,7 +317,7 @@ std::string Planner::whyNoMaps() const
   {
     return "probes cannot show an error as small as the limit";
   }
-  if (this->facts_.severalViews)
+  if (this->scene_.picture.severalViews)
   {
     return "several views are drawn and must look alike";
   }
@@ -324,11 +327,11 @@ std::string Planner::whyNoMaps() const
       " lights, not " + std::to_string(lights.size());
   }
   if (std::any_of(lights.begin(), lights.end(),
-        [](const AutoLight& light) { return !light.asked && !light.info.isPointwise(); }))
+        [](const LightPlan& light) { return !light.asked && !light.info().isPointwise(); }))
   {
     return "another light's technique works on the whole screen";
   }
-  return this->facts_.unseenReceiver
+  return this->scene_.props.unseenReceiver
     ? "a surface shows shadows but casts none, or shader code moves it, so probes miss it"
     : "";
 }
@@ -356,7 +359,7 @@ std::string Planner::whyRaysAreFast(double byMaps, double byRays) const
 /// Shade a light by a map, the coarsest from the present step on that keeps the error. Before a
 /// motion shows a map, it may be a coarser one, too.
 /// @return why there is none, as a clause; empty on success
-std::string Planner::tryMap(const AutoLight& light, AutoChoice& choice)
+std::string Planner::tryMap(const LightPlan& light, AutoChoice& choice)
 {
   const double limit = this->wishes_.maximumError;
   AutoHistory::Light& known = this->historyOf(light);
@@ -375,7 +378,7 @@ std::string Planner::tryMap(const AutoLight& light, AutoChoice& choice)
   for (;;)
   {
     const int side = asked << known.step;
-    const Composition map = planAsMap(*light.asked, side, this->facts_.compose);
+    const Composition map = planAsMap(*light.asked, side, this->scene_.lights);
     if (!map.estimator)
     {
       return map.refusal;
@@ -432,7 +435,7 @@ std::string Planner::tryMap(const AutoLight& light, AutoChoice& choice)
 //------------------------------------------------------------------------------
 /// Choose the first step of an area light, from the present one on, that keeps the error: hard
 /// shadows of its centre, or its fewest samples.
-void Planner::takeSamples(const AutoLight& light, AutoChoice& choice)
+void Planner::takeSamples(const LightPlan& light, AutoChoice& choice)
 {
   const double limit = this->wishes_.maximumSoftError;
   AutoHistory::Light& known = this->historyOf(light);
@@ -447,7 +450,7 @@ void Planner::takeSamples(const AutoLight& light, AutoChoice& choice)
     const bool isHard = known.step == 0;
     known.samples = std::min(samplesOf(std::max(known.step, 1)), all);
     if (isHard &&
-      (light.light.texture || !planAsCentre(*light.asked, this->facts_.compose).estimator))
+      (light.light.texture || !planAsCentre(*light.asked, this->scene_.lights).estimator))
     {
       continue;
     }
@@ -493,12 +496,12 @@ bool AutoHistory::Request::isLike(const Request& other) const
 }
 
 //------------------------------------------------------------------------------
-AutoPlan planAuto(const AutoFacts& facts, const FrameWishes& wishes, const AutoHistory& history,
-  const std::vector<Evidence>& evidence)
+AutoPlan planAuto(const Scene& scene, const std::vector<LightPlan>& lights,
+  const FrameWishes& wishes, const AutoHistory& history, const std::vector<Evidence>& evidence)
 {
   try
   {
-    return Planner(facts, wishes, history, evidence).plan();
+    return Planner(scene, lights, wishes, history, evidence).plan();
   }
   catch (const Needs& needs)
   {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "plugin/plan/CostModel.h"
 #include "plugin/plan/FrameWishes.h"
 #include "plugin/plan/LightPlans.h"
 #include "plugin/plan/RayIdentity.h"
+#include "plugin/plan/Scene.h"
 #include "plugin/plan/Slowness.h"
 #include "shadowtech/probing/ProbeCounts.h"
 
@@ -17,33 +17,6 @@
 
 namespace gnomon
 {
-
-/// A casting light in the scene's frame, with its resting technique.
-struct AutoLight
-{
-  const ShadowLight& light;
-  const TechniqueInfo& info;
-  RayIdentity identity;
-  const ShadowLight* asked; ///< LightPlan::asked; null for lights that name their technique
-  int mostMapTexels;        ///< LightPlan::mostMapTexels
-};
-
-/// What the choice of techniques depends on, beside wishes and history.
-struct AutoFacts
-{
-  std::vector<AutoLight> lights;
-  bool moves = false;     ///< the frame is one of a moving picture
-  bool mayRefine = false; ///< more frames at rest follow an unfinished one
-  bool severalViews = false;
-  bool unseenReceiver = false;                     ///< a surface receives where no probe finds it
-  std::size_t view = 0;                            ///< of camera and picture size, as a hash
-  std::pair<std::uint64_t, std::uint64_t> casters; ///< their versions
-  std::size_t triangles = 0;                       ///< as FrameCounters has them, like the next
-  std::size_t drawn = 0;
-  std::size_t pixels = 0;
-  CostFactors factors{};
-  const Compose& compose;
-};
 
 /// A probe of a map that may take several frames.
 struct MapProbe
@@ -98,7 +71,7 @@ struct AutoHistory
     Request request;
   };
   std::map<int, Light> lights;
-  std::size_t view = 0;                            ///< AutoFacts::view of the last frame
+  std::size_t view = 0;                            ///< ScenePicture::view of the last frame
   std::pair<std::uint64_t, std::uint64_t> casters; ///< and its casters
   int byRays = 0;                                  ///< frames in a row by rays
   std::string whyRays;                             ///< why, as a clause
@@ -143,9 +116,10 @@ struct AutoPlan
 /// between motions. If no map keeps it, all lights use rays, and maps are tried again after 30
 /// frames at the earliest.
 ///
+/// @param lights that cast, with their resting techniques
 /// @param evidence of this frame, in the order of the plan's needs
-AutoPlan planAuto(const AutoFacts& facts, const FrameWishes& wishes, const AutoHistory& history,
-  const std::vector<Evidence>& evidence);
+AutoPlan planAuto(const Scene& scene, const std::vector<LightPlan>& lights,
+  const FrameWishes& wishes, const AutoHistory& history, const std::vector<Evidence>& evidence);
 
 /// The most sets of pixels that are probed to decide whether the error is kept, by maps and under
 /// area lights: 32 sets of these take as long as one or two frames.

@@ -13,9 +13,9 @@ namespace
 {
 
 /// Return the technique of lights that cannot have theirs.
-const char* fallbackTechnique(const SceneLights& scene, const FrameWishes& wishes)
+const char* fallbackTechnique(const Scene& scene, const FrameWishes& wishes)
 {
-  return scene.drawsMaps && !wishes.isShared ? plainTechnique : "raytraced";
+  return scene.picture.drawsMaps && !wishes.isShared ? plainTechnique : "raytraced";
 }
 
 /// Have a light's rays traced, over several processes.
@@ -38,10 +38,10 @@ void shareRays(ShadowLight& light, std::vector<std::string>& misfits)
 }
 
 /// Complete a plan's light, as it is or with the fallback technique.
-void compose(LightPlan& plan, const SceneLights& scene, const FrameWishes& wishes,
-  std::vector<std::string>& misfits)
+void compose(
+  LightPlan& plan, const Scene& scene, const FrameWishes& wishes, std::vector<std::string>& misfits)
 {
-  Composition composition = scene.compose(plan.light);
+  Composition composition = scene.lights.compose(plan.light);
   if (!composition.estimator)
   {
     const char* const fallback = fallbackTechnique(scene, wishes);
@@ -51,23 +51,24 @@ void compose(LightPlan& plan, const SceneLights& scene, const FrameWishes& wishe
     static_cast<ShadowSettings&>(plan.light) = {};
     plan.light.technique = fallback;
     plan.light.mapSizeTexels = mapSizeTexels;
-    composition = scene.compose(plan.light);
+    composition = scene.lights.compose(plan.light);
   }
   plan.light = std::move(composition.light);
   plan.estimator = composition.estimator;
 }
 
 /// Fit the lights to the memory budget.
-void keepBudget(LightPlans& plans, const SceneLights& scene, const FrameWishes& wishes)
+void keepBudget(LightPlans& plans, const Scene& scene, const FrameWishes& wishes)
 {
   std::vector<LightNeed> needs;
   for (const LightPlan& plan : plans.lights)
   {
-    needs.push_back(needOf(plan.light, plan.estimator->info, scene.seenWorld));
+    needs.push_back(needOf(plan.light, plan.info(), scene.lights.seenWorld));
   }
   const bool mayBeInline = (wishes.route == RouteWish::Auto || wishes.route == RouteWish::Inline) &&
     !wishes.keepVisibility;
-  const MemoryShares memory = shareMemory(needs, wishes.memoryBudget, scene.pixels, mayBeInline);
+  const MemoryShares memory =
+    shareMemory(needs, wishes.memoryBudget, scene.picture.pixels, mayBeInline);
   const auto automatic = std::count_if(plans.lights.begin(), plans.lights.end(),
     [](const LightPlan& plan) { return plan.asked.has_value(); });
 
@@ -110,7 +111,7 @@ void keepBudget(LightPlans& plans, const SceneLights& scene, const FrameWishes& 
 void settle(LightPlan& plan, const SceneLights& scene, std::vector<std::string>& notes)
 {
   ShadowLight& light = plan.light;
-  for (const SettingsTable* table : plan.estimator->info.settings)
+  for (const SettingsTable* table : plan.info().settings)
   {
     for (const Setting& setting : table->settings)
     {
@@ -123,11 +124,66 @@ void settle(LightPlan& plan, const SceneLights& scene, std::vector<std::string>&
       }
     }
   }
-  if (light.texture && !plan.estimator->info.seesTextures)
+  if (light.texture && !plan.info().seesTextures)
   {
     notes.push_back(nameOf(light) + ": '" + light.technique +
       "' shows an even light of its texture's mean colour");
   }
+}
+
+/// Bring the lights into the scene's frame. Those that cannot shine there are skipped.
+void enter(LightPlans& plans, const SceneFrame& frame)
+{
+  const auto isSkipped = [&](LightPlan& plan)
+  {
+    const std::string reason = enterFrame(plan.light, frame);
+    plan.identity = identityOf(plan.light);
+    if (plan.asked)
+    {
+      enterFrame(*plan.asked, frame);
+    }
+    if (!reason.empty())
+    {
+      plans.skipped.push_back({ plan.light.sceneIndex, reason });
+    }
+    return !reason.empty();
+  };
+  plans.lights.erase(
+    std::remove_if(plans.lights.begin(), plans.lights.end(), isSkipped), plans.lights.end());
+}
+
+/// Return why a light's views cannot be fitted to the drawn receivers; empty if they can.
+std::string whyNotReceivers(
+  const LightPlan& plan, const MapTraits& traits, Route route, bool translucent)
+{
+  const ShadowLight& light = plan.light;
+  if (route == Route::Inline)
+  {
+    return "the inline route does not draw the receivers first";
+  }
+  if (!plan.info().isPointwise())
+  {
+    return "the technique works on the screen, so receivers are found after the maps";
+  }
+  if (light.fit == ViewFit::Off)
+  {
+    return "it needs the setting fit=frame";
+  }
+  if (light.projection == Projection::Splits && light.splitBlend > 0.0)
+  {
+    return "blended splits overlap, but each receiver counts for one split";
+  }
+  if (light.fit == ViewFit::Once)
+  {
+    return "a fit made once must also hold later views";
+  }
+  if (translucent)
+  {
+    return "translucent surfaces receive, but the receivers drawn first are opaque";
+  }
+  return traits.reachDependsOnViews
+    ? "the border of a kernel with a width in world units, or of penumbrae, depends on the fit"
+    : "";
 }
 
 } // namespace
@@ -152,19 +208,18 @@ bool isBit(const TechniqueInfo& info, const ShadowLight& light)
 }
 
 //------------------------------------------------------------------------------
-LightPlans planLights(SceneLights scene, const FrameWishes& wishes)
+LightPlans planLights(const Scene& scene, const FrameWishes& wishes)
 {
   LightPlans plans;
-  plans.skipped = std::move(scene.set.skipped);
-  for (ShadowLight& light : scene.set.lights)
+  plans.skipped = scene.lights.set.skipped;
+  plans.misfits = scene.lights.misfits;
+  plans.notes = scene.lights.notes;
+  for (ShadowLight light : scene.lights.set.lights)
   {
     if (wishes.isShared)
     {
       shareRays(light, plans.misfits);
     }
-  }
-  for (ShadowLight& light : scene.set.lights)
-  {
     LightPlan& plan = plans.lights.emplace_back();
     plan.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
     plan.light = std::move(light);
@@ -176,26 +231,56 @@ LightPlans planLights(SceneLights scene, const FrameWishes& wishes)
   }
   for (LightPlan& plan : plans.lights)
   {
-    settle(plan, scene, plans.notes);
+    settle(plan, scene.lights, plans.notes);
+    plan.resting = plan.estimator;
   }
+  enter(plans, scene.props.frame);
   return plans;
 }
 
 //------------------------------------------------------------------------------
-Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const Compose& compose)
+Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const SceneLights& scene)
 {
   ShadowLight light = asked;
   light.technique = plainTechnique;
   light.mapSizeTexels = mapSizeTexels;
-  return compose(std::move(light));
+  return scene.compose(std::move(light));
 }
 
 //------------------------------------------------------------------------------
-Composition planAsCentre(const ShadowLight& asked, const Compose& compose)
+Composition planAsCentre(const ShadowLight& asked, const SceneLights& scene)
 {
   ShadowLight light = asked;
   light.area.reset();
-  return compose(std::move(light));
+  return scene.compose(std::move(light));
+}
+
+//------------------------------------------------------------------------------
+ShadedBy planShading(const LightPlan& plan, Route route, bool translucent)
+{
+  if (plan.info().isPointwise())
+  {
+    return translucent || route == Route::Inline ? ShadedBy::Own : ShadedBy::Fetch;
+  }
+  return translucent ? ShadedBy::Plain : ShadedBy::Fetch;
+}
+
+//------------------------------------------------------------------------------
+void planFit(LightPlan& plan, Route route, bool translucent, const SceneLights& scene)
+{
+  if (!plan.info().bakesMap())
+  {
+    return;
+  }
+  const MapTraits traits = scene.traitsOf(*plan.estimator, plan.light);
+  if (!traits.isFittedToCamera)
+  {
+    plan.fit = FitTarget::Casters;
+    return;
+  }
+  plan.fitReason = whyNotReceivers(plan, traits, route, translucent);
+  plan.fit = plan.fitReason.empty() ? FitTarget::Receivers : FitTarget::Frustum;
+  plan.light.fittedToReceivers = plan.fit == FitTarget::Receivers;
 }
 
 } // namespace gnomon

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "lights/Bounds.h"
-#include "lights/LightManager.h"
 #include "plugin/plan/FrameWishes.h"
-#include "shadowtech/Registry.h"
+#include "plugin/plan/RayIdentity.h"
+#include "plugin/plan/Route.h"
+#include "plugin/plan/Scene.h"
+#include "shadowtech/base/VisibilityLayers.h"
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -15,38 +15,48 @@
 namespace gnomon
 {
 
-/// A light whose settings are completed for an estimator.
-struct Composition
+/// What VTK's shaders call for a light.
+enum class ShadedBy
 {
-  ShadowLight light;
-  const EstimatorEntry* estimator = nullptr; ///< null: refused
-  std::string refusal;                       ///< why, as a clause
-};
-/// Completes a light on this machine. The same light gives the same composition.
-using Compose = std::function<Composition(ShadowLight)>;
-
-/// What is known of a renderer's lights.
-struct SceneLights
-{
-  LightSet set;
-  Compose compose;
-  bool drawsMaps = true;  ///< OpenGL is new enough for techniques on the GPU
-  int mostMapSamples = 1; ///< that OpenGL supports for maps of moments, if any light has several
-  std::size_t pixels = 0; ///< of the renderer
-  Bounds seenWorld;       ///< of its visible props; needed under a memory budget alone
+  Fetch, ///< nothing: they fetch its visibility
+  Own,   ///< its own technique
+  Plain  ///< the plain technique, on translucent surfaces; they fetch what opaque ones show
 };
 
-/// A light's technique in a frame. A light that leaves its technique to the pass has its resting
-/// one here.
+/// What the views of a light's map are fitted to.
+enum class FitTarget
+{
+  None, ///< it has no map
+  Casters,
+  Frustum,  ///< all that the camera can see
+  Receivers ///< all that it does see
+};
+
+/// A light's technique in a frame. At first a light that leaves its technique to the pass has its
+/// resting one.
 struct LightPlan
 {
   ShadowLight light;
   const EstimatorEntry* estimator = nullptr;
+  const EstimatorEntry* resting = nullptr; ///< its estimator while the picture rests
   /// The request of a light that leaves its technique to the pass; none for others.
   std::optional<ShadowLight> asked;
   /// The largest map that a memory budget allows such a light.
   int mostMapTexels = std::numeric_limits<int>::max();
   std::string budgetReason; ///< LightReport::budgetReason
+  RayIdentity identity;     ///< of the light
+  ///@{
+  /// What follows is planned last.
+  int firstSamples = 0; ///< of the first frame of an area light that may refine; 0: all
+  int channels = 1;     ///< of its visibility, a layer each
+  int layer = 0;        ///< its first layer
+  int bit = noBit;      ///< or its bit in the image of bits
+  ShadedBy shadedBy = ShadedBy::Fetch;
+  FitTarget fit = FitTarget::None;
+  std::string fitReason; ///< LightReport::fitReason
+  ///@}
+
+  const TechniqueInfo& info() const { return this->estimator->info; }
 };
 
 struct LightPlans
@@ -64,14 +74,23 @@ std::size_t edgeSamplesOf(const TechniqueInfo& info, const ShadowLight& light);
 /// True if one bit a pixel holds a light's visibility.
 bool isBit(const TechniqueInfo& info, const ShadowLight& light);
 
-/// Plan the techniques of a renderer's lights. Lights with contradicting settings, or with settings
-/// beyond OpenGL's version, take the fallback technique with default settings. Over several
-/// processes all lights take rays, as maps of one process know its own casters alone.
-LightPlans planLights(SceneLights scene, const FrameWishes& wishes);
+/// Plan the techniques of a renderer's lights, and bring the lights into the scene's frame. Lights
+/// with contradicting settings, or with settings beyond OpenGL's version, take the fallback
+/// technique with default settings. Over several processes all lights take rays, as maps of one
+/// process know its own casters alone.
+LightPlans planLights(const Scene& scene, const FrameWishes& wishes);
 
 /// Plan a light that leaves its technique to the pass as another light, for one frame.
 /// @return no estimator if it is refused
-Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const Compose& compose);
-Composition planAsCentre(const ShadowLight& asked, const Compose& compose);
+Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const SceneLights& scene);
+Composition planAsCentre(const ShadowLight& asked, const SceneLights& scene);
+
+/// Return what VTK's shaders call for a light.
+/// @param translucent true if translucent surfaces show shadows
+ShadedBy planShading(const LightPlan& plan, Route route, bool translucent);
+
+/// Plan what a light's views are fitted to: the receivers that are drawn, as they give the tightest
+/// fit, unless there is a reason against it.
+void planFit(LightPlan& plan, Route route, bool translucent, const SceneLights& scene);
 
 } // namespace gnomon

@@ -1,29 +1,27 @@
 #include "plugin/plan/PicturePlan.h"
 
-#include "plugin/plan/LightPlans.h"
-
 namespace gnomon
 {
 namespace
 {
 
 /// Return the reason against the deferred route that the props give, as a clause; empty if none.
-std::string whyPropsNotDeferred(const PictureFacts& facts, const PropFacts& props)
+std::string whyPropsNotDeferred(const DeferredFacts& facts)
 {
-  if (props.ownShaders)
+  if (facts.ownShaders)
   {
     return "a prop may have shaders of its own, which need not light twice";
   }
-  if (props.partsOfBothKinds)
+  if (facts.partsOfBothKinds)
   {
     return "an assembly has parts that passes cannot reach";
   }
-  return facts.whyNoDeferred;
+  return facts.whyUnsupported;
 }
 
 /// Return why translucent surfaces that receive show no shadows, as a clause; empty if they do.
 std::string whyNoTranslucent(
-  std::size_t lights, Route route, const FrameWishes& wishes, const PictureFacts& facts)
+  std::size_t lights, Route route, const FrameWishes& wishes, const ScenePicture& picture)
 {
   if (wishes.isShared)
   {
@@ -34,14 +32,15 @@ std::string whyNoTranslucent(
     return "translucent surfaces show no shadows of " + std::to_string(lights) + " lights; " +
       std::to_string(mostInlineLights) + " are the most";
   }
-  return facts.drawsMaps ? "" : "translucent surfaces show no shadows: their maps take OpenGL 4.3";
+  return picture.drawsMaps ? ""
+                           : "translucent surfaces show no shadows: their maps take OpenGL 4.3";
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
 std::string whyNotDeferred(
-  const std::vector<PictureLight>& lights, const FrameWishes& wishes, const PictureFacts& facts)
+  const std::vector<LightPlan>& lights, const FrameWishes& wishes, const Scene& scene)
 {
   if (wishes.isShared)
   {
@@ -52,56 +51,57 @@ std::string whyNotDeferred(
     return "the picture is drawn without one light's shadows, and " +
       std::to_string(lights.size()) + " lights cast";
   }
-  const PictureLight& only = lights.front();
-  if (!isHard(only.info, only.light))
+  const LightPlan& only = lights.front();
+  if (!isHard(only.info(), only.light))
   {
     return "'" + only.light.technique + "' may leave pixels between light and shadow";
   }
-  if (facts.samples > 1)
+  if (scene.picture.samples > 1)
   {
     return "pixels have several samples";
   }
-  if (!facts.drawnPlainly)
+  if (!scene.picture.drawnPlainly)
   {
     return "a render pass draws the props in its own way";
   }
-  return facts.seenThrough
+  return scene.props.seenThrough
     ? "the receivers lack a prop that is seen through or has a framebuffer of its own"
     : "";
 }
 
 //------------------------------------------------------------------------------
-PicturePlan planPicture(const std::vector<PictureLight>& lights, const FrameWishes& wishes,
-  const PictureFacts& facts, const PropFacts& props)
+PicturePlan planPicture(
+  const std::vector<LightPlan>& lights, const FrameWishes& wishes, const Scene& scene)
 {
+  const ScenePicture& picture = scene.picture;
   RouteNeeds needs;
   needs.keepVisibility = wishes.keepVisibility;
   needs.lights = lights.size();
-  for (const PictureLight& of : lights)
+  for (const LightPlan& of : lights)
   {
-    if (!of.info.isPointwise())
+    if (!of.info().isPointwise())
     {
       needs.screenTechnique = of.light.technique;
     }
-    needs.headlightOnSamples |= of.light.isHeadlight && facts.samples > 1;
-    if (of.info.isSlow && facts.samples <= 1)
+    needs.headlightOnSamples |= of.light.isHeadlight && picture.samples > 1;
+    if (of.info().isSlow && picture.samples <= 1)
     {
       needs.slowTechnique = of.light.technique;
     }
   }
-  needs.whyNotDeferred = whyNotDeferred(lights, wishes, facts);
+  needs.whyNotDeferred = whyNotDeferred(lights, wishes, scene);
   if (needs.whyNotDeferred.empty())
   {
-    needs.whyNotDeferred = whyPropsNotDeferred(facts, props);
+    needs.whyNotDeferred = whyPropsNotDeferred(*scene.deferred);
   }
 
   PicturePlan plan;
   plan.route = chooseRoute(wishes.route, needs);
   plan.isAsTold = (wishes.route != RouteWish::Inline || needs.screenTechnique.empty()) &&
     (wishes.route != RouteWish::Deferred || needs.whyNotDeferred.empty());
-  if (facts.translucent)
+  if (scene.props.translucent)
   {
-    const std::string whyNot = whyNoTranslucent(lights.size(), plan.route.route, wishes, facts);
+    const std::string whyNot = whyNoTranslucent(lights.size(), plan.route.route, wishes, picture);
     plan.shadesTranslucent = whyNot.empty();
     if (!whyNot.empty())
     {
@@ -113,9 +113,9 @@ PicturePlan planPicture(const std::vector<PictureLight>& lights, const FrameWish
         std::string(plainTechnique) + "') of lights with '" + needs.screenTechnique + "'");
     }
   }
-  if (plan.route.route == Route::Image && facts.samples > 1)
+  if (plan.route.route == Route::Image && picture.samples > 1)
   {
-    plan.notes.push_back("The window has " + std::to_string(facts.samples) +
+    plan.notes.push_back("The window has " + std::to_string(picture.samples) +
       " samples per pixel, and the image route one visibility, that of the surface at the pixel's "
       "centre: what covers other samples has that of the nearest surface at a centre around. The "
       "setting edge_samples smooths edges of shadows.");

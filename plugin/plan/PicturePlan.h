@@ -1,39 +1,15 @@
 #pragma once
 
 #include "plugin/plan/FrameWishes.h"
+#include "plugin/plan/LightPlans.h"
 #include "plugin/plan/Route.h"
-#include "shadowtech/base/Technique.h"
+#include "plugin/plan/Scene.h"
 
 #include <string>
 #include <vector>
 
 namespace gnomon
 {
-
-/// A light of the picture, with its technique in this frame.
-struct PictureLight
-{
-  const ShadowLight& light;
-  const TechniqueInfo& info;
-};
-
-/// What is known of the window, its passes and the snapshot.
-struct PictureFacts
-{
-  int samples = 1;           ///< of a pixel
-  bool drawsMaps = true;     ///< OpenGL is new enough for techniques on the GPU
-  bool drawnPlainly = true;  ///< no pass and no mode of the renderer draws props in its own way
-  bool seenThrough = false;  ///< the receivers lack a prop (DrawnProps::seenThrough)
-  bool translucent = false;  ///< translucent surfaces receive
-  std::string whyNoDeferred; ///< why OpenGL cannot draw a deferred picture; empty if it can
-};
-
-/// What a walk over the props tells, if the lights allow the deferred route.
-struct PropFacts
-{
-  bool ownShaders = false;       ///< a prop may have shaders that are not VTK's
-  bool partsOfBothKinds = false; ///< an assembly has parts that passes cannot reach
-};
 
 /// How a frame's visibility reaches its picture.
 struct PicturePlan
@@ -47,10 +23,11 @@ struct PicturePlan
 /// Return the first reason against the deferred route that needs no walk over the props, as a
 /// clause; empty if the props decide.
 std::string whyNotDeferred(
-  const std::vector<PictureLight>& lights, const FrameWishes& wishes, const PictureFacts& facts);
+  const std::vector<LightPlan>& lights, const FrameWishes& wishes, const Scene& scene);
 
-/// @param props read if whyNotDeferred() is empty
-PicturePlan planPicture(const std::vector<PictureLight>& lights, const FrameWishes& wishes,
-  const PictureFacts& facts, const PropFacts& props);
+/// @param lights that cast, with their techniques in this frame
+/// @param scene with DeferredFacts, if whyNotDeferred() is empty
+PicturePlan planPicture(
+  const std::vector<LightPlan>& lights, const FrameWishes& wishes, const Scene& scene);
 
 } // namespace gnomon

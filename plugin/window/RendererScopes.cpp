@@ -12,11 +12,11 @@ namespace
 
 /// Naming the member through a subclass gives access to it. The renderer's own function would tell
 /// all observers that the renderer was modified.
-struct RendererAccess : vtkRenderer
+struct ShadowsAccess : vtkRenderer
 {
   static vtkTypeBool& useShadows(vtkRenderer* renderer)
   {
-    return renderer->*(&RendererAccess::UseShadows);
+    return renderer->*(&ShadowsAccess::UseShadows);
   }
 };
 
@@ -55,7 +55,7 @@ ReducedPicture::~ReducedPicture()
 
 //------------------------------------------------------------------------------
 WithoutVtkShadows::WithoutVtkShadows(vtkRenderer* renderer)
-  : useShadows_(RendererAccess::useShadows(renderer))
+  : useShadows_(ShadowsAccess::useShadows(renderer))
   , before_(this->useShadows_)
 {
   this->useShadows_ = 0;

@@ -6,7 +6,7 @@
 #include "lights/SettingsTable.h"
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Gl.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameCounts.h"
 #include "shadowtech/base/vtkGnomonPixelClass.h"
 
 #include <glm/glm.hpp>
@@ -158,8 +158,8 @@ struct LayerInput
   bool counting; ///< the report needs counts that must be read back from the GPU
   /// If not null, to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;
-  std::vector<std::string>& notes; ///< FrameReport::notes
-  int& mapBakes;                   ///< FrameReport::mapBakes
+  std::vector<std::string>& notes; ///< FrameCounts::notes
+  int& mapBakes;                   ///< FrameCounts::mapBakes
 };
 
 /// The input of a screen technique that computes one light's visibility image on the CPU.
@@ -179,7 +179,7 @@ struct ScreenInput
   TracedTiles* tiles;
   /// What is known of tiles without rays; null: nothing. Only exact techniques need to heed it.
   const TileVerdicts* verdicts;
-  int& mapBakes; ///< FrameReport::mapBakes
+  int& mapBakes; ///< FrameCounts::mapBakes
 };
 
 /// One way to compute visibility, for one light. All kinds of technique share its functions for
@@ -226,7 +226,7 @@ class GpuScreenTechnique : public Technique
 {
 public:
   /// Fill the light's layer, or one layer per channel: in [0, 1] for every pixel.
-  virtual void drawVisibility(const LayerInput&, LightReport&) = 0;
+  virtual void drawVisibility(const LayerInput&, LightCounts&) = 0;
 };
 
 /// Computes the visibility of all pixels' receivers on the CPU, and may trace rays.
@@ -234,7 +234,7 @@ class CpuScreenTechnique : public Technique
 {
 public:
   /// Fill one float in [0, 1] per pixel; of several channels one image after the other.
-  virtual void computeVisibility(const ScreenInput&, std::vector<float>&, LightReport&) = 0;
+  virtual void computeVisibility(const ScreenInput&, std::vector<float>&, LightCounts&) = 0;
 };
 
 /// A technique of any kind, in the order of Evaluation.

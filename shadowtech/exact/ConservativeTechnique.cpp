@@ -40,12 +40,12 @@ std::size_t ConservativeTechnique::bytesOfMaps() const
 
 //------------------------------------------------------------------------------
 void ConservativeTechnique::computeVisibility(
-  const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
+  const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts)
 {
-  report.tracedPixels = static_cast<std::int64_t>(
+  counts.tracedPixels = static_cast<std::int64_t>(
     input.tracer.trace(input.light, input.occluders, input.receivers, visibility,
       input.usesMap ? &this->maps_ : nullptr, input.classes, input.tiles, input.verdicts));
-  report.rays = report.tracedPixels;
+  counts.rays = counts.tracedPixels;
 }
 
 } // namespace gnomon

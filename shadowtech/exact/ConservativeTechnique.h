@@ -25,7 +25,7 @@ public:
   void dropMaps() override;
   std::size_t bytesOfMaps() const override;
   void computeVisibility(
-    const ScreenInput& input, std::vector<float>& visibility, LightReport& report) override;
+    const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts) override;
 
 private:
   RuleOfSettings rule_;

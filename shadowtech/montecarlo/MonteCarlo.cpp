@@ -312,12 +312,12 @@ ChannelView MonteCarlo::viewOf(int channel) const
 }
 
 //------------------------------------------------------------------------------
-void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
+void MonteCarlo::drawVisibility(const LayerInput& input, LightCounts& counts)
 {
   const GlStateGuard guard;
   const ShadowLight& light = input.light;
   const int rays = raysOf(light);
-  report.lightSamples = rays * rays;
+  counts.lightSamples = rays * rays;
   this->allocate(input.receivers.width(), input.receivers.height(), channelsOf(info(), light));
   const bool textured = this->channels_ == 3;
   if (textured)

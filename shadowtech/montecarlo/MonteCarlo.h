@@ -31,7 +31,7 @@ public:
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
 
-  void drawVisibility(const LayerInput& input, LightReport& report) override;
+  void drawVisibility(const LayerInput& input, LightCounts& counts) override;
 
 private:
   void allocate(int width, int height, int channels);

@@ -22,7 +22,7 @@ TechniqueInfo Penumbra::info()
 
 //------------------------------------------------------------------------------
 void Penumbra::computeVisibility(
-  const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
+  const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts)
 {
   // Counting ignores colours of samples, and the tree only holds edges of triangles. Few rays take
   // less time than finding edges.
@@ -30,15 +30,15 @@ void Penumbra::computeVisibility(
   if (!input.light.area || input.light.texture || input.occluders.castsSolids() ||
     input.light.lightSamples <= fewSamples)
   {
-    traceAllReceivers(input, visibility, report);
+    traceAllReceivers(input, visibility, counts);
     return;
   }
   this->tree_.update(input.occluders);
   const PenumbraChooser chooser(this->tree_, input.light, input.occluders.frame.centre);
-  report.lightSamples = input.light.lightSamples;
-  report.rays = static_cast<std::int64_t>(input.tracer.traceArea(input.light, input.occluders,
+  counts.lightSamples = input.light.lightSamples;
+  counts.rays = static_cast<std::int64_t>(input.tracer.traceArea(input.light, input.occluders,
     input.receivers, visibility, nullptr, input.classes, &chooser, input.tiles, input.verdicts));
-  report.tracedPixels = chooser.tracedPixels();
+  counts.tracedPixels = chooser.tracedPixels();
   if (input.classes)
   {
     for (std::size_t i = 0; i < visibility.size(); ++i)

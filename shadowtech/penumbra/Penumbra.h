@@ -14,7 +14,7 @@ class Penumbra : public CpuScreenTechnique
 public:
   static TechniqueInfo info();
   void computeVisibility(
-    const ScreenInput& input, std::vector<float>& visibility, LightReport& report) override;
+    const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts) override;
 
 private:
   EdgeTree tree_;

@@ -134,14 +134,14 @@ TechniqueInfo Planar::info()
 }
 
 //------------------------------------------------------------------------------
-void Planar::drawVisibility(const LayerInput& input, LightReport& report)
+void Planar::drawVisibility(const LayerInput& input, LightCounts& counts)
 {
   const GlStateGuard guard;
   this->planes_.update(
     input.occluders, static_cast<std::size_t>(input.light.of<PlanarSettings>().planes));
   this->centre_ = lightPoint(input.light, input.occluders.frame.centre);
   this->samples_ = lightSamples(input.light, input.occluders.frame.centre);
-  report.lightSamples = static_cast<int>(this->samples_.size());
+  counts.lightSamples = static_cast<int>(this->samples_.size());
   this->allocate(input.receivers.width(), input.receivers.height());
   this->samples_.size() > samplesPerBatch
     ? this->lit_.begin(this->width_, this->height_, "the samples' shadows")
@@ -154,8 +154,8 @@ void Planar::drawVisibility(const LayerInput& input, LightReport& report)
     this->drawShadows(input, batch);
     this->sumUp(input, batch);
   }
-  report.planes = static_cast<int>(this->planes_.planes().size());
-  report.pixelsOffPlanes = input.counting ? this->countPixelsOffPlanes() : 0;
+  counts.planes = static_cast<int>(this->planes_.planes().size());
+  counts.pixelsOffPlanes = input.counting ? this->countPixelsOffPlanes() : 0;
   this->noteWhatIsLeftOut(input);
 }
 

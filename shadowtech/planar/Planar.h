@@ -26,7 +26,7 @@ class Planar : public GpuScreenTechnique
 public:
   static TechniqueInfo info();
 
-  void drawVisibility(const LayerInput& input, LightReport& report) override;
+  void drawVisibility(const LayerInput& input, LightCounts& counts) override;
   std::size_t bytesOfMaps() const override;
 
 private:

@@ -23,9 +23,9 @@ TechniqueInfo Raytraced::info()
 
 //------------------------------------------------------------------------------
 void Raytraced::computeVisibility(
-  const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
+  const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts)
 {
-  traceAllReceivers(input, visibility, report);
+  traceAllReceivers(input, visibility, counts);
 }
 
 } // namespace gnomon

@@ -12,7 +12,7 @@ class Raytraced : public CpuScreenTechnique
 public:
   static TechniqueInfo info();
   void computeVisibility(
-    const ScreenInput& input, std::vector<float>& visibility, LightReport& report) override;
+    const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts) override;
 };
 
 } // namespace gnomon

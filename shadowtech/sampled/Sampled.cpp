@@ -109,7 +109,7 @@ std::size_t Sampled::bytesOfMaps() const
 }
 
 //------------------------------------------------------------------------------
-void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
+void Sampled::drawVisibility(const LayerInput& input, LightCounts& counts)
 {
   const GlStateGuard guard;
   const bool stale = this->beginIfStale(input);
@@ -120,8 +120,8 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
   if (begins || (all == 1 && this->shown_->channels == 1))
   {
     this->showCentre(input);
-    report.lightSamples = 1;
-    report.progress = begins ? 0.0 : 1.0;
+    counts.lightSamples = 1;
+    counts.progress = begins ? 0.0 : 1.0;
     return;
   }
   const auto most = static_cast<std::size_t>(input.light.of<SampledSettings>().batch);
@@ -137,8 +137,8 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
     this->summed_ += count;
   }
   this->showMean(input, shineOf(points.shine, 0, this->summed_));
-  report.lightSamples = static_cast<int>(this->summed_);
-  report.progress = static_cast<double>(this->summed_) / static_cast<double>(all);
+  counts.lightSamples = static_cast<int>(this->summed_);
+  counts.progress = static_cast<double>(this->summed_) / static_cast<double>(all);
 }
 
 //------------------------------------------------------------------------------

@@ -42,7 +42,7 @@ public:
 
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
-  void drawVisibility(const LayerInput& input, LightReport& report) override;
+  void drawVisibility(const LayerInput& input, LightCounts& counts) override;
 
 private:
   /// Points of a light with their colours in 255ths; with one channel the colour is 1.

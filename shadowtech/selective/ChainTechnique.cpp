@@ -71,7 +71,7 @@ bool ChainTechnique::lightLiesInCaster(const ScreenInput& input, bool soft)
 
 //------------------------------------------------------------------------------
 void ChainTechnique::computeVisibility(
-  const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
+  const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts)
 {
   ChainStages stages = this->stagesOf(input.light);
   const bool soft = input.light.area && stages.rimPoints > 0;
@@ -95,9 +95,9 @@ void ChainTechnique::computeVisibility(
     this->rim_.clear();
   }
   const Chain chain(stages, this->maps_, soft ? &this->rim_ : nullptr, this->fans_, input);
-  report.lightSamples = soft ? input.light.lightSamples : 1;
-  report.rays = static_cast<std::int64_t>(chain.run(visibility));
-  report.tracedPixels = report.rays / report.lightSamples;
+  counts.lightSamples = soft ? input.light.lightSamples : 1;
+  counts.rays = static_cast<std::int64_t>(chain.run(visibility));
+  counts.tracedPixels = counts.rays / counts.lightSamples;
 }
 
 } // namespace gnomon

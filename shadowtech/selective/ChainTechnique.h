@@ -28,7 +28,7 @@ public:
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
   void computeVisibility(
-    const ScreenInput& input, std::vector<float>& visibility, LightReport& report) override;
+    const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts) override;
 
 protected:
   virtual ChainStages stagesOf(const ShadowSettings& settings) const = 0;

@@ -163,7 +163,7 @@ EdgePixels findEdgePixels(const ShownSurfaces& surfaces, const std::vector<float
 //------------------------------------------------------------------------------
 void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input,
   const std::vector<std::uint8_t>& classes, std::size_t perPixel, std::vector<float>& visibility,
-  const SharedPicture* several, LightReport& report)
+  const SharedPicture* several, LightCounts& counts)
 {
   const Drawn drawn = several ? several->drawn : input.receivers.drawn();
   const ReceiverImages& images = drawn.images;
@@ -191,12 +191,12 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
         this->dropHidden(images, input.tracer, several, some, count);
       }
       Receivers samples(this->receivers_);
-      LightReport ofSamples;
+      LightCounts ofSamples;
       technique.computeVisibility(
         { input.light, input.fitting, input.occluders, samples, input.tracer, input.usesMap,
           &this->classes_, noTiles, noVerdicts, input.mapBakes },
         this->visibility_, ofSamples);
-      report.rays += ofSamples.rays;
+      counts.rays += ofSamples.rays;
       for (std::size_t i = 0; i < some.size(); ++i)
       {
         take(some[i], this->mean(i, count, visibility[some[i]]));

@@ -55,10 +55,10 @@ public:
   /// @param perPixel 4, 16 or 64
   /// @param visibility of the pixels
   /// @param several null if this process draws the picture alone
-  /// @param report the traced rays are added to it
+  /// @param counts the traced rays are added to it
   void smooth(CpuScreenTechnique& technique, const ScreenInput& input,
     const std::vector<std::uint8_t>& classes, std::size_t perPixel, std::vector<float>& visibility,
-    const SharedPicture* several, LightReport& report);
+    const SharedPicture* several, LightCounts& counts);
 
   /// Return the bytes cached for the next picture.
   std::size_t bytes() const

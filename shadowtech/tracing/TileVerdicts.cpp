@@ -2,7 +2,7 @@
 
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ShadowRay.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameCounts.h"
 #include "shadowtech/tracing/TracedPicture.h"
 #include "shadowtech/tracing/TracedTiles.h"
 #include "shadowtech/tracing/UmbraProof.h"
@@ -362,7 +362,7 @@ void TileVerdicts::classifyAllDark(std::vector<std::uint8_t>& classes) const
 }
 
 //------------------------------------------------------------------------------
-double TileVerdicts::tell(const ShadowLight& light, LightReport& report) const
+double TileVerdicts::tell(const ShadowLight& light, LightCounts& counts) const
 {
   std::vector<std::uint8_t> traced(this->darkTiles_.size(), 0);
   bool hides = false;
@@ -375,19 +375,19 @@ double TileVerdicts::tell(const ShadowLight& light, LightReport& report) const
     hides |= shows && this->cells_[i] == Certainty::Shadow;
     reaches |= shows && this->cells_[i] != Certainty::Unreached;
   }
-  report.tilesDark =
+  counts.tilesDark =
     static_cast<int>(std::count(this->darkTiles_.begin(), this->darkTiles_.end(), std::uint8_t(1)));
-  report.tilesTraced = static_cast<int>(std::count(traced.begin(), traced.end(), std::uint8_t(1)));
-  report.tilesLit =
-    static_cast<int>(this->darkTiles_.size()) - report.tilesDark - report.tilesTraced;
-  report.skipReason = report.tilesTraced > 0 ? ""
-    : hides && report.tilesLit == 0          ? "casters hide it from all that is visible"
+  counts.tilesTraced = static_cast<int>(std::count(traced.begin(), traced.end(), std::uint8_t(1)));
+  counts.tilesLit =
+    static_cast<int>(this->darkTiles_.size()) - counts.tilesDark - counts.tilesTraced;
+  counts.skipReason = counts.tilesTraced > 0 ? ""
+    : hides && counts.tilesLit == 0          ? "casters hide it from all that is visible"
     : hides   ? "casters hide it from some visible parts, and none is before the others"
     : reaches ? "no caster is between it and what is visible"
     : light.kind == LightKind::Spot ? "its cone reaches nothing visible"
     : light.box                     ? "its box reaches nothing visible"
                                     : "nothing is visible";
-  return static_cast<double>(report.tilesTraced) /
+  return static_cast<double>(counts.tilesTraced) /
     static_cast<double>(std::max<std::size_t>(this->darkTiles_.size(), 1));
 }
 

@@ -14,7 +14,7 @@
 namespace gnomon
 {
 
-struct LightReport;
+struct LightCounts;
 struct Occluders;
 
 /// A light's visibility in whole parts of the picture, as far as it is known without rays:
@@ -54,7 +54,7 @@ public:
 
   /// Report the counts of tiles, and the reason if no ray was needed.
   /// @return the share of tiles that have rays
-  double tell(const ShadowLight& light, LightReport& report) const;
+  double tell(const ShadowLight& light, LightCounts& counts) const;
 
 private:
   Certainty ofPixel(std::size_t column, std::size_t row) const

@@ -7,17 +7,17 @@ namespace gnomon
 
 //------------------------------------------------------------------------------
 void traceAllReceivers(
-  const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
+  const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts)
 {
   const bool soft = input.light.area.has_value();
-  report.lightSamples = soft ? input.light.lightSamples : 1;
+  counts.lightSamples = soft ? input.light.lightSamples : 1;
   const std::size_t rays = soft
     ? input.tracer.traceArea(input.light, input.occluders, input.receivers, visibility, nullptr,
         input.classes, nullptr, input.tiles, input.verdicts)
     : input.tracer.trace(input.light, input.occluders, input.receivers, visibility, nullptr,
         input.classes, input.tiles, input.verdicts);
-  report.rays = static_cast<std::int64_t>(rays);
-  report.tracedPixels = report.rays / report.lightSamples;
+  counts.rays = static_cast<std::int64_t>(rays);
+  counts.tracedPixels = counts.rays / counts.lightSamples;
 }
 
 } // namespace gnomon

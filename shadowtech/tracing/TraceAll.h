@@ -9,6 +9,6 @@ namespace gnomon
 
 /// Trace every receiver's shadow rays: one, or one per sample of an area light.
 void traceAllReceivers(
-  const ScreenInput& input, std::vector<float>& visibility, LightReport& report);
+  const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts);
 
 } // namespace gnomon

@@ -25,10 +25,15 @@ protected:
     this->rays_.info.evaluation = Evaluation::ScreenCpu;
     this->light.mapSizeTexels = 1024;
     this->light.lightSamples = 64;
-    this->facts.moves = true;
-    this->facts.casters = { 1, 1 };
-    this->facts.pixels = 1024 * 1024;
-    this->facts.factors = defaultFactors(true);
+    this->scene.lights.compose = [this](ShadowLight asked)
+    {
+      const bool isMap = asked.technique == plainTechnique;
+      return Composition{ asked, isMap ? &this->map_ : &this->rays_, {} };
+    };
+    this->picture.moves = true;
+    this->scene.props.casters = { 1, 1 };
+    this->picture.pixels = 1024 * 1024;
+    this->picture.factors = defaultFactors(true);
   }
 
   void addArea(double radius)
@@ -40,11 +45,14 @@ protected:
   /// Plan a frame in which the camera moves. The history goes on with it once it is complete.
   AutoPlan plan(const std::vector<Evidence>& evidence = {})
   {
-    this->facts.lights.clear();
-    this->facts.lights.push_back({ this->light, this->rays_.info, identityOf(this->light),
-      &this->light, this->mostMapTexels });
-    ++this->facts.view;
-    AutoPlan planned = planAuto(this->facts, this->wishes, this->history, evidence);
+    LightPlan resting;
+    resting.light = this->light;
+    resting.estimator = &this->rays_;
+    resting.identity = identityOf(this->light);
+    resting.asked = this->light;
+    resting.mostMapTexels = this->mostMapTexels;
+    ++this->picture.view;
+    AutoPlan planned = planAuto(this->scene, { resting }, this->wishes, this->history, evidence);
     if (!planned.needs)
     {
       this->history = planned.history;
@@ -75,19 +83,14 @@ protected:
 
   ShadowLight light;
   int mostMapTexels = 16384;
+  Scene scene;
+  ScenePicture& picture = this->scene.picture;
   FrameWishes wishes;
   AutoHistory history;
   std::vector<EvidenceRequest> asked;
 
 private:
   EstimatorEntry map_, rays_;
-  Compose compose_ = [this](ShadowLight asked)
-  {
-    return Composition{ asked, asked.technique == plainTechnique ? &this->map_ : &this->rays_, {} };
-  };
-
-protected:
-  AutoFacts facts{ {}, false, false, false, false, 0, {}, 0, 0, 0, {}, this->compose_ };
 };
 
 } // namespace
@@ -95,7 +98,7 @@ protected:
 //------------------------------------------------------------------------------
 TEST_F(AutoPlans, restingPicturesAreExact)
 {
-  this->facts.moves = false;
+  this->picture.moves = false;
   const AutoPlan planned = this->plan();
   ASSERT_FALSE(planned.needs);
   EXPECT_EQ(planned.choices.at(0).way, Way::Resting);
@@ -171,12 +174,12 @@ TEST_F(AutoPlans, probesGoOnInTheNextFrameWhileAMapIsShown)
 TEST_F(AutoPlans, factsThatForbidMapsAreNamed)
 {
   const auto reason = [this] { return this->plan().choice; };
-  this->facts.severalViews = true;
+  this->picture.severalViews = true;
   EXPECT_THAT(reason(), HasSubstr("several views"));
-  this->facts.severalViews = false;
-  this->facts.unseenReceiver = true;
+  this->picture.severalViews = false;
+  this->scene.props.unseenReceiver = true;
   EXPECT_THAT(reason(), HasSubstr("probes miss it"));
-  this->facts.unseenReceiver = false;
+  this->scene.props.unseenReceiver = false;
   this->wishes.keepVisibility = true;
   EXPECT_THAT(reason(), HasSubstr("is kept"));
   this->wishes.keepVisibility = false;
@@ -206,8 +209,8 @@ TEST_F(AutoPlans, areaLightsTakeTheFewestSamplesThatKeepTheError)
   EXPECT_EQ(samples, (std::vector{ 0, 4, 6, 8 }));
   EXPECT_EQ(planned.choices.at(0).lightSamples, 8);
 
-  this->facts.moves = false;
-  this->facts.mayRefine = true;
+  this->picture.moves = false;
+  this->picture.mayRefine = true;
   EXPECT_EQ(this->plan().choices.at(0).firstSamples, 8);
 }
 
@@ -241,9 +244,9 @@ TEST_F(AutoPlans, raysThatAreNearlyAsFastReplaceMaps)
   this->history.lights[0].tracedShare = 0.0;
   this->plan(); // notes the request
   this->history.lights[0].tracedShare = 0.0;
-  this->facts.factors.tracePixel = 0.0;
-  this->facts.factors.receiverPixel = 0.0;
-  this->facts.factors.fetchPixel = 0.0;
+  this->picture.factors.tracePixel = 0.0;
+  this->picture.factors.receiverPixel = 0.0;
+  this->picture.factors.fetchPixel = 0.0;
   const AutoPlan planned = this->plan();
   ASSERT_FALSE(planned.needs);
   EXPECT_THAT(planned.choice, HasSubstr("nearly as little time"));

@@ -1,13 +1,14 @@
 // What a frame does, as tables of facts and plans. Nothing here links VTK's rendering or OpenGL.
 
 #include "lights/ViewSettings.h"
-#include "plugin/plan/LightPlans.h"
-#include "plugin/plan/PicturePlan.h"
+#include "plugin/plan/FramePlan.h"
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace gnomon
@@ -60,6 +61,14 @@ const EstimatorEntry& layers()
   return entry;
 }
 
+LightPlan planOf(const EstimatorEntry& entry)
+{
+  LightPlan plan;
+  plan.light.technique = "a technique";
+  plan.estimator = &entry;
+  return plan;
+}
+
 /// Completes lights of three techniques, and refuses the others.
 Composition composeOne(ShadowLight light)
 {
@@ -77,18 +86,21 @@ Composition composeOne(ShadowLight light)
   return composition;
 }
 
-SceneLights sceneOf(const std::vector<std::string>& techniques)
+Scene sceneOf(const std::vector<std::string>& techniques)
 {
-  SceneLights scene;
-  scene.compose = composeOne;
-  scene.pixels = 1024 * 1024;
+  Scene scene;
+  scene.lights.compose = composeOne;
+  scene.lights.traitsOf = [](const EstimatorEntry&, const ShadowLight& light) {
+    return MapTraits{ light.fit != ViewFit::Off, false };
+  };
+  scene.picture.pixels = 1024 * 1024;
   for (const std::string& technique : techniques)
   {
     ShadowLight light;
     light.technique = technique;
     light.mapSizeTexels = 1024;
-    light.sceneIndex = static_cast<int>(scene.set.lights.size());
-    scene.set.lights.push_back(light);
+    light.sceneIndex = static_cast<int>(scene.lights.set.lights.size());
+    scene.lights.set.lights.push_back(light);
   }
   return scene;
 }
@@ -109,7 +121,7 @@ struct LightCase
 {
   const char* name;
   std::vector<std::string> techniques;
-  std::function<void(SceneLights&, FrameWishes&)> change;
+  std::function<void(Scene&, FrameWishes&)> change;
   std::vector<std::string> planned;
   const char* said; ///< part of a misfit, a note, a reason; empty: nothing is said
 };
@@ -119,14 +131,14 @@ struct LightCase
 //------------------------------------------------------------------------------
 TEST(Plan, givesLightsTheirTechniques)
 {
-  const auto nothing = [](SceneLights&, FrameWishes&) {};
-  const auto shared = [](SceneLights&, FrameWishes& wishes) { wishes.isShared = true; };
-  const auto oldGl = [](SceneLights& scene, FrameWishes&) { scene.drawsMaps = false; };
+  const auto nothing = [](Scene&, FrameWishes&) {};
+  const auto shared = [](Scene&, FrameWishes& wishes) { wishes.isShared = true; };
+  const auto oldGl = [](Scene& scene, FrameWishes&) { scene.picture.drawsMaps = false; };
   const auto budget = [](double bytes)
-  { return [bytes](SceneLights&, FrameWishes& wishes) { wishes.memoryBudget = bytes; }; };
+  { return [bytes](Scene&, FrameWishes& wishes) { wishes.memoryBudget = bytes; }; };
   const auto keepsImages = [](double bytes)
   {
-    return [bytes](SceneLights&, FrameWishes& wishes)
+    return [bytes](Scene&, FrameWishes& wishes)
     {
       wishes.memoryBudget = bytes;
       wishes.keepVisibility = true;
@@ -147,7 +159,7 @@ TEST(Plan, givesLightsTheirTechniques)
   for (const LightCase& of : cases)
   {
     SCOPED_TRACE(of.name);
-    SceneLights scene = sceneOf(of.techniques);
+    Scene scene = sceneOf(of.techniques);
     FrameWishes wishes;
     of.change(scene, wishes);
     const LightPlans plans = planLights(scene, wishes);
@@ -180,8 +192,8 @@ TEST(Plan, givesLightsTheirTechniques)
 //------------------------------------------------------------------------------
 TEST(Plan, tracesLightsWithoutRoomForAMap)
 {
-  SceneLights scene = sceneOf({ "nsm", "nsm" });
-  scene.set.lights[1].intensity = 2.0;
+  Scene scene = sceneOf({ "nsm", "nsm" });
+  scene.lights.set.lights[1].intensity = 2.0;
   FrameWishes wishes;
   wishes.memoryBudget = 4.1 * mebibyte + 8.0 * 1024 * 1024; // a map, and the image of bits
   const LightPlans plans = planLights(scene, wishes);
@@ -198,7 +210,7 @@ struct PictureCase
 {
   const char* name;
   std::vector<const EstimatorEntry*> lights;
-  std::function<void(FrameWishes&, PictureFacts&, PropFacts&)> change;
+  std::function<void(FrameWishes&, ScenePicture&, Scene&)> change;
   Route route;
   const char* reason; ///< part of it
   bool isAsTold = true;
@@ -210,37 +222,37 @@ struct PictureCase
 TEST(Plan, choosesTheRoute)
 {
   using W = FrameWishes;
-  using F = PictureFacts;
-  using P = PropFacts;
-  const auto nothing = [](W&, F&, P&) {};
+  using P = ScenePicture;
+  using S = Scene;
+  const auto nothing = [](W&, P&, S&) {};
   const auto wishing = [](RouteWish route)
-  { return [route](W& wishes, F&, P&) { wishes.route = route; }; };
+  { return [route](W& wishes, P&, S&) { wishes.route = route; }; };
   const std::vector<const EstimatorEntry*> nine(9, &compare());
   const std::vector<PictureCase> cases = {
     { "pointwise", { &compare() }, nothing, Route::Inline, "functions of the point" },
     { "no light", {}, nothing, Route::Inline, "" },
     { "slow", { &slow() }, nothing, Route::Image, "takes longer per point" },
-    { "slow on samples", { &slow() }, [](W&, F& facts, P&) { facts.samples = 4; }, Route::Inline,
-      "functions of the point" },
+    { "slow on samples", { &slow() }, [](W&, P& picture, S&) { picture.samples = 4; },
+      Route::Inline, "functions of the point" },
     { "nine lights", nine, nothing, Route::Image, "at most 8 lights" },
-    { "kept", { &compare() }, [](W& wishes, F&, P&) { wishes.keepVisibility = true; }, Route::Image,
+    { "kept", { &compare() }, [](W& wishes, P&, S&) { wishes.keepVisibility = true; }, Route::Image,
       "is kept" },
     { "rays", { &rays() }, nothing, Route::Deferred, "hard and of one light" },
     { "two lights", { &rays(), &rays() }, nothing, Route::Image, "works on the whole screen" },
     { "on the GPU", { &layers() }, nothing, Route::Image, "works on the whole screen" },
-    { "samples", { &rays() }, [](W&, F& facts, P&) { facts.samples = 4; }, Route::Image,
+    { "samples", { &rays() }, [](W&, P& picture, S&) { picture.samples = 4; }, Route::Image,
       "works on the whole screen" },
-    { "processes", { &rays() }, [](W& wishes, F&, P&) { wishes.isShared = true; }, Route::Image,
+    { "processes", { &rays() }, [](W& wishes, P&, S&) { wishes.isShared = true; }, Route::Image,
       "works on the whole screen" },
-    { "a pass", { &rays() }, [](W&, F& facts, P&) { facts.drawnPlainly = false; }, Route::Image,
+    { "a pass", { &rays() }, [](W&, P& picture, S&) { picture.drawnPlainly = false; }, Route::Image,
       "works on the whole screen" },
-    { "seen through", { &rays() }, [](W&, F& facts, P&) { facts.seenThrough = true; }, Route::Image,
-      "works on the whole screen" },
-    { "own shaders", { &rays() }, [](W&, F&, P& props) { props.ownShaders = true; }, Route::Image,
-      "works on the whole screen" },
-    { "parts", { &rays() }, [](W&, F&, P& props) { props.partsOfBothKinds = true; }, Route::Image,
-      "works on the whole screen" },
-    { "unsupported", { &rays() }, [](W&, F& facts, P&) { facts.whyNoDeferred = "no"; },
+    { "seen through", { &rays() }, [](W&, P&, S& scene) { scene.props.seenThrough = true; },
+      Route::Image, "works on the whole screen" },
+    { "own shaders", { &rays() }, [](W&, P&, S& scene) { scene.deferred->ownShaders = true; },
+      Route::Image, "works on the whole screen" },
+    { "parts", { &rays() }, [](W&, P&, S& scene) { scene.deferred->partsOfBothKinds = true; },
+      Route::Image, "works on the whole screen" },
+    { "unsupported", { &rays() }, [](W&, P&, S& scene) { scene.deferred->whyUnsupported = "no"; },
       Route::Image, "works on the whole screen" },
     { "image asked", { &compare() }, wishing(RouteWish::Image), Route::Image, "asked for" },
     { "inline asked", { &rays() }, wishing(RouteWish::Inline), Route::Image,
@@ -252,18 +264,16 @@ TEST(Plan, choosesTheRoute)
   for (const PictureCase& of : cases)
   {
     SCOPED_TRACE(of.name);
-    ShadowLight light;
-    light.technique = "a technique";
-    std::vector<PictureLight> lights;
+    std::vector<LightPlan> lights;
     for (const EstimatorEntry* entry : of.lights)
     {
-      lights.push_back({ light, entry->info });
+      lights.push_back(planOf(*entry));
     }
     FrameWishes wishes;
-    PictureFacts facts;
-    PropFacts props;
-    of.change(wishes, facts, props);
-    const PicturePlan plan = planPicture(lights, wishes, facts, props);
+    Scene scene;
+    scene.deferred = DeferredFacts{};
+    of.change(wishes, scene.picture, scene);
+    const PicturePlan plan = planPicture(lights, wishes, scene);
     EXPECT_EQ(plan.route.route, of.route);
     EXPECT_THAT(plan.route.reason, HasSubstr(of.reason));
     EXPECT_EQ(plan.isAsTold, of.isAsTold);
@@ -273,38 +283,222 @@ TEST(Plan, choosesTheRoute)
 //------------------------------------------------------------------------------
 TEST(Plan, notesSamplesOnTheImageRouteAlone)
 {
-  ShadowLight light;
-  light.technique = "a technique";
   FrameWishes wishes;
-  PictureFacts facts;
-  facts.samples = 4;
-  EXPECT_THAT(planPicture({ { light, compare().info } }, wishes, facts, {}).notes, IsEmpty());
-  EXPECT_THAT(planPicture({ { light, rays().info } }, wishes, facts, {}).notes,
+  Scene scene;
+  scene.deferred = DeferredFacts{};
+  scene.picture.samples = 4;
+  EXPECT_THAT(planPicture({ planOf(compare()) }, wishes, scene).notes, IsEmpty());
+  EXPECT_THAT(planPicture({ planOf(rays()) }, wishes, scene).notes,
     Contains(HasSubstr("4 samples per pixel")));
-  facts.samples = 1;
-  EXPECT_THAT(planPicture({ { light, layers().info } }, wishes, facts, {}).notes, IsEmpty());
+  scene.picture.samples = 1;
+  EXPECT_THAT(planPicture({ planOf(layers()) }, wishes, scene).notes, IsEmpty());
 }
 
 //------------------------------------------------------------------------------
 TEST(Plan, letsTranslucentSurfacesReceive)
 {
-  ShadowLight light;
-  light.technique = "raytraced";
-  const std::vector<PictureLight> one = { { light, rays().info } };
-  const std::vector<PictureLight> nine(9, one.front());
+  const std::vector<LightPlan> one = { planOf(rays()) };
+  const std::vector<LightPlan> nine(9, one.front());
   FrameWishes wishes;
-  PictureFacts facts;
-  EXPECT_FALSE(planPicture(one, wishes, facts, {}).shadesTranslucent) << "none receives";
-  facts.translucent = true;
-  EXPECT_TRUE(planPicture(one, wishes, facts, {}).shadesTranslucent);
-  EXPECT_THAT(planPicture(one, wishes, facts, {}).notes, Contains(HasSubstr("plain shadow map")));
-  EXPECT_FALSE(planPicture(nine, wishes, facts, {}).shadesTranslucent);
-  EXPECT_THAT(planPicture(nine, wishes, facts, {}).notes, Contains(HasSubstr("8 are the most")));
-  facts.drawsMaps = false;
-  EXPECT_FALSE(planPicture(one, wishes, facts, {}).shadesTranslucent);
-  facts.drawsMaps = true;
+  Scene scene;
+  scene.deferred = DeferredFacts{};
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesTranslucent) << "none receives";
+  scene.props.translucent = true;
+  EXPECT_TRUE(planPicture(one, wishes, scene).shadesTranslucent);
+  EXPECT_THAT(planPicture(one, wishes, scene).notes, Contains(HasSubstr("plain shadow map")));
+  EXPECT_FALSE(planPicture(nine, wishes, scene).shadesTranslucent);
+  EXPECT_THAT(planPicture(nine, wishes, scene).notes, Contains(HasSubstr("8 are the most")));
+  scene.picture.drawsMaps = false;
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesTranslucent);
+  scene.picture.drawsMaps = true;
   wishes.isShared = true;
-  EXPECT_FALSE(planPicture(one, wishes, facts, {}).shadesTranslucent);
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesTranslucent);
+}
+
+namespace
+{
+
+struct FitCase
+{
+  const char* name;
+  std::function<void(ShadowLight&, MapTraits&)> change;
+  Route route;
+  FitTarget target;
+  const char* reason; ///< part of it
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST(Plan, fitsViews)
+{
+  using L = ShadowLight;
+  using T = MapTraits;
+  const auto nothing = [](L&, T&) {};
+  const std::vector<FitCase> cases = {
+    { "fitted", nothing, Route::Image, FitTarget::Receivers, "" },
+    { "inline", nothing, Route::Inline, FitTarget::Frustum, "does not draw the receivers" },
+    { "unfitted", [](L&, T& traits) { traits.isFittedToCamera = false; }, Route::Image,
+      FitTarget::Casters, "" },
+    { "off", [](L& light, T&) { light.fit = ViewFit::Off; }, Route::Image, FitTarget::Frustum,
+      "fit=frame" },
+    { "once", [](L& light, T&) { light.fit = ViewFit::Once; }, Route::Image, FitTarget::Frustum,
+      "later views" },
+    { "blended",
+      [](L& light, T&)
+      {
+        light.projection = Projection::Splits;
+        light.splitBlend = 0.1;
+      },
+      Route::Image, FitTarget::Frustum, "overlap" },
+    { "reach", [](L&, T& traits) { traits.reachDependsOnViews = true; }, Route::Image,
+      FitTarget::Frustum, "depends on the fit" },
+  };
+  for (const FitCase& of : cases)
+  {
+    SCOPED_TRACE(of.name);
+    LightPlan plan = planOf(compare());
+    plan.light.fit = ViewFit::Frame;
+    MapTraits traits{ true, false };
+    of.change(plan.light, traits);
+    SceneLights scene;
+    scene.traitsOf = [&](const EstimatorEntry&, const ShadowLight&) { return traits; };
+    planFit(plan, of.route, false, scene);
+    EXPECT_EQ(plan.fit, of.target);
+    EXPECT_THAT(plan.fitReason, HasSubstr(of.reason));
+    EXPECT_EQ(plan.light.fittedToReceivers, of.target == FitTarget::Receivers);
+  }
+  LightPlan mapless = planOf(rays());
+  planFit(mapless, Route::Image, false, {});
+  EXPECT_EQ(mapless.fit, FitTarget::None);
+  LightPlan fitted = planOf(compare());
+  SceneLights scene;
+  scene.traitsOf = [](const EstimatorEntry&, const ShadowLight&) {
+    return MapTraits{ true, false };
+  };
+  fitted.light.fit = ViewFit::Frame;
+  planFit(fitted, Route::Image, true, scene);
+  EXPECT_THAT(fitted.fitReason, HasSubstr("translucent"));
+}
+
+//------------------------------------------------------------------------------
+TEST(Plan, shadesLights)
+{
+  const std::vector<std::tuple<const EstimatorEntry*, Route, bool, ShadedBy>> cases = {
+    { &compare(), Route::Inline, false, ShadedBy::Own },
+    { &compare(), Route::Inline, true, ShadedBy::Own },
+    { &compare(), Route::Image, false, ShadedBy::Fetch },
+    { &compare(), Route::Image, true, ShadedBy::Own },
+    { &rays(), Route::Image, false, ShadedBy::Fetch },
+    { &rays(), Route::Image, true, ShadedBy::Plain },
+    { &rays(), Route::Deferred, true, ShadedBy::Plain },
+  };
+  for (const auto& [entry, route, translucent, by] : cases)
+  {
+    EXPECT_EQ(planShading(planOf(*entry), route, translucent), by)
+      << entry->info.name << " " << nameOf(route) << " " << translucent;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(FramePlans, askForTheWalkOverPropsOnlyIfItDecides)
+{
+  Scene scene = sceneOf({ "nsm" });
+  EXPECT_FALSE(planFrame(scene, {}, {}, {}).needsDeferredFacts);
+  scene = sceneOf({ "raytraced" });
+  EXPECT_TRUE(planFrame(scene, {}, {}, {}).needsDeferredFacts);
+  scene.deferred = DeferredFacts{};
+  const FramePlan plan = planFrame(scene, {}, {}, {});
+  EXPECT_FALSE(plan.needsDeferredFacts);
+  EXPECT_EQ(plan.picture.route.route, Route::Deferred);
+}
+
+//------------------------------------------------------------------------------
+TEST(FramePlans, placeVisibility)
+{
+  Scene scene = sceneOf({ "nsm", "raytraced", "sampled", "raytraced" });
+  const FramePlan plan = planFrame(scene, {}, {}, {});
+  EXPECT_EQ(plan.layers, 2);
+  EXPECT_EQ(plan.bits, 2);
+  EXPECT_EQ(plan.lights.at(0).layer, 0);
+  EXPECT_EQ(plan.lights.at(1).bit, 0);
+  EXPECT_EQ(plan.lights.at(2).layer, 1);
+  EXPECT_EQ(plan.lights.at(2).bit, noBit);
+  EXPECT_EQ(plan.lights.at(3).bit, 1);
+  const FramePlan many = planFrame(sceneOf(std::vector<std::string>(70, "raytraced")), {}, {}, {});
+  EXPECT_EQ(many.bits, 64);
+  EXPECT_EQ(many.layers, 6);
+}
+
+//------------------------------------------------------------------------------
+TEST(FramePlans, haveNoShadowsWithoutLights)
+{
+  FrameWishes wishes;
+  EXPECT_FALSE(planFrame(sceneOf({}), wishes, {}, {}).hasShadows);
+  EXPECT_TRUE(planFrame(sceneOf({ "nsm" }), wishes, {}, {}).hasShadows);
+  wishes.keepVisibility = true;
+  EXPECT_TRUE(planFrame(sceneOf({}), wishes, {}, {}).hasShadows) << "receivers are kept";
+}
+
+//------------------------------------------------------------------------------
+TEST(FramePlans, bringLightsIntoTheScenesFrame)
+{
+  Scene scene = sceneOf({ "nsm", "nsm" });
+  for (ShadowLight& light : scene.lights.set.lights)
+  {
+    light.kind = LightKind::Point;
+  }
+  scene.lights.set.lights[0].positionWorld = { 5.0, 0.0, 0.0 };
+  scene.lights.set.lights[1].positionWorld = { std::ldexp(1.0, 1020), 0.0, 0.0 };
+  scene.props.frame.exponent = 30;
+  const FramePlan plan = planFrame(scene, {}, {}, {});
+  ASSERT_FALSE(plan.lights.empty());
+  EXPECT_EQ(plan.lights[0].light.positionWorld.x, std::ldexp(5.0, -30));
+  EXPECT_EQ(plan.lights[0].identity, identityOf(plan.lights[0].light));
+  EXPECT_EQ(plan.lights.size() + plan.skipped.size(), 2u);
+}
+
+//------------------------------------------------------------------------------
+TEST(FramePlans, ofMotionTakeWhatIsChosen)
+{
+  Scene scene = sceneOf({ "auto", "nsm" });
+  scene.picture.moves = true;
+  scene.picture.factors = defaultFactors(true);
+  scene.picture.view = 1; // another one than before
+  scene.props.casters = { 1, 1 };
+  FrameWishes wishes;
+  FramePlan plan = planFrame(scene, wishes, {}, {});
+  ASSERT_TRUE(plan.needs);
+  EXPECT_EQ(plan.lights.at(0).estimator, &rays()) << "the resting technique meanwhile";
+  Evidence evidence;
+  evidence.probe = { { 30000, 0 }, 8 };
+  evidence.isClear = true;
+  plan = planFrame(scene, wishes, {}, { evidence });
+  ASSERT_FALSE(plan.needs);
+  EXPECT_TRUE(plan.moves);
+  EXPECT_TRUE(plan.isApproximate);
+  EXPECT_EQ(plan.lights.at(0).estimator, &compare());
+  EXPECT_EQ(plan.lights.at(0).resting, &rays());
+  EXPECT_EQ(plan.lights.at(0).light.mapSizeTexels, 1024);
+  EXPECT_EQ(plan.picture.route.route, Route::Inline);
+  EXPECT_EQ(plan.history.lights.size(), 2u);
+
+  wishes.isShared = true;
+  plan = planFrame(scene, wishes, {}, {});
+  EXPECT_FALSE(plan.needs);
+  EXPECT_FALSE(plan.moves) << "several processes draw all frames alike";
+  EXPECT_FALSE(plan.isApproximate);
+  EXPECT_TRUE(plan.choice.empty());
+}
+
+//------------------------------------------------------------------------------
+TEST(FramePlans, writeNumbersUntilReceiversRest)
+{
+  EXPECT_TRUE(writesNumbers({ 2, false, 100000, 1 })) << "they do not rest long enough";
+  EXPECT_FALSE(writesNumbers({ 3, false, 100000, 1 }));
+  EXPECT_FALSE(writesNumbers({ 3, false, 1000, 1 }));
+  EXPECT_TRUE(writesNumbers({ 3, false, 999, 1 })) << "rebuilt shaders cost more";
+  EXPECT_TRUE(writesNumbers({ 3, true, 100000, 1 })) << "another view may need them";
 }
 
 } // namespace gnomon

@@ -1,4 +1,4 @@
-#include "plugin/frame/ReportText.h"
+#include "plugin/pass/ReportText.h"
 
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 

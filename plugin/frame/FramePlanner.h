@@ -14,37 +14,35 @@
 namespace gnomon
 {
 
-/// Carries out the plan for lights that leave their technique to the pass (planAuto()), between the
-/// stages of lights and route: gathers the evidence that it needs, and keeps its history.
-class TechniqueChoice
+/// Plans a renderer's frames (planFrame()): gathers the evidence that a plan needs, and keeps the
+/// history that it leaves.
+class FramePlanner
 {
 public:
   /// Bakes a light's map if it is stale.
-  using Bake =
-    std::function<void(const CastingLight&, const ShadowLight& map, LightTechnique& technique)>;
+  using Bake = std::function<void(const ShadowLight& map, LightTechnique& technique)>;
+  /// Returns what takes a walk over the props.
+  using ReadDeferredFacts = std::function<DeferredFacts()>;
 
   /// @param occluders the snapshot, which must outlive this
-  TechniqueChoice(
+  FramePlanner(
     Frame& frame, const Occluders& occluders, SnapshotTracer& tracer, ShaderLibrary& shaders);
 
-  /// Choose for this frame.
-  void choose(const Bake& bake);
+  /// Plan this frame, and take the lights of its plan.
+  void plan(const Bake& bake, const ReadDeferredFacts& readDeferredFacts);
 
-  /// Record how much of the picture had rays and, with a time budget, the time of the frame, which
-  /// OpenGL must have finished.
+  /// Remember how much of the picture had rays and, with a time budget, the time of the frame,
+  /// which OpenGL must have finished.
   /// @param isUsual false if it compiled or built what later frames reuse
-  void endFrame(double milliseconds, bool isUsual);
+  void remember(double milliseconds, bool isUsual);
 
   std::size_t bytes() const { return this->probes_.bytes(); }
 
 private:
-  AutoFacts facts() const;
-  Evidence gather(const EvidenceRequest& request, const Bake& bake);
+  Evidence gather(const EvidenceRequest& request, const LightPlan& resting, const Bake& bake);
   void probe(const PointwiseTechnique& technique, const ShadowLight& map,
     const EvidenceRequest& request, Evidence& evidence);
   bool keepsError(const ShadowLight& other, const ShadowLight& light, double limit);
-  void apply(const AutoChoice& choice);
-  CastingLight& castingOf(int sceneIndex);
   void look();
 
   Frame& frame_;

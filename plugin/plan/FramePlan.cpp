@@ -1,0 +1,118 @@
+#include "plugin/plan/FramePlan.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Give a light the technique that was chosen for it.
+void take(LightPlan& plan, const AutoChoice& choice, const SceneLights& scene)
+{
+  if (choice.way == AutoChoice::Way::Resting)
+  {
+    plan.firstSamples = choice.firstSamples;
+    plan.light.lightSamples =
+      choice.lightSamples > 0 ? choice.lightSamples : plan.light.lightSamples;
+    return;
+  }
+  Composition other = choice.way == AutoChoice::Way::Map
+    ? planAsMap(*plan.asked, choice.mapSizeTexels, scene)
+    : planAsCentre(*plan.asked, scene);
+  plan.light = std::move(other.light);
+  plan.estimator = other.estimator;
+  plan.identity = identityOf(plan.light);
+}
+
+/// Choose for lights that leave their technique to the pass. Over several processes all have rays.
+void chooseTechniques(FramePlan& plan, const Scene& scene, const FrameWishes& wishes,
+  const std::vector<Evidence>& evidence)
+{
+  const auto isAsked = [](const LightPlan& light) { return light.asked.has_value(); };
+  if (wishes.isShared || std::none_of(plan.lights.begin(), plan.lights.end(), isAsked))
+  {
+    return;
+  }
+  AutoPlan chosen = planAuto(scene, plan.lights, wishes, plan.history, evidence);
+  plan.needs = chosen.needs;
+  if (plan.needs)
+  {
+    return;
+  }
+  plan.history = std::move(chosen.history);
+  plan.choice = std::move(chosen.choice);
+  plan.isApproximate = plan.moves;
+  for (const AutoChoice& choice : chosen.choices)
+  {
+    take(*std::find_if(plan.lights.begin(), plan.lights.end(),
+           [&](const LightPlan& light) { return light.light.sceneIndex == choice.sceneIndex; }),
+      choice, scene.lights);
+  }
+}
+
+/// Assign layers, and bits to lights with hard shadows.
+void placeVisibility(FramePlan& plan)
+{
+  for (LightPlan& light : plan.lights)
+  {
+    light.channels = channelsOf(light.info(), light.light);
+    if (isBit(light.info(), light.light) && plan.bits < VisibilityLayers::mostBits)
+    {
+      light.bit = plan.bits++;
+    }
+    else
+    {
+      light.layer = plan.layers;
+      plan.layers += light.channels;
+    }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history,
+  const std::vector<Evidence>& evidence)
+{
+  FramePlan plan;
+  LightPlans lights = planLights(scene, wishes);
+  plan.lights = std::move(lights.lights);
+  plan.skipped = std::move(lights.skipped);
+  plan.misfits = std::move(lights.misfits);
+  plan.notes = std::move(lights.notes);
+  plan.headlightIsAlone = scene.lights.set.headlightIsAlone;
+  plan.moves = scene.picture.moves && !wishes.isShared;
+  plan.history = history;
+
+  chooseTechniques(plan, scene, wishes, evidence);
+  plan.needsDeferredFacts =
+    !plan.needs && !scene.deferred && whyNotDeferred(plan.lights, wishes, scene).empty();
+  if (plan.needs || plan.needsDeferredFacts)
+  {
+    return plan;
+  }
+  plan.hasShadows = !plan.lights.empty() || wishes.keepVisibility;
+  plan.picture = planPicture(plan.lights, wishes, scene);
+  plan.notes.insert(plan.notes.end(), plan.picture.notes.begin(), plan.picture.notes.end());
+  for (LightPlan& light : plan.lights)
+  {
+    const PicturePlan& picture = plan.picture;
+    light.shadedBy = planShading(light, picture.route.route, picture.shadesTranslucent);
+    planFit(light, picture.route.route, picture.shadesTranslucent, scene.lights);
+  }
+  placeVisibility(plan);
+  return plan;
+}
+
+//------------------------------------------------------------------------------
+bool writesNumbers(const NumberingFacts& facts)
+{
+  constexpr int patience = 3; // frames
+  constexpr std::size_t leastTriangles = 1000;
+  return facts.restingFrames < patience || facts.severalViews ||
+    facts.triangles < leastTriangles * facts.surfaces;
+}
+
+} // namespace gnomon

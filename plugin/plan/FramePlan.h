@@ -1,0 +1,62 @@
+#pragma once
+
+#include "plugin/plan/AutoPlan.h"
+#include "plugin/plan/FrameWishes.h"
+#include "plugin/plan/LightPlans.h"
+#include "plugin/plan/PicturePlan.h"
+#include "plugin/plan/Scene.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon
+{
+
+/// All that is decided of a frame before anything is drawn.
+struct FramePlan
+{
+  std::vector<LightPlan> lights; ///< that cast, in the scene's order
+  int layers = 0;                ///< of their visibility
+  int bits = 0;
+  std::vector<SkippedLight> skipped;
+  std::vector<std::string> misfits; ///< FrameReport::misfits
+  std::vector<std::string> notes;   ///< FrameReport::notes
+  bool headlightIsAlone = false;    ///< FrameReport::headlightIsAlone
+  std::string choice;               ///< FrameReport::choice
+  bool hasShadows = true;           ///< false: nothing casts, and no visibility is kept
+  PicturePlan picture;              ///< if it has shadows
+  bool moves = false;               ///< true if the frame is one of a moving picture
+  bool isApproximate = false;       ///< true if a picture at rest may differ from it
+  AutoHistory history;              ///< for the next frame
+
+  ///@{
+  /// If either is set, the plan is not complete: it is to be made again with this evidence, or with
+  /// Scene::deferred. While it needs evidence, its lights have their resting techniques.
+  std::optional<EvidenceRequest> needs;
+  bool needsDeferredFacts = false;
+  ///@}
+};
+
+/// Plan a frame.
+/// @param history that the last frame left
+/// @param evidence of this frame, in the order in which plans needed it
+FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history,
+  const std::vector<Evidence>& evidence);
+
+/// What decides whether triangle numbers are drawn, on the deferred route.
+struct NumberingFacts
+{
+  int restingFrames = 0; ///< in a row that kept their receivers
+  bool severalViews = false;
+  std::size_t triangles = 0;
+  std::size_t surfaces = 0;
+};
+/// True if shaders write triangle numbers, whether or not this frame takes them. On llvmpipe they
+/// cost 25 ns a triangle or more, even where no image takes them. Switching them off makes VTK
+/// rebuild shaders, which costs some 0.2 ms a surface. So it waits until receivers rest, and for
+/// scenes where eight frames pay for it.
+bool writesNumbers(const NumberingFacts& facts);
+
+} // namespace gnomon
