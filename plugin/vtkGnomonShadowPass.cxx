@@ -567,7 +567,7 @@ bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* vtkNotUsed(mapper),
   vtkProp* vtkNotUsed(prop))
 {
-  this->Internal->programs->shaders.markShader(vertexShader, geometryShader, fragmentShader);
+  gnomon::HookGlsl::mark(vertexShader, geometryShader, fragmentShader);
   return true;
 }
 

@@ -1,0 +1,435 @@
+#include "plugin/frame/HookGlsl.h"
+
+#include "plugin/frame/TriangleNumbers.h"
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include <vtkShaderProgram.h>
+
+#include <algorithm>
+#include <regex>
+#include <tuple>
+
+namespace gnomon
+{
+
+const std::map<std::string, std::string>& hookShaders(); // generated from plugin/*.glsl
+
+namespace
+{
+
+const std::string declarationMarker = "//GNOMON::Light::Dec";
+const std::string uniformFlowMarker = "//GNOMON::UniformFlow::Impl";
+const std::string beginMarker = "//GNOMON::Light::Begin";
+const std::string endMarker = "//GNOMON::Light::End";
+
+void replace(std::string& source, const std::string& search, const std::string& text)
+{
+  vtkShaderProgram::Substitute(source, search, text, false);
+}
+
+/// Return the expression of one light's visibility. On the image route, translucent surfaces
+/// compute it, as they are in no layer. The deferred route first draws opaque ones as lit.
+std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
+{
+  // A visibility of one channel scales the mean colour of the light's texture.
+  const std::string even = shaded.light.texture ? litOf(shaded, light) + " * " : "";
+  const auto layer = [&](int channel)
+  { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
+  const std::string fetched = route == Route::Deferred ? litOf(shaded, light)
+    : shaded.bit != noBit  ? "gnomonBit(" + std::to_string(shaded.bit) + ")"
+    : shaded.channels == 3 ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
+                           : even + layer(0);
+  const std::string computed =
+    even + "visibility_" + std::to_string(light) + "(gnomonPosition, gnomonNormal)";
+  if (route == Route::Inline)
+  {
+    return computed;
+  }
+  return shaded.pointwise ? "(gnomonTranslucent == 0 ? " + fetched + " : " + computed + ")"
+                          : fetched;
+}
+
+/// Return the declaration that multiplies a light's colour by its visibility on props that receive.
+std::string multiplicationOf(const ShadedLight& shaded, int light, const std::string& visibility)
+{
+  const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
+  const std::string lit = litOf(shaded, light);
+  return "  vec3 " + colour + " = " + colour + " * (gnomonReceives == 0 ? " + lit + " : mix(" +
+    lit + ", " + visibility + ", gnomonStrength" + std::to_string(light) + "));\n";
+}
+
+/// Return the declaration of a light's colour where receivers are in its shadow. Black as a
+/// constant saves the shader most of its second lighting.
+std::string darkeningOf(const ShadedLight& shaded, int light)
+{
+  return shaded.light.strength < 1.0
+    ? multiplicationOf(shaded, light, "0.0")
+    : "  vec3 lightColor" + std::to_string(shaded.light.shaderIndex) + " = vec3(0.0);\n";
+}
+
+/// Return statements before VTK's lighting for shaders that draw a solid on a sprite. They replace
+/// the sprite's values by the solid's. Empty for triangles.
+std::string moveToSolid(const std::string& fragmentShader, const std::string& uniformFlow)
+{
+  const auto has = [&](const char* text) { return fragmentShader.find(text) != std::string::npos; };
+  const bool isImpostor = has("centerVCVSOutput");
+  const bool isSizedInPixels = has("ZCalcR"); // points and lines
+  std::string moves;
+  if (!isImpostor && !isSizedInPixels)
+  {
+    return moves;
+  }
+  if (uniformFlow.find("gnomonNormal") != std::string::npos)
+  {
+    moves += "  gnomonNormal = normalize(gnomonNormalInView(normalVCVSOutput));\n";
+    // vertexVC of points and lines is at their middle. ZCalcR is the radius at depth 1.
+    moves += isImpostor
+      ? "  gnomonPoint = gnomonInView(vertexVC.xyz);\n"
+      : "  gnomonPoint = gnomonInView(vertexVC.xyz + normalize(normalVCVSOutput) * ZCalcR *\n"
+        "    (cameraParallel == 1 ? 1.0 : -vertexVC.z));\n";
+  }
+  if (isSizedInPixels && uniformFlow.find("gnomonAtCentroid") != std::string::npos)
+  {
+    moves += "  gnomonAtCentroid = gnomonPoint;\n";
+  }
+  if (uniformFlow.find("gnomonDepth") != std::string::npos)
+  {
+    moves += "  gnomonDepth = gl_FragDepth;\n  gnomonDepthPerPixel = vec2(0.0);\n";
+  }
+  return moves;
+}
+
+/// Return the expression of the normal of the curve that corner normals imply; the triangle's where
+/// a shader interpolates none. VTK's own normal may have bumps of a texture or of drawn edges.
+/// @param declarations gets the function that it calls
+std::string curveNormal(const std::string& fragmentShader, std::string& declarations)
+{
+  if (fragmentShader.find("in vec3 normalVCVSOutput;") == std::string::npos)
+  {
+    return "gnomonTranslucent == 1 ? gnomonNormalInView(normalVCVSOutput) : gnomonNormal";
+  }
+  // VTK's main hides this input by a variable of the same name.
+  declarations += "vec3 gnomonInterpolatedNormal()\n{\n"
+                  "  return (gl_FrontFacing ? 1.0 : -1.0) *\n"
+                  "    normalize(gnomonNormalInView(normalVCVSOutput));\n}\n";
+  return "gnomonInterpolatedNormal()";
+}
+
+/// Mark the end of a user's whole fragment shader, which lacks VTK's marks. Its main becomes a
+/// function, so that it may return early.
+void markEndOfMain(std::string& fragmentShader)
+{
+  static const std::regex head(R"(\bvoid\s+main\s*\(\s*(void)?\s*\))");
+  fragmentShader = std::regex_replace(
+    fragmentShader, head, "void gnomonMain()", std::regex_constants::format_first_only);
+  fragmentShader +=
+    "\n" + declarationMarker + "\nvoid main()\n{\n  gnomonMain();\n  " + endMarker + "\n}\n";
+}
+
+/// Above this many layers, a loop is used. For fewer, Mesa makes a branch of each element of the
+/// loop's array, which compiles longer than separate fetches. First frames by fetches and by the
+/// loop, in s: with 14 lights 1.9 and 2.9, with 16 2.4 and 1.2, with 20 3.9 and 1.7 (llvmpipe,
+/// `stack` under spots).
+constexpr int mostFetchesOneByOne = 15;
+
+} // namespace
+
+//------------------------------------------------------------------------------
+int layersOf(const std::vector<ShadedLight>& lights)
+{
+  int layers = 0;
+  for (const ShadedLight& shaded : lights)
+  {
+    layers = shaded.bit != noBit ? layers : std::max(layers, shaded.layer + shaded.channels);
+  }
+  return layers;
+}
+
+//------------------------------------------------------------------------------
+bool haveBits(const std::vector<ShadedLight>& lights)
+{
+  return std::any_of(
+    lights.begin(), lights.end(), [](const ShadedLight& shaded) { return shaded.bit != noBit; });
+}
+
+//------------------------------------------------------------------------------
+std::string litOf(const ShadedLight& shaded, int light)
+{
+  return shaded.light.texture ? "gnomonLit" + std::to_string(light) : "1.0";
+}
+
+//------------------------------------------------------------------------------
+HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& lights)
+  : variant_(variant)
+  , hasLights_(!lights.empty())
+  , declarations_(std::string("#define VTK_VIEW_IS_RIGID ") +
+      (variant.vtkViewIsRigid ? "1\n" : "0\n") + hookShaders().at("plugin/frame/hook.glsl"))
+{
+  const bool asksAtPoints = std::any_of(lights.begin(), lights.end(),
+    [](const ShadedLight& shaded) { return shaded.pointwise != nullptr; });
+  if (asksAtPoints || variant.receiverPoints)
+  {
+    this->uniformFlow_ = "vec3 gnomonPoint = gnomonInView(vertexVC.xyz);\n"
+                         "vec3 gnomonNormal = gnomonFaceNormal(gnomonPoint);\n";
+  }
+  if (variant.route != Route::Inline)
+  {
+    this->declarations_ += hookShaders().at("plugin/frame/hook_receiver.glsl");
+  }
+  if (variant.route == Route::Image)
+  {
+    this->addImages(lights);
+  }
+  if (asksAtPoints)
+  {
+    std::string position = "gnomonPoint";
+    if (variant.multisampled)
+    {
+      this->declarations_ += hookShaders().at("plugin/frame/hook_multisample.glsl");
+      this->uniformFlow_ +=
+        "vec3 gnomonAtCentroid = gnomonInView(interpolateAtCentroid(vertexVCVSOutput).xyz);\n";
+      position = "gnomonCentroid(gnomonAtCentroid, gnomonPoint, gnomonNormal)";
+      // for interpolateAtCentroid
+      this->extensions_ = "#extension GL_ARB_gpu_shader5 : require\n";
+    }
+    // Maps hold no translucent surface, unless it was asked to cast. So it hides no light from
+    // itself, and faces the light where VTK's own normal does.
+    this->multiplications_ += "  vec3 gnomonPosition = " + position +
+      ";\n  gnomonNormal = gnomonTranslucent == 1 ? gnomonCurve : gnomonNormal;\n"
+      "  curvedView = vec4(gnomonCurve, gnomonFacetHeight);\n";
+  }
+  this->addLights(lights);
+}
+
+//------------------------------------------------------------------------------
+/// Add how shaders find a pixel's visibility in images.
+void HookGlsl::addImages(const std::vector<ShadedLight>& lights)
+{
+  this->declarations_ += hookShaders().at("plugin/frame/hook_image.glsl");
+  if (this->variant_.multisampled)
+  {
+    this->declarations_ += hookShaders().at("plugin/frame/hook_pixel_multisample.glsl");
+    this->uniformFlow_ +=
+      "float gnomonDepth = gl_FragCoord.z;\n"
+      "vec2 gnomonDepthPerPixel = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));\n";
+    this->multiplications_ = "  gnomonFindPixel(gnomonDepth, gnomonDepthPerPixel);\n";
+  }
+  else
+  {
+    this->declarations_ += hookShaders().at("plugin/frame/hook_pixel.glsl");
+  }
+  const int layers = layersOf(lights);
+  if (layers > mostFetchesOneByOne)
+  {
+    this->declarations_ += "const int gnomonMostLayers = " + std::to_string(layers) + ";\n" +
+      hookShaders().at("plugin/frame/hook_layers.glsl");
+    this->multiplications_ += "  gnomonFetchLayers();\n";
+  }
+  else
+  {
+    this->declarations_ += hookShaders().at("plugin/frame/hook_layer.glsl");
+  }
+  if (haveBits(lights))
+  {
+    this->declarations_ += hookShaders().at("plugin/frame/hook_bits.glsl");
+    this->multiplications_ += "  gnomonFetchBits();\n";
+  }
+}
+
+//------------------------------------------------------------------------------
+void HookGlsl::addLights(const std::vector<ShadedLight>& lights)
+{
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    const ShadedLight& shaded = lights[i];
+    const int number = static_cast<int>(i);
+    if (shaded.pointwise)
+    {
+      this->declarations_ +=
+        numberedForLight(shaded.pointwise->visibilityGlsl(shaded.light), number);
+    }
+    this->declarations_ += "uniform float gnomonStrength" + std::to_string(i) + ";\n";
+    if (shaded.light.texture)
+    {
+      this->declarations_ += "uniform vec3 " + litOf(shaded, number) + ";\n";
+    }
+    this->multiplications_ +=
+      multiplicationOf(shaded, number, visibilityOf(this->variant_.route, shaded, number));
+    if (this->variant_.route == Route::Deferred)
+    {
+      this->darkenings_ += darkeningOf(shaded, number);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool HookGlsl::operator==(const HookGlsl& other) const
+{
+  const auto parts = [](const HookGlsl& of)
+  {
+    return std::tie(of.variant_.route, of.variant_.receiverPoints, of.variant_.namesTriangles,
+      of.variant_.anySeenThrough, of.declarations_, of.multiplications_, of.darkenings_);
+  };
+  return parts(*this) == parts(other);
+}
+
+//------------------------------------------------------------------------------
+std::map<std::string, std::vector<std::string>> HookGlsl::samplers() const
+{
+  static const std::regex declaration("uniform ([iu]?sampler\\w+) (\\w+);");
+  const std::string& source = this->declarations_;
+  std::map<std::string, std::vector<std::string>> samplers;
+  for (std::sregex_iterator found(source.begin(), source.end(), declaration), end; found != end;
+       ++found)
+  {
+    samplers[(*found)[1]].push_back((*found)[2]);
+  }
+  return samplers;
+}
+
+//------------------------------------------------------------------------------
+bool passInstance(std::string& vertexShader, std::string& geometryShader)
+{
+  const std::string declaration = "//VTK::Glyph::Dec";
+  const std::string body = "//VTK::Glyph::Impl";
+  if (vertexShader.find(body) == std::string::npos)
+  {
+    return false;
+  }
+  replace(vertexShader, declaration, "flat out int gnomonInstanceVSOutput;\n" + declaration);
+  replace(vertexShader, body, "gnomonInstanceVSOutput = gl_InstanceID;\n  " + body);
+  // With a geometry shader, VTK makes the fragment shader read its outputs instead.
+  replace(geometryShader, "//VTK::PrimID::Dec",
+    "flat in int gnomonInstanceVSOutput[];\nflat out int gnomonInstanceGSOutput;\n"
+    "//VTK::PrimID::Dec");
+  replace(geometryShader, "//VTK::PrimID::Impl",
+    "gnomonInstanceGSOutput = gnomonInstanceVSOutput[i];\n    //VTK::PrimID::Impl");
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void HookGlsl::mark(
+  std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader)
+{
+  const std::string light = "//VTK::Light::Impl";
+  if (fragmentShader.find(light) == std::string::npos)
+  {
+    markEndOfMain(fragmentShader);
+    return;
+  }
+  if (passInstance(vertexShader, geometryShader))
+  {
+    replace(fragmentShader, "//VTK::PrimID::Dec",
+      "flat in int gnomonInstanceVSOutput;\n//VTK::PrimID::Dec");
+  }
+  replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + declarationMarker);
+  replace(
+    fragmentShader, "//VTK::UniformFlow::Impl", uniformFlowMarker + "\n  //VTK::UniformFlow::Impl");
+  // VTK lights, then multiplies by textures. A user's own shaders may lack the texture mark.
+  const std::string texture = "//VTK::TCoord::Impl";
+  const std::string& last = fragmentShader.find(texture) != std::string::npos ? texture : light;
+  replace(fragmentShader, last, last + "\n  " + endMarker);
+  replace(fragmentShader, light, beginMarker + "\n  " + light);
+}
+
+//------------------------------------------------------------------------------
+void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader,
+  std::string& fragmentShader, bool drawsReceivers, int corners) const
+{
+  const auto has = [&](const std::string& text)
+  { return fragmentShader.find(text) != std::string::npos; };
+  // Unlit surfaces have no view coordinates and no lights to shadow. They only hide other surfaces.
+  // If no light casts, only receivers are needed, which need neither.
+  const bool receives = has(beginMarker) && (!this->hasLights_ || has("vec4 vertexVC"));
+  std::string declarations;
+  std::string uniformFlow;
+  std::string begin;
+  std::string end;
+  if (receives)
+  {
+    declarations = this->declarations_;
+    uniformFlow = this->uniformFlow_;
+    begin = moveToSolid(fragmentShader, uniformFlow);
+    if (this->multiplications_.find("gnomonCurve") != std::string::npos)
+    {
+      begin += "  vec3 gnomonCurve = " + curveNormal(fragmentShader, declarations) + ";\n";
+    }
+    begin += this->multiplications_;
+  }
+  if (this->variant_.route != Route::Inline && drawsReceivers)
+  {
+    const bool instanced = has("gnomonInstanceVSOutput");
+    std::string primitive = "gl_PrimitiveID";
+    if (corners > 0 && receives && geometryShader.empty())
+    {
+      geometryShader = numberingShader(vertexShader, corners);
+      if (!geometryShader.empty())
+      {
+        primitive = "gnomonPrimitiveVSOutput"; // VTK changes this to GSOutput
+        declarations += "flat in int " + primitive + ";\n";
+      }
+    }
+    end = this->writeReceiver(receives, instanced, primitive);
+    if (this->variant_.route == Route::Image)
+    {
+      if (!receives)
+      {
+        declarations = "uniform int gnomonStage;\nuniform int gnomonTranslucent;\n";
+      }
+      if (this->variant_.anySeenThrough)
+      {
+        end = "    if (gnomonTranslucent == 1) discard; // it hides no receiver\n" + end;
+      }
+      // VTK lights in both stages: a user's code may continue with the colour, and VTK's discard
+      // cuts holes of textures by its alpha. The receivers stage draws no colour.
+      end = "if (gnomonStage == 1)\n  {\n" + end + "  }\n";
+    }
+    else if (receives)
+    {
+      begin = this->lightInShadow(fragmentShader) + begin;
+      end += "    gl_FragData[2] = gnomonInShadow;\n";
+    }
+  }
+  // VTK puts its #version line at this mark, and extensions must follow it.
+  replace(fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n" + this->extensions_);
+  replace(fragmentShader, declarationMarker, declarations);
+  replace(fragmentShader, uniformFlowMarker, uniformFlow);
+  replace(fragmentShader, beginMarker, begin);
+  replace(fragmentShader, endMarker, end);
+}
+
+//------------------------------------------------------------------------------
+/// Return statements that compute gnomonInShadow, the fragment's colour with the light hidden. They
+/// are a copy of VTK's lighting between the marks, in a scope of its own.
+std::string HookGlsl::lightInShadow(const std::string& fragmentShader) const
+{
+  const std::size_t begin = fragmentShader.find(beginMarker) + beginMarker.size();
+  const std::size_t end = fragmentShader.find(endMarker);
+  return "  vec4 gnomonInShadow;\n  {\n" + this->darkenings_ +
+    fragmentShader.substr(begin, end - begin) + "\n  gnomonInShadow = gl_FragData[0];\n  }\n";
+}
+
+//------------------------------------------------------------------------------
+/// Return statements that write the receiver's outputs.
+/// @param primitive the expression of the driver's number
+std::string HookGlsl::writeReceiver(
+  bool receives, bool instanced, const std::string& primitive) const
+{
+  const std::string instance =
+    instanced ? " + gnomonInstanceVSOutput * gnomonPrimitivesPerInstance" : "";
+  const std::string fragment =
+    "vec2(gnomonDrawnSurface(), float(" + primitive + " + PrimitiveIDOffset" + instance + "))";
+  if (!receives || !this->variant_.namesTriangles)
+  {
+    return "    gl_FragData[1] = vec4(0.0);\n"
+           "    gl_FragData[2] = vec4(0.0);\n";
+  }
+  if (!this->variant_.receiverPoints)
+  {
+    return "    gl_FragData[1] = vec4(" + fragment + ", 0.0, 0.0);\n";
+  }
+  return "    gl_FragData[1] = vec4(" + fragment + ", gnomonNormal.xy);\n" +
+    "    gl_FragData[2] = vec4(gnomonPoint, gnomonNormal.z);\n";
+}
+
+} // namespace gnomon

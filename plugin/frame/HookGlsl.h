@@ -1,0 +1,98 @@
+#pragma once
+
+#include "lights/ShadowLight.h"
+#include "plugin/plan/Route.h"
+#include "shadowtech/base/Technique.h"
+#include "shadowtech/base/VisibilityLayers.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gnomon
+{
+
+/// The tasks of a frame's shaders, besides their lights.
+struct HookVariant
+{
+  Route route = Route::Inline;
+  bool receiverPoints = false; ///< image route: the receivers stage writes points and normals, too
+  bool multisampled = false;   ///< pixels have several samples, and a surface may cover some of
+                               ///< them
+  bool namesTriangles = true;  ///< not on the inline route: triangle numbers may be written
+  bool vtkViewIsRigid = true;  ///< ShownView::viewFromVtkView is the identity
+  bool anySeenThrough = false; ///< true if DrawnProps::seenThrough has some
+};
+
+/// One casting light, as the shader hook needs it.
+struct ShadedLight
+{
+  ShadowLight light;
+  int channels = 1; ///< of its visibility, a layer each (channelsOf())
+  int layer = 0;    ///< image route: its first visibility layer
+  int bit = noBit;  ///< or its bit in the image of bits
+  /// The technique that the shader calls: on the inline route for all surfaces, on the image route
+  /// for translucent ones, since the layers hold opaque ones. Null if none is needed.
+  const PointwiseTechnique* pointwise = nullptr;
+};
+
+/// Return the number of the lights' layers.
+int layersOf(const std::vector<ShadedLight>& lights);
+/// True if the visibility of any light is a bit.
+bool haveBits(const std::vector<ShadedLight>& lights);
+/// Return the expression of the factor of a light's colour if nothing hides the light; a uniform if
+/// the light has a texture.
+std::string litOf(const ShadedLight& shaded, int light);
+
+/// What the hook writes into VTK's shaders. Before VTK's light loop it puts, per casting light N,
+///     vec3 lightColorN = lightColorN * (visibility of light N);
+/// For a light with a texture the visibility is a colour, and the texture's mean in full light. The
+/// local variable hides VTK's uniform of the same name, so VTK's loop works with the shadowed
+/// colour, for every shading model and kind of light. The hook relies on the uniforms' names alone.
+///
+/// On the image route the same programs also serve the receivers stage. A uniform selects the
+/// stage, so VTK rebuilds no shader between stages. On the deferred route they light each fragment
+/// twice, as if all of it were lit and as if none were, and write its triangle.
+class HookGlsl
+{
+public:
+  HookGlsl() = default;
+  HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& lights);
+
+  bool operator==(const HookGlsl& other) const;
+
+  /// The first half of the hook, before VTK's own replacements.
+  static void mark(
+    std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader);
+  /// The second half, after them.
+  /// @param drawsReceivers true if this prop's shader must be able to write receivers
+  /// @param corners of the primitives that are numbered by a geometry shader; 0: by the driver
+  void fill(const std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, bool drawsReceivers, int corners) const;
+
+  const HookVariant& variant() const { return this->variant_; }
+  /// Return the names of the declared samplers by type.
+  std::map<std::string, std::vector<std::string>> samplers() const;
+
+private:
+  void addImages(const std::vector<ShadedLight>& lights);
+  void addLights(const std::vector<ShadedLight>& lights);
+  std::string lightInShadow(const std::string& fragmentShader) const;
+  std::string writeReceiver(bool receives, bool instanced, const std::string& primitive) const;
+
+  HookVariant variant_;
+  bool hasLights_ = false;
+  std::string extensions_;
+  std::string declarations_;
+  std::string uniformFlow_;     ///< statements that must be in uniform control flow
+  std::string multiplications_; ///< and statements before VTK's light loop
+  std::string darkenings_;      ///< deferred route: the same for the colour in shadow
+};
+
+/// Make the shaders of VTK's glyphs hand on the instance number, as the fragment shader's `flat in
+/// int gnomonInstanceVSOutput`: gl_PrimitiveID counts within an instance. Call it before VTK's
+/// replacements.
+/// @return false if the shaders draw no instances
+bool passInstance(std::string& vertexShader, std::string& geometryShader);
+
+} // namespace gnomon
