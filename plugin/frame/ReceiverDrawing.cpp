@@ -74,11 +74,21 @@ struct PropAccess : vtkProp
   }
 };
 
+/// True for nearly every prop, which then is its only part. IsA() and collections take longer.
+bool isPlainActor(vtkProp* prop)
+{
+  return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
+}
+
 /// True if a predicate holds for any of a prop's parts.
 /// @param holds called with the part and its mapper, which may be null
 template <typename Predicate>
 bool anyPart(vtkProp* prop, const Predicate& holds)
 {
+  if (isPlainActor(prop))
+  {
+    return holds(prop, static_cast<vtkActor*>(prop)->GetMapper());
+  }
   vtkNew<vtkPropCollection> actors;
   prop->GetActors(actors);
   vtkCollectionSimpleIterator iterator;
@@ -108,12 +118,17 @@ bool mayHaveOwnShaders(vtkMapper* mapper)
 
 bool isAssembly(vtkProp* prop)
 {
-  return prop->IsA("vtkAssembly") || prop->IsA("vtkPropAssembly");
+  return !isPlainActor(prop) && (prop->IsA("vtkAssembly") || prop->IsA("vtkPropAssembly"));
 }
 
 /// True if render passes can add to the shaders of a prop without parts.
 bool isLeafDrawnByPasses(vtkProp* leaf)
 {
+  if (isPlainActor(leaf))
+  {
+    vtkMapper* const mapper = static_cast<vtkActor*>(leaf)->GetMapper();
+    return mapper && !hasOwnFramebuffer(mapper);
+  }
   // These draw internal props without handing on their property keys.
   if (leaf->IsA("vtkAxisFollower") || leaf->IsA("vtkProp3DAxisFollower") ||
     leaf->IsA("vtkImageStack") || leaf->IsA("vtkSkybox"))
@@ -152,7 +167,7 @@ std::size_t hashOfShownProps(const vtkRenderState* s, PropStamps& stamps)
   {
     vtkProp* prop = s->GetPropArray()[i];
     // Annotations, such as a text with the frame's time, do not change the receivers.
-    if (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop))
+    if (isPlainActor(prop) || (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop)))
     {
       hashCombine(seed, stamps.of(prop, s->GetRenderer()));
       if (hasOwnShaders(prop))

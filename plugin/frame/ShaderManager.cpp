@@ -7,6 +7,7 @@
 #include <vtkShaderProgram.h>
 #include <vtkTextureUnitManager.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -79,7 +80,7 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   this->layersSize_ = values.layersSize;
   this->reductionFactor_ = values.receiversStage ? 1 : values.reductionFactor;
   this->layersFit_ = true;
-  this->upToDate_.clear();
+  this->ready_.clear();
   this->stageUniforms_.clear();
   const int spare = this->bindTexture({ GL_TEXTURE_2D, 0 });
   if (this->glsl_.variant().route == Route::Image)
@@ -179,48 +180,83 @@ bool ShaderManager::endStage()
   }
   this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0);
   this->bound_.clear();
-  this->upToDate_.clear();
+  this->ready_.clear();
   this->window_ = nullptr;
   return this->layersFit_;
 }
 
 //------------------------------------------------------------------------------
-bool ShaderManager::setLayersOrigin(GLuint program)
+/// Find the layers' first pixel in the present viewport: passes between this one and the props may
+/// have a framebuffer of their own.
+/// @return false if the layers do not fit it
+bool ShaderManager::findOrigin(glm::ivec2& origin)
 {
-  // The present viewport: passes between this one and the props may have a framebuffer of their
-  // own.
   GLint viewport[4];
   this->window_->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-  ShaderLibrary::setUniform(program, { "gnomonOrigin", glm::ivec2(viewport[0], viewport[1]) });
   const glm::ivec2 shown(
     viewport[2] / this->reductionFactor_, viewport[3] / this->reductionFactor_);
   const bool fits = glm::max(shown, 1) == this->layersSize_;
   this->layersFit_ = this->layersFit_ && fits;
+  origin = { viewport[0], viewport[1] };
   return fits;
+}
+
+//------------------------------------------------------------------------------
+ShaderManager::ReadyProgram& ShaderManager::makeReady(vtkShaderProgram* program)
+{
+  const auto [ready, isNew] = this->ready_.try_emplace(program);
+  if (isNew)
+  {
+    const auto handle = static_cast<GLuint>(program->GetHandle());
+    for (const Uniform& uniform : this->stageUniforms_)
+    {
+      ShaderLibrary::setUniform(handle, uniform);
+    }
+    constexpr std::array<const char*, 6> names = { "gnomonOrigin", "gnomonReceives", "gnomonDrawn",
+      "gnomonTranslucent", "gnomonPrimitivesPerInstance", "gnomonFacetHeight" };
+    std::transform(names.begin(), names.end(), ready->second.locations.begin(),
+      [handle](const char* name) { return glGetUniformLocation(handle, name); });
+  }
+  return ready->second;
 }
 
 //------------------------------------------------------------------------------
 void ShaderManager::setParameters(vtkShaderProgram* program, const HookedSurface& drawn)
 {
-  const auto handle = static_cast<GLuint>(program->GetHandle());
-  if (this->upToDate_.insert(program).second)
-  {
-    for (const Uniform& uniform : this->stageUniforms_)
-    {
-      ShaderLibrary::setUniform(handle, uniform);
-    }
-  }
-  bool receives = drawn.receives;
+  ReadyProgram& ready = this->makeReady(program);
+  PropUniforms now;
+  now.receives = drawn.receives ? 1 : 0;
   if (this->glsl_.variant().route == Route::Image && !drawn.translucent)
   {
-    receives = this->setLayersOrigin(handle) && receives;
+    now.receives = this->findOrigin(now.origin) ? now.receives : 0;
   }
-  ShaderLibrary::setUniform(handle, { "gnomonReceives", receives ? 1 : 0 });
-  ShaderLibrary::setUniform(handle, { "gnomonDrawn", drawn.index });
-  ShaderLibrary::setUniform(handle, { "gnomonTranslucent", drawn.translucent ? 1 : 0 });
-  ShaderLibrary::setUniform(handle, { "gnomonFacetHeight", drawn.facetHeight });
-  ShaderLibrary::setUniform(
-    handle, { "gnomonPrimitivesPerInstance", static_cast<int>(drawn.primitivesPerInstance) });
+  now.drawn = drawn.index;
+  now.translucent = drawn.translucent ? 1 : 0;
+  now.primitivesPerInstance = static_cast<int>(drawn.primitivesPerInstance);
+  now.facetHeight = drawn.facetHeight;
+
+  const auto [origin, receives, drawnAs, translucent, perInstance, facetHeight] = ready.locations;
+  const std::optional<PropUniforms>& last = ready.last;
+  const auto set = [&](GLint location, int PropUniforms::*member)
+  {
+    if (!last || (*last).*member != now.*member)
+    {
+      glUniform1i(location, now.*member);
+    }
+  };
+  if (!last || last->origin != now.origin)
+  {
+    glUniform2i(origin, now.origin.x, now.origin.y);
+  }
+  set(receives, &PropUniforms::receives);
+  set(drawnAs, &PropUniforms::drawn);
+  set(translucent, &PropUniforms::translucent);
+  set(perInstance, &PropUniforms::primitivesPerInstance);
+  if (!last || last->facetHeight != now.facetHeight)
+  {
+    glUniform1f(facetHeight, now.facetHeight);
+  }
+  ready.last = now;
 }
 
 } // namespace gnomon

@@ -7,9 +7,12 @@
 
 #include <vtkTimeStamp.h>
 
+#include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -20,7 +23,7 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// The hook into VTK's shaders: has mappers rebuild their shaders where the hook's GLSL differs, and
+/// The hook into VTK's shaders: has mappers rebuild their shaders where its GLSL differs, and
 /// gives programs their textures and uniforms.
 class ShaderManager
 {
@@ -70,7 +73,7 @@ private:
   void separateSamplers();
   void bindVisibility(const StageValues& values);
   int bindTexture(const TextureBinding& texture);
-  bool setLayersOrigin(GLuint program);
+  bool findOrigin(glm::ivec2& origin);
 
   HookGlsl glsl_;
   std::map<std::string, std::vector<std::string>> samplers_; ///< HookGlsl::samplers()
@@ -92,7 +95,25 @@ private:
     GLuint previous; ///< earlier binding of the unit
   };
   std::vector<BoundTexture> bound_;
-  std::set<vtkShaderProgram*> upToDate_; ///< programs that have the stage's uniforms
+  /// The uniforms that differ from prop to prop.
+  struct PropUniforms
+  {
+    glm::ivec2 origin{ 0 };
+    int receives = 0;
+    int drawn = -1;
+    int translucent = 0;
+    int primitivesPerInstance = 0;
+    float facetHeight = 0.0f;
+  };
+  /// A program that has the stage's uniforms. Many props share one.
+  struct ReadyProgram
+  {
+    std::array<GLint, 6> locations{}; ///< of PropUniforms
+    std::optional<PropUniforms> last; ///< as set for the last prop
+  };
+  ReadyProgram& makeReady(vtkShaderProgram* program);
+
+  std::unordered_map<vtkShaderProgram*, ReadyProgram> ready_;
 };
 
 } // namespace gnomon
