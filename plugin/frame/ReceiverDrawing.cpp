@@ -162,7 +162,6 @@ bool hasOwnShaders(vtkProp* prop)
 std::size_t hashOfShownProps(const vtkRenderState* s, PropStamps& stamps)
 {
   std::size_t seed = 0;
-  stamps.beginFrame();
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* prop = s->GetPropArray()[i];

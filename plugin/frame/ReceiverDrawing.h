@@ -21,7 +21,7 @@ class PropStamps;
 
 /// Return a hash of the receivers that props in view show, with one camera and snapshot. Each call
 /// gives another number if a prop has shaders of a user's own.
-/// @param stamps begins a frame
+/// @param stamps of this frame
 std::size_t hashOfShownProps(const vtkRenderState* s, PropStamps& stamps);
 
 /// True if a prop has shaders of a user's own, a mapper that may have some, or shaders to which

@@ -22,8 +22,8 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-ReceiversStage::ReceiversStage(Frame& frame, const OccluderCollector& collector,
-  PassPrograms& programs, ShaderManager::StageValues& values)
+ReceiversStage::ReceiversStage(Frame& frame, OccluderCollector& collector, PassPrograms& programs,
+  ShaderManager::StageValues& values)
   : frame_(frame)
   , collector_(collector)
   , programs_(programs)
@@ -43,8 +43,8 @@ std::size_t ReceiversStage::shownProps(const vtkRenderState* s)
 {
   if (!this->shownProps_)
   {
-    this->shownProps_ = hashOfShownProps(s, this->stamps_);
-    const std::vector<std::string> notes = this->stamps_.notes();
+    this->shownProps_ = hashOfShownProps(s, this->collector_.stamps());
+    const std::vector<std::string> notes = this->collector_.stamps().notes();
     this->frame_.counts.notes.insert(this->frame_.counts.notes.end(), notes.begin(), notes.end());
   }
   return *this->shownProps_;

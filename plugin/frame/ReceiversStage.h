@@ -5,7 +5,6 @@
 #include "plugin/frame/PassPrograms.h"
 #include "plugin/frame/ValueKey.h"
 #include "plugin/scene/OccluderCollector.h"
-#include "plugin/scene/PropStamps.h"
 #include "plugin/scene/SurfaceNames.h"
 #include "shadowtech/base/NumberCheck.h"
 #include "shadowtech/base/Occluders.h"
@@ -32,11 +31,10 @@ class ReceiversStage
 public:
   /// @param collector of the snapshot
   /// @param values of the frame's shaders, which this completes
-  ReceiversStage(Frame& frame, const OccluderCollector& collector, PassPrograms& programs,
+  ReceiversStage(Frame& frame, OccluderCollector& collector, PassPrograms& programs,
     ShaderManager::StageValues& values);
 
   void beginFrame() { this->shownProps_.reset(); }
-  void endFrame(vtkRenderer* renderer) { this->stamps_.endFrame(renderer); }
   /// Return a hash of the props in view, from one walk a frame.
   std::size_t shownProps(const vtkRenderState* s);
   /// True if anything on the GPU reads the receivers' points.
@@ -86,10 +84,9 @@ private:
   void readImages();
 
   Frame& frame_;
-  const OccluderCollector& collector_;
+  OccluderCollector& collector_;
   PassPrograms& programs_;
   ShaderManager::StageValues& values_;
-  PropStamps stamps_;
   std::optional<std::size_t> shownProps_; ///< this frame's, once it is asked for
   std::optional<ValueKey> due_;           ///< the key of receivers that this frame draws
   std::size_t numbered_ = 0;              ///< how many images of receivers were drawn

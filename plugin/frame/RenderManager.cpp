@@ -370,7 +370,7 @@ void RenderManager::endFrame(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
   const PassPrograms& programs = this->programs_;
-  this->receivers_.endFrame(s->GetRenderer());
+  this->collector_.stamps().endFrame(s->GetRenderer());
   frame.lights.endFrame();
   frame.counts.programCompiles =
     programs.library.compiles() + programs.shaders.rebuilds() - this->compilesBefore_;

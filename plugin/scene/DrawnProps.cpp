@@ -171,6 +171,7 @@ void Finder::addViewProp(vtkProp* viewProp)
   }
   if (plain)
   {
+    this->memory_.stamps.keep(viewProp);
     this->addPlain(*plain);
     return;
   }
@@ -481,6 +482,7 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory)
 {
   memory.plainProps.beginFrame();
+  memory.stamps.beginFrame();
   memory.cutouts.beginFrame();
   memory.images.beginFrame();
   Finder finder(renderer, memory);

@@ -68,6 +68,9 @@ public:
   bool anySeenThrough() const { return this->lookup_.anySeenThrough(); }
   ///@}
 
+  /// The stamps of the renderer's props, of the frame that collect() has begun.
+  PropStamps& stamps() { return this->propMemory_.stamps; }
+
   /// Memory that all this holds: the snapshot, and what is remembered of each surface and prop.
   std::size_t bytes() const;
 

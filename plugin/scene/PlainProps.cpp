@@ -1,5 +1,6 @@
 #include "plugin/scene/PlainProps.h"
 
+#include "plugin/scene/MapperKind.h"
 #include "shadowtech/base/Bytes.h"
 
 #include "vtkActor.h"
@@ -7,10 +8,25 @@
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkShaderProperty.h"
-#include "vtkTrivialProducer.h"
 
 namespace gnomon
 {
+namespace
+{
+
+/// True if a plain prop draws the same data, after its filters have run.
+bool drawsSameData(const PlainProp& known)
+{
+  if (!known.isFiltered)
+  {
+    return known.producer->GetMTime() == known.dataTime;
+  }
+  runInput(known.mapper, MapperKind::PlainPolyData);
+  return known.mapper->GetInputDataObject(0, 0) == known.data &&
+    known.data->GetMTime() == known.dataTime;
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 const PlainProp* PlainProps::next(vtkProp* prop)
@@ -22,8 +38,8 @@ const PlainProp* PlainProps::next(vtkProp* prop)
   PlainProp& known = this->props_[this->next_++];
   // Checked in order of ownership: an unchanged object still holds the next one.
   const bool same = known.actor == prop && known.actor->GetMTime() == known.actorTime &&
-    known.mapper->GetMTime() == known.mapperTime &&
-    known.producer->GetMTime() == known.producerTime && known.code->GetMTime() == known.codeTime;
+    known.mapper->GetMTime() == known.mapperTime && drawsSameData(known) &&
+    known.code->GetMTime() == known.codeTime;
   if (!same)
   {
     known = {};
@@ -34,18 +50,20 @@ const PlainProp* PlainProps::next(vtkProp* prop)
 //------------------------------------------------------------------------------
 void PlainProps::remember(vtkActor* actor)
 {
-  vtkMapper* mapper = actor->GetMapper();
-  auto* producer = vtkTrivialProducer::SafeDownCast(mapper->GetInputAlgorithm());
+  vtkMapper* const mapper = actor->GetMapper();
   const bool textured = actor->GetTexture() || actor->GetProperty()->GetNumberOfTextures() > 0;
-  if (!producer || textured || mapper->GetNumberOfClippingPlanes() > 0)
+  if (textured || mapper->GetStatic() || mapper->GetNumberOfClippingPlanes() > 0)
   {
     return;
   }
-  if (auto* data = vtkPolyData::SafeDownCast(producer->GetOutputDataObject(0)))
+  if (auto* const data = vtkPolyData::SafeDownCast(mapper->GetInputDataObject(0, 0)))
   {
-    vtkShaderProperty* code = actor->GetShaderProperty();
-    this->props_[this->next_ - 1] = { actor, mapper, producer, data, code, actor->GetMTime(),
-      mapper->GetMTime(), producer->GetMTime(), code->GetMTime() };
+    vtkAlgorithm* const producer = mapper->GetInputAlgorithm();
+    const bool isFiltered = !producer->IsA("vtkTrivialProducer");
+    vtkShaderProperty* const code = actor->GetShaderProperty();
+    this->props_[this->next_ - 1] = { actor, mapper, producer, isFiltered, data, code,
+      actor->GetMTime(), mapper->GetMTime(), isFiltered ? data->GetMTime() : producer->GetMTime(),
+      code->GetMTime() };
   }
 }
 

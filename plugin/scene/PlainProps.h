@@ -19,8 +19,8 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// An actor that draws a polydata, which was set by hand, as an opaque surface. It has no textures,
-/// no clipping planes and no shader code that moves vertices. Most props of large scenes are plain.
+/// An actor that draws a polydata as an opaque surface. It has no textures, no clipping planes and
+/// no shader code that moves vertices. Most props of large scenes are plain.
 ///
 /// Asking VTK for these facts takes thousands of instructions and visits twenty objects. The facts
 /// follow from the actor, its property, its shader code, its mapper with its colours and its list
@@ -32,11 +32,12 @@ struct PlainProp
   vtkActor* actor = nullptr;
   vtkMapper* mapper = nullptr;
   vtkAlgorithm* producer = nullptr;
+  bool isFiltered = false; ///< the producer is a filter to be run, not data that was set by hand
   vtkPolyData* data = nullptr;
   vtkShaderProperty* code = nullptr;
   vtkMTimeType actorTime = 0;
   vtkMTimeType mapperTime = 0;
-  vtkMTimeType producerTime = 0;
+  vtkMTimeType dataTime = 0; ///< of the data, or of the producer that hands on its time
   vtkMTimeType codeTime = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "plugin/scene/ImageRectangles.h"
 #include "plugin/scene/PlainProps.h"
+#include "plugin/scene/PropStamps.h"
 #include "plugin/scene/TextureCutouts.h"
 
 #include <cstddef>
@@ -13,6 +14,7 @@ namespace gnomon
 struct PropMemory
 {
   PlainProps plainProps;
+  PropStamps stamps;
   TextureCutouts cutouts;
   ImageRectangles images;
 

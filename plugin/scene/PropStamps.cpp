@@ -54,6 +54,15 @@ namespace gnomon
 namespace
 {
 
+/// Return the keys that a prop has of its own, as bits.
+int keysOf(vtkProp* prop)
+{
+  return !prop->GetPropertyKeys()
+    ? 8
+    : (vtkGnomonPropKeys::GetCasts(prop) ? 1 : 0) + (vtkGnomonPropKeys::GetReceives(prop) ? 2 : 0) +
+      (vtkGnomonPropKeys::GetOneSided(prop) ? 4 : 0);
+}
+
 bool isOneOf(vtkObjectBase* object, std::initializer_list<const char*> classes)
 {
   return std::any_of(classes.begin(), classes.end(),
@@ -392,15 +401,29 @@ void PropStamps::beginFrame()
 }
 
 //------------------------------------------------------------------------------
+void PropStamps::keep(vtkProp* prop)
+{
+  const auto known = this->known_.find(prop);
+  if (known != this->known_.end())
+  {
+    known->second.asked = known->second.keys == keysOf(prop);
+  }
+}
+
+//------------------------------------------------------------------------------
 std::size_t PropStamps::of(vtkProp* prop, vtkRenderer* renderer)
 {
   Known& known = this->known_[prop];
-  const PropStamp now = stampOf(prop, renderer);
-  if (now.hash != known.last.hash)
+  if (!known.asked)
   {
-    known = { now, now.hash };
+    const PropStamp now = stampOf(prop, renderer);
+    if (now.hash != known.last.hash)
+    {
+      known = { now, now.hash };
+    }
+    known.keys = keysOf(prop);
+    known.asked = true;
   }
-  known.asked = true;
   if (known.mayChangeInDrawing)
   {
     this->due_.emplace_back(prop);

@@ -43,6 +43,10 @@ public:
   /// Begin a frame: forget props that nothing asked for since the last call.
   void beginFrame();
 
+  /// Keep the last frame's stamp of a prop in this frame, if there is one: nothing has changed but
+  /// perhaps its keys.
+  void keep(vtkProp* prop);
+
   /// Return a prop's stamp before it is drawn.
   std::size_t of(vtkProp* prop, vtkRenderer* renderer);
 
@@ -59,7 +63,8 @@ private:
     std::size_t stamp = 0;          ///< the last one whose change no drawing made but the first
     bool mayChangeInDrawing = true; ///< new, or changed by the last drawing
     bool wasDrawn = false;          ///< since it is new, or last changed
-    bool asked = false;
+    int keys = 0;                   ///< the prop's, as bits
+    bool asked = false;             ///< the stamp is this frame's
   };
   std::unordered_map<const vtkProp*, Known> known_;
   std::vector<vtkSmartPointer<vtkProp>> due_; ///< to be looked at after drawing
