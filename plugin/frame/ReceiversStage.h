@@ -4,6 +4,7 @@
 #include "plugin/frame/Frame.h"
 #include "plugin/frame/PassPrograms.h"
 #include "plugin/frame/ValueKey.h"
+#include "plugin/ranks/SharedPatches.h"
 #include "plugin/scene/OccluderCollector.h"
 #include "plugin/scene/PropStamps.h"
 #include "plugin/scene/SurfaceNames.h"
@@ -32,7 +33,10 @@ class ReceiversStage
 public:
   /// @param collector of the snapshot
   /// @param values of the frame's shaders, which this completes
-  ReceiversStage(Frame& frame, const OccluderCollector& collector, PassPrograms& programs,
+  /// @param names of the snapshot's surfaces, if several processes draw the picture
+  /// @param patches of the snapshot, which this names then
+  ReceiversStage(Frame& frame, const OccluderCollector& collector,
+    const std::vector<SurfaceName>& names, SharedPatches& patches, PassPrograms& programs,
     ShaderManager::StageValues& values);
 
   void beginFrame() { this->shownProps_.reset(); }
@@ -79,8 +83,10 @@ public:
   /// Share the receivers of several processes, once; and the surface of each pixel, if edges of
   /// lights are smoothed.
   SharedReceivers& shared();
-  void shareSurfaces(const std::vector<SurfaceName>& names);
+  void shareSurfaces();
   ///@}
+  /// Share some receivers of this process, and the curves above them.
+  void share(const ReceiverPixels& own, SharedReceivers& shared);
 
 private:
   ValueKey keyOf(const vtkRenderState* s);
@@ -91,6 +97,8 @@ private:
 
   Frame& frame_;
   const OccluderCollector& collector_;
+  const std::vector<SurfaceName>& names_;
+  SharedPatches& patches_;
   PassPrograms& programs_;
   ShaderManager::StageValues& values_;
   PropStamps stamps_;

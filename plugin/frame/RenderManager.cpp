@@ -67,7 +67,6 @@ void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
   this->frame_.moves = false;
   this->frame_.mayRefine = false;
   this->frame_.wishes.isShared = ranks != nullptr;
-  this->frame_.wishes.smoothTerminators = wishes.smoothTerminators && !ranks;
   if (!wishes.keepVisibility)
   {
     this->visibility_.dropImages();
@@ -130,7 +129,7 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
     report.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
   report.leftOut = this->collector_.leftOut();
   this->names_.clear();
-  if (this->frame_.ranks ? smoothsEdges(this->frame_.lights) : this->frame_.wishes.keepVisibility)
+  if (this->frame_.ranks || this->frame_.wishes.keepVisibility)
   {
     this->names_ = surfaceNames(s->GetRenderer(), this->collector_.records());
   }
@@ -404,8 +403,8 @@ void RenderManager::endFrame(const vtkRenderState* s)
     programs.library.compiles() + programs.shaders.rebuilds() - this->compilesBefore_;
   report.newPrograms =
     programs.library.compiles() + programs.shaders.newPrograms() - this->newProgramsBefore_;
-  report.bytesOccluders =
-    this->collector_.bytes() + this->buffers_.bytes() + this->tracer_.bytesOfTable();
+  report.bytesOccluders = this->collector_.bytes() + this->patches_.bytes() +
+    this->buffers_.bytes() + this->tracer_.bytesOfTable();
   report.bytesBvh = this->tracer_.bytes();
   this->frame_.lights.endFrame();
   report.bytesMaps = this->frame_.lights.bytesOfMaps() + this->views_.bytesOfMaps();

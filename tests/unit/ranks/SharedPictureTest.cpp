@@ -20,6 +20,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkSphereSource.h>
 
 #include <gmock/gmock.h>
@@ -147,6 +148,87 @@ TEST_P(SharedEdges, EqualThoseOfOneProcess)
   scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(10.0); });
   smooth("4");
   smooth("64");
+  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
+}
+
+/// VTK's default sphere and a stone in front of it, over a floor.
+tool::Scene coarseScene()
+{
+  tool::Scene scene;
+  const auto add = [&](const auto& source)
+  {
+    source->Update();
+    tool::SceneModel& model = scene.models.emplace_back();
+    model.surface = source->GetOutput();
+    model.property = vtkSmartPointer<vtkProperty>::New();
+  };
+  add(vtkNew<vtkSphereSource>());
+  vtkNew<vtkPlaneSource> floor;
+  floor->SetOrigin(-2.0, -2.0, -0.6);
+  floor->SetPoint1(2.0, -2.0, -0.6);
+  floor->SetPoint2(-2.0, 2.0, -0.6);
+  add(floor);
+  vtkNew<vtkSphereSource> stone;
+  stone->SetRadius(0.12);
+  stone->SetCenter(0.45, -0.35, 0.25);
+  stone->SetThetaResolution(4);
+  stone->SetPhiResolution(4);
+  add(stone);
+  scene.camera = { { 1.0, -2.4, 1.4 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, 35.0, {} };
+  scene.lights.emplace_back().position = { 3.0, -0.5, 1.5 };
+  return scene;
+}
+
+class SharedTerminators : public testing::TestWithParam<Distribution>
+{
+protected:
+  tool::VtkMessages messages_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Splits, SharedTerminators,
+  testing::Values(wholes(), blocks(), roundRobin(), random(), blocksWithGhosts()),
+  [](const testing::TestParamInfo<Distribution>& split) { return std::string(split.param.name); });
+
+TEST_P(SharedTerminators, EqualThoseOfOneProcess)
+{
+  SplitScene scene(coarseScene(), GetParam());
+  const auto expectSmooth = [&](std::size_t least)
+  {
+    scene.smoothTerminators(false);
+    scene.expectSame();
+    const std::vector<float> facets = scene.shared().pass->GetVisibility().visibility.front();
+    scene.smoothTerminators(true);
+    scene.expectSame();
+    const std::vector<float>& smooth = scene.shared().pass->GetVisibility().visibility.front();
+    std::size_t different = 0;
+    for (std::size_t pixel = 0; pixel < smooth.size(); ++pixel)
+    {
+      different += smooth[pixel] != facets[pixel] ? 1 : 0;
+    }
+    EXPECT_GT(different, least);
+  };
+  expectSmooth(50);
+  scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(20.0); });
+  expectSmooth(50);
+  scene.change(
+    [](vtkRenderer* renderer)
+    {
+      auto* first = vtkActor::SafeDownCast(renderer->GetActors()->GetItemAsObject(0));
+      first->RotateX(20.0);
+      first->SetScale(1.1, 0.8, 1.0);
+    });
+  expectSmooth(50);
+  scene.smooth("16");
+  expectSmooth(50);
+  scene.smooth("1");
+  scene.change(
+    [](vtkRenderer* renderer)
+    {
+      auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+      vtkGnomonLightKeys::SetSetting(light, "light_radius", "4");
+      vtkGnomonLightKeys::SetSetting(light, "light_samples", "64");
+    });
+  expectSmooth(50);
   EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
@@ -313,6 +395,21 @@ TEST_F(SharedFrames, HoldGlyphsByTheirNumberInAllProcesses)
   this->scene_.change(
     [](vtkRenderer* renderer) { renderer->GetActors()->GetLastActor()->SetScale(-1.0, 1.0, 1.0); });
   expectInstances();
+  this->scene_.change(
+    [](vtkRenderer* renderer)
+    {
+      vtkCamera* const camera = renderer->GetActiveCamera();
+      camera->SetPosition(-0.5, 3.5, 1.2);
+      camera->SetFocalPoint(0.0, 2.0, 1.2);
+      camera->SetViewUp(0.0, 0.0, 1.0);
+      camera->SetViewAngle(10.0);
+      camera->SetClippingRange(0.5, 20.0);
+    });
+  expectInstances();
+  const std::vector<float> facets = this->scene_.shared().pass->GetVisibility().visibility.front();
+  this->scene_.smoothTerminators(true);
+  expectInstances();
+  EXPECT_NE(this->scene_.shared().pass->GetVisibility().visibility.front(), facets);
   EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
