@@ -323,9 +323,8 @@ public:
    * say why.
    *
    * Lights have the technique `raytraced`, and no textures; another technique is an error, "auto"
-   * is not. Receivers are on their triangles (SmoothTerminators), Embree traces, MemoryBudget has
-   * no effect, and translucent surfaces show no shadows. Null, the default, or a controller of one
-   * process: this process has the whole scene.
+   * is not. Embree traces, MemoryBudget has no effect, and translucent surfaces show no shadows.
+   * Null, the default, or a controller of one process: this process has the whole scene.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);

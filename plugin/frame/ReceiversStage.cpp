@@ -22,10 +22,13 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-ReceiversStage::ReceiversStage(Frame& frame, OccluderCollector& collector, PassPrograms& programs,
+ReceiversStage::ReceiversStage(Frame& frame, OccluderCollector& collector,
+  const std::vector<SurfaceName>& names, SharedPatches& patches, PassPrograms& programs,
   ShaderManager::StageValues& values)
   : frame_(frame)
   , collector_(collector)
+  , names_(names)
+  , patches_(patches)
   , programs_(programs)
   , values_(values)
 {
@@ -242,17 +245,30 @@ SharedReceivers& ReceiversStage::shared()
     this->frame_.endStage("visibility: read receivers");
     keepNearest(ranks, depths, value.images.fragments);
     this->frame_.endStage("visibility: nearest");
-    Receivers own(value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels);
+    Receivers own(
+      value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels, true);
     const ReceiverPixels& pixels = own.all();
     this->frame_.endStage("visibility: own receivers");
-    value.shared.share(ranks, pixels, this->collector_.occluders());
+    this->share(pixels, value.shared);
     this->frame_.endStage("visibility: share receivers");
   }
   return value.shared;
 }
 
 //------------------------------------------------------------------------------
-void ReceiversStage::shareSurfaces(const std::vector<SurfaceName>& names)
+void ReceiversStage::share(const ReceiverPixels& own, SharedReceivers& shared)
+{
+  Ranks& ranks = *this->frame_.ranks;
+  const Occluders& occluders = this->collector_.occluders();
+  shared.share(ranks, own, occluders);
+  if (this->patches_.update(ranks, occluders, this->names_, own))
+  {
+    shared.shareCurves(ranks, own, occluders, this->patches_.names());
+  }
+}
+
+//------------------------------------------------------------------------------
+void ReceiversStage::shareSurfaces()
 {
   SharedReceivers& shared = this->shared();
   if (smoothsEdges(this->frame_.lights) && shared.surfaceOfPixel().empty())
@@ -261,7 +277,7 @@ void ReceiversStage::shareSurfaces(const std::vector<SurfaceName>& names)
     std::vector<SharedName> own;
     for (const DrawnSurface& drawn : value.drawnSurfaces)
     {
-      own.push_back(names[drawn.blocks.front().surface].shared);
+      own.push_back(this->names_[drawn.blocks.front().surface].shared);
     }
     Ranks::Gathered<SharedName> all;
     this->frame_.ranks->gather(own, all);

@@ -4,6 +4,7 @@
 #include "plugin/frame/Frame.h"
 #include "plugin/frame/PassPrograms.h"
 #include "plugin/frame/ValueKey.h"
+#include "plugin/ranks/SharedPatches.h"
 #include "plugin/scene/OccluderCollector.h"
 #include "plugin/scene/SurfaceNames.h"
 #include "shadowtech/base/NumberCheck.h"
@@ -31,8 +32,10 @@ class ReceiversStage
 public:
   /// @param collector of the snapshot
   /// @param values of the frame's shaders, which this completes
-  ReceiversStage(Frame& frame, OccluderCollector& collector, PassPrograms& programs,
-    ShaderManager::StageValues& values);
+  /// @param names of the snapshot's surfaces, if several processes draw the picture
+  /// @param patches of the snapshot, which this names then
+  ReceiversStage(Frame& frame, OccluderCollector& collector, const std::vector<SurfaceName>& names,
+    SharedPatches& patches, PassPrograms& programs, ShaderManager::StageValues& values);
 
   void beginFrame() { this->shownProps_.reset(); }
   /// Return a hash of the props in view, from one walk a frame.
@@ -73,8 +76,10 @@ public:
   /// Share the receivers of several processes, once; and the surface of each pixel, if edges of
   /// lights are smoothed.
   SharedReceivers& shared();
-  void shareSurfaces(const std::vector<SurfaceName>& names);
+  void shareSurfaces();
   ///@}
+  /// Share some receivers of this process, and the curves above them.
+  void share(const ReceiverPixels& own, SharedReceivers& shared);
 
 private:
   ValueKey keyOf(const vtkRenderState* s);
@@ -85,6 +90,8 @@ private:
 
   Frame& frame_;
   OccluderCollector& collector_;
+  const std::vector<SurfaceName>& names_;
+  SharedPatches& patches_;
   PassPrograms& programs_;
   ShaderManager::StageValues& values_;
   std::optional<std::size_t> shownProps_; ///< this frame's, once it is asked for

@@ -74,7 +74,6 @@ void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
   frame.wishes = wishes;
   frame.ranks = ranks;
   frame.wishes.isShared = ranks != nullptr;
-  frame.wishes.smoothTerminators = wishes.smoothTerminators && !ranks;
   if (!wishes.keepVisibility)
   {
     this->visibility_.dropImages();
@@ -198,8 +197,7 @@ const FramePlan& RenderManager::plan(
   }
   if (plan.hasShadows)
   {
-    const bool areNamed =
-      this->frame_.ranks ? smoothsEdges(this->frame_.lights) : this->frame_.wishes.keepVisibility;
+    const bool areNamed = this->frame_.ranks || this->frame_.wishes.keepVisibility;
     this->names_ = areNamed ? surfaceNames(s->GetRenderer(), this->collector_.records())
                             : std::vector<SurfaceName>{};
     this->configureShaders(s);
@@ -378,8 +376,8 @@ void RenderManager::endFrame(const vtkRenderState* s)
     programs.library.compiles() + programs.shaders.newPrograms() - this->newProgramsBefore_;
   FrameTotals totals;
   totals.numbersByGeometryShaders = programs.shaders.numbersByGeometryShaders();
-  totals.bytesOccluders =
-    this->collector_.bytes() + this->buffers_.bytes() + this->tracer_.bytesOfTable();
+  totals.bytesOccluders = this->collector_.bytes() + this->patches_.bytes() +
+    this->buffers_.bytes() + this->tracer_.bytesOfTable();
   totals.bytesBvh = this->tracer_.bytes();
   totals.bytesMaps = frame.lights.bytesOfMaps() + this->views_.bytesOfMaps();
   totals.bytesImages = this->planner_.bytes();

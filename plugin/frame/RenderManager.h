@@ -9,6 +9,7 @@
 #include "plugin/frame/SceneReading.h"
 #include "plugin/frame/SnapshotTracer.h"
 #include "plugin/frame/VisibilityStage.h"
+#include "plugin/ranks/SharedPatches.h"
 #include "plugin/scene/OccluderCollector.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/OccluderBuffers.h"
@@ -124,11 +125,12 @@ private:
   LightReading lights_;
   OccluderCollector collector_;
   std::vector<SurfaceName> names_; ///< of the snapshot's surfaces, if they are needed
+  SharedPatches patches_;          ///< of the snapshot, if several processes draw the picture
   OccluderBuffers buffers_;
   PassPrograms& programs_;
   ShaderManager::StageValues stageValues_;
-  SnapshotTracer tracer_{ frame_, collector_.occluders() };
-  ReceiversStage receivers_{ frame_, collector_, programs_, stageValues_ };
+  SnapshotTracer tracer_{ frame_, collector_.occluders(), patches_.names() };
+  ReceiversStage receivers_{ frame_, collector_, names_, patches_, programs_, stageValues_ };
   VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, tracer_, receivers_,
     programs_.library };
   FramePlanner planner_{ frame_, collector_.occluders(), tracer_, programs_.library };

@@ -8,9 +8,10 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-SnapshotTracer::SnapshotTracer(Frame& frame, const Occluders& occluders)
+SnapshotTracer::SnapshotTracer(Frame& frame, const Occluders& occluders, const PatchNames& patches)
   : frame_(frame)
   , occluders_(occluders)
+  , patches_(patches)
 {
 }
 
@@ -23,7 +24,8 @@ void SnapshotTracer::update()
   }
   Ranks* const ranks = this->frame_.ranks;
   this->tracer_->share(ranks ? [ranks](std::vector<std::uint64_t>& bits) { ranks->uniteBits(bits); }
-                             : SharedTracer::UniteBits());
+                             : SharedTracer::UniteBits(),
+    this->patches_);
   try
   {
     const EmbreeTracer::Update update = this->tracer_->update(this->occluders_);

@@ -2,6 +2,7 @@
 
 #include "plugin/frame/Frame.h"
 #include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/Patches.h"
 #include "shadowtech/tracing/SharedTracer.h"
 
 #include <cstddef>
@@ -16,7 +17,8 @@ class SnapshotTracer
 {
 public:
   /// @param occluders the snapshot, which lives as long as this
-  SnapshotTracer(Frame& frame, const Occluders& occluders);
+  /// @param patches of the snapshot, likewise, if several processes draw the picture
+  SnapshotTracer(Frame& frame, const Occluders& occluders, const PatchNames& patches);
 
   /// Bring the structure up to date with the snapshot.
   /// @throws std::runtime_error if there is no tracer
@@ -34,6 +36,7 @@ public:
 private:
   Frame& frame_;
   const Occluders& occluders_;
+  const PatchNames& patches_;
   std::optional<SharedTracer> tracer_;
 };
 

@@ -205,7 +205,7 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
     this->tracer_.update();
     if (this->frame_.ranks)
     {
-      this->receivers_.shareSurfaces(names);
+      this->receivers_.shareSurfaces();
     }
     else // other processes' casters would reach the tiles, too
     {
@@ -425,12 +425,12 @@ void VisibilityStage::smoothEdges(CpuScreenTechnique& technique, const ScreenInp
     return;
   }
   const ReceiversValue& value = this->frame_.view->receivers;
-  const Drawn drawn(value.images, value.drawnSurfaces, this->occluders_, nullptr, false);
+  const Drawn drawn(value.images, value.drawnSurfaces, this->occluders_, nullptr, true);
   const SharedPicture several{ drawn, value.shared.surfaceOfPixel(), value.shared.pixels(),
     [ranks](std::vector<float>& numbers) { ranks->reduceToLeast(numbers); },
     [&](const ReceiverPixels& own) -> const ReceiverPixels&
     {
-      this->sharedSamples_.share(*ranks, own, this->occluders_);
+      this->receivers_.share(own, this->sharedSamples_);
       return this->sharedSamples_.pixels();
     },
     [ranks](std::vector<std::uint64_t>& bits) { ranks->uniteBits(bits); } };

@@ -37,8 +37,7 @@ public:
   void findStale();
 
   /// Computes what is stale, and keeps a copy of all if asked to.
-  /// @param names of the snapshot's surfaces, if visibility is kept, or if several processes draw
-  /// smooth edges
+  /// @param names of the snapshot's surfaces, if visibility is kept
   /// @throws std::runtime_error if there is no tracer
   void compute(const std::vector<SurfaceName>& names);
 

@@ -68,6 +68,7 @@ void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occlu
 
   this->pixels_.resize(own.width, own.height);
   std::fill(this->pixels_.surface.begin(), this->pixels_.surface.end(), ReceiverPixels::notCovered);
+  std::fill(this->pixels_.curved.begin(), this->pixels_.curved.end(), 0);
   this->isOwn_.assign(pixels, false);
   this->ties_ = 0;
   for (std::size_t rank = 0; rank + 1 < this->all_.firsts.size(); ++rank)
@@ -89,6 +90,33 @@ void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occlu
   this->ownCount_ =
     static_cast<std::size_t>(std::count(this->isOwn_.begin(), this->isOwn_.end(), true));
   this->receivers_.emplace(this->pixels_);
+}
+
+//------------------------------------------------------------------------------
+void SharedReceivers::shareCurves(
+  Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot, const PatchNames& names)
+{
+  std::vector<PlacedCurve> placed;
+  for (std::size_t pixel = 0; pixel < own.curves.size(); ++pixel)
+  {
+    if (this->isOwn_[pixel] && own.curved[pixel] != 0)
+    {
+      const std::uint32_t surface = own.surface[pixel];
+      ReceiverPixels::Curve curve = own.curves[pixel];
+      const PatchName name =
+        names[surface][curve.triangle - snapshot.surfaces[surface].firstTriangle];
+      curve.process = name.process;
+      curve.triangle = name.triangle;
+      placed.push_back({ static_cast<std::uint32_t>(pixel), curve });
+    }
+  }
+  ranks.gather(placed, this->allCurves_);
+  this->pixels_.resize(this->pixels_.width, this->pixels_.height, true);
+  for (const PlacedCurve& of : this->allCurves_.elements)
+  {
+    this->pixels_.curved[of.pixel] = 1;
+    this->pixels_.curves[of.pixel] = of.curve;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -120,7 +148,8 @@ std::size_t SharedReceivers::bytes() const
 {
   return this->pixels_.bytes() + bytesOf(this->claims_) + bytesOf(this->packed_) +
     bytesOf(this->allClaims_.elements) + bytesOf(this->all_.elements) +
-    bytesOf(this->surfaceOfPixel_) + this->isOwn_.capacity() / 8;
+    bytesOf(this->allCurves_.elements) + bytesOf(this->surfaceOfPixel_) +
+    this->isOwn_.capacity() / 8;
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 #include "plugin/ranks/Ranks.h"
 #include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/Patches.h"
 #include "shadowtech/base/Receivers.h"
 
 #include <glm/glm.hpp>
@@ -32,6 +33,12 @@ public:
   /// @param snapshot of the rank
   /// @throws RankFailure
   void share(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot);
+  /// Share the curves above receivers, after these; collective.
+  /// @param own as before
+  /// @param names of the snapshot's patches
+  /// @throws RankFailure
+  void shareCurves(
+    Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot, const PatchNames& names);
   /// Share which surface each pixel shows; collective. Not again before clear().
   /// @param fragments as keepNearest() left them; set to 0 where another rank's receiver was taken
   /// @param numbers by drawn surface, a number that is the same on all ranks, from 0
@@ -73,6 +80,13 @@ private:
     float numbers[7]; ///< in the order of ReceiverPixels::planes
   };
 
+  /// A curve on its way.
+  struct PlacedCurve
+  {
+    std::uint32_t pixel;
+    ReceiverPixels::Curve curve;
+  };
+
   void insert(bool isOwn, const std::uint64_t* claims, const PackedReceiver* next);
   PackedReceiver at(std::size_t pixel) const;
 
@@ -83,6 +97,7 @@ private:
   std::vector<PackedReceiver> packed_; ///< in the order of their pixels
   Ranks::Gathered<std::uint64_t> allClaims_;
   Ranks::Gathered<PackedReceiver> all_;
+  Ranks::Gathered<PlacedCurve> allCurves_;
   std::size_t ownCount_ = 0;
   std::vector<bool> isOwn_; ///< by pixel
   std::size_t ties_ = 0;

@@ -35,4 +35,24 @@ private:
   std::vector<std::uint8_t> creased_; ///< by vertex: 1 or 0
 };
 
+/// Names a patch in all processes that draw a picture, by one of its triangles in one of them.
+struct PatchName
+{
+  std::uint32_t process;
+  std::uint32_t triangle; ///< of the process's snapshot
+
+  bool operator==(const PatchName& other) const
+  {
+    return this->process == other.process && this->triangle == other.triangle;
+  }
+  bool operator<(const PatchName& other) const
+  {
+    return this->process != other.process ? this->process < other.process
+                                          : this->triangle < other.triangle;
+  }
+};
+/// By surface of this process, the names of its triangles' patches; empty for surfaces that no
+/// receiver with a curve is on.
+using PatchNames = std::vector<std::vector<PatchName>>;
+
 } // namespace gnomon

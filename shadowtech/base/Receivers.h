@@ -43,6 +43,8 @@ struct ReceiverPixels
     glm::vec3 normal;
     float height;                     ///< of the surface, along its normal
     std::uint32_t triangle, instance; ///< of the receiver (TriangleOfFragment)
+    /// Of receivers that several processes share: with the triangle, the PatchName.
+    std::uint32_t process = 0;
   };
   /// 1 if the receiver has a Curve, else 0.
   std::vector<std::uint8_t> curved;

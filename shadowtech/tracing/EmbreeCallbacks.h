@@ -15,18 +15,11 @@ namespace gnomon
 /// The surface that a ray passes through near its start (LiftedRay).
 struct OwnSurface
 {
-  unsigned int instance, geometry;           ///< Embree's numbers
-  const std::vector<std::uint32_t>* patches; ///< Patches::numbers(); null: the ray has none
-  std::uint32_t patch;                       ///< the receiver's
-  float until;                               ///< LiftedRay::leaves
+  float until = 0.0f; ///< LiftedRay::leaves
 
+  virtual ~OwnSurface() = default;
   /// True if a single ray's hit is on it.
-  bool has(RTCHitN* hit) const
-  {
-    return this->patches && RTCHitN_instID(hit, 1, 0, 0) == this->instance &&
-      RTCHitN_geomID(hit, 1, 0) == this->geometry &&
-      (*this->patches)[RTCHitN_primID(hit, 1, 0)] == this->patch;
-  }
+  virtual bool has(RTCHitN* hit) const = 0;
 };
 
 /// Reject a hit on the part of a single ray's own surface that it passes through

@@ -172,14 +172,16 @@ void EmbreeCasters::nameSurfaces(const Occluders& occluders)
     {
       continue;
     }
+    std::uint32_t instance = 0;
     for (const unsigned int attached : caster->second.attached)
     {
+      const std::uint32_t own = instance++;
       if (attached == RTC_INVALID_GEOMETRY_ID)
       {
         continue;
       }
       this->named.resize(std::max<std::size_t>(this->named.size(), attached + 1u));
-      this->named[attached] = { static_cast<std::uint32_t>(i), surface.firstTriangle,
+      this->named[attached] = { static_cast<std::uint32_t>(i), own, surface.firstTriangle,
         caster->second.solids.get() };
     }
   }

@@ -44,6 +44,7 @@ struct EmbreeCasters
   struct Named
   {
     std::uint32_t surface;       ///< Occluders::surfaces index
+    std::uint32_t instance;      ///< of the surface; 0 without instances
     std::uint32_t firstTriangle; ///< of the surface in the snapshot
     const CastingSolids* solids; ///< null if it casts triangles
   };

@@ -28,67 +28,97 @@ RTCRayHit findNearest(const EmbreeCasters& casters, EmbreeContext& context, cons
   return query;
 }
 
-/// Return the surface that a receiver's ray passes through.
-/// @param number of the receiver's surface
-OwnSurface ownSurface(const EmbreeCasters& casters, const Occluders& occluders,
-  std::uint32_t number, const ReceiverPixels::Curve& curve, float until)
+/// The own surface of a receiver whose picture this process draws alone.
+struct OwnPatch : OwnSurface
 {
-  const Surface& surface = occluders.surfaces[number];
-  const auto caster = casters.casters.find(surface.topologyVersion);
-  if (caster == casters.casters.end())
+  /// @param number of the receiver's surface
+  OwnPatch(const EmbreeCasters& casters, const Occluders& occluders, std::uint32_t number,
+    const ReceiverPixels::Curve& curve)
   {
-    return {}; // casts nothing
-  }
-  const std::vector<std::uint32_t>& patches = surface.patches->numbers(occluders, surface);
-  const unsigned int own = caster->second.attached[surface.isInstanced() ? curve.instance : 0];
-  return { surface.isInstanced() ? own : RTC_INVALID_GEOMETRY_ID, surface.isInstanced() ? 0u : own,
-    &patches, patches[curve.triangle - surface.firstTriangle], until };
-}
-
-/// Trace the rays of a tile's turned pixels, which are not needed afterwards.
-/// @return their number
-std::size_t traceTurned(
-  const EmbreeCasters& casters, const TracedPicture& picture, TracedTile& tile)
-{
-  const ReceiverPixels& receivers = *tile.receivers;
-  std::size_t count = 0;
-  for (const auto& [pixel, i] : tile.turned)
-  {
-    if (tile.needed[pixel] == 0)
+    const Surface& surface = occluders.surfaces[number];
+    const auto caster = casters.casters.find(surface.topologyVersion);
+    if (caster == casters.casters.end())
     {
-      continue;
+      return; // casts nothing
     }
-    tile.needed[pixel] = 0;
-    ++count;
-    const ReceiverPixels::Curve& curve = receivers.curves[i];
-    const glm::vec3 origin(tile.originX[pixel], tile.originY[pixel], tile.originZ[pixel]);
-    const glm::vec3 direction(
-      tile.directionX[pixel], tile.directionY[pixel], tile.directionZ[pixel]);
-    const LiftedRay lifted = liftedRay(picture.light(),
-      { receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] }, origin, direction,
-      curve.normal, curve.height + receivers.offset[i]);
-    const OwnSurface own =
-      ownSurface(casters, picture.occluders(), receivers.surface[i], curve, lifted.leaves);
-    // True if a ray meets the own surface, on either side.
-    const auto meets = [&](const glm::vec3& from, const glm::vec3& towards, float rayFar)
-    {
-      EmbreeContext context;
-      context.own = &own;
-      context.filter = rejectOthers;
-      return findNearest(casters, context, from, towards, shadowRayNear, rayFar).hit.geomID !=
-        RTC_INVALID_GEOMETRY_ID;
-    };
+    this->patches_ = &surface.patches->numbers(occluders, surface);
+    this->patch_ = (*this->patches_)[curve.triangle - surface.firstTriangle];
+    const unsigned int own = caster->second.attached[surface.isInstanced() ? curve.instance : 0];
+    this->instance_ = surface.isInstanced() ? own : RTC_INVALID_GEOMETRY_ID;
+    this->geometry_ = surface.isInstanced() ? 0u : own;
+  }
+
+  bool has(RTCHitN* hit) const override
+  {
+    return this->patches_ && RTCHitN_instID(hit, 1, 0, 0) == this->instance_ &&
+      RTCHitN_geomID(hit, 1, 0) == this->geometry_ &&
+      (*this->patches_)[RTCHitN_primID(hit, 1, 0)] == this->patch_;
+  }
+
+private:
+  unsigned int instance_ = 0, geometry_ = 0;            ///< Embree's numbers
+  const std::vector<std::uint32_t>* patches_ = nullptr; ///< Patches::numbers()
+  std::uint32_t patch_ = 0;
+};
+
+/// This process's part of the own surface of a receiver that several processes share.
+struct OwnPart : OwnSurface
+{
+  OwnPart(const EmbreeCasters& casters, const PatchNames& names, const ReceiverPixels::Curve& curve)
+    : named_(casters.named)
+    , names_(names)
+    , patch_{ curve.process, curve.triangle }
+    , instance_(curve.instance)
+  {
+  }
+
+  bool has(RTCHitN* hit) const override
+  {
+    const unsigned int instance = RTCHitN_instID(hit, 1, 0, 0);
+    const EmbreeCasters::Named& named =
+      this->named_[instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(hit, 1, 0)];
+    const std::vector<PatchName>& patches = this->names_[named.surface];
+    return !patches.empty() && patches[RTCHitN_primID(hit, 1, 0)] == this->patch_ &&
+      named.instance == this->instance_;
+  }
+
+private:
+  const std::vector<EmbreeCasters::Named>& named_;
+  const PatchNames& names_;
+  PatchName patch_;
+  std::uint32_t instance_;
+};
+
+/// True if casters block a turned pixel's shadow ray, or its own surface the lifted one.
+bool isTurnedBlocked(const EmbreeCasters& casters, const TracedPicture& picture,
+  const TracedTile& tile, const TurnedPixel& turned, OwnSurface& own)
+{
+  const auto& [pixel, i] = turned;
+  const ReceiverPixels& receivers = *tile.receivers;
+  const ReceiverPixels::Curve& curve = receivers.curves[i];
+  const glm::vec3 origin(tile.originX[pixel], tile.originY[pixel], tile.originZ[pixel]);
+  const glm::vec3 direction(tile.directionX[pixel], tile.directionY[pixel], tile.directionZ[pixel]);
+  const LiftedRay lifted = liftedRay(picture.light(),
+    { receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] }, origin, direction,
+    curve.normal, curve.height + receivers.offset[i]);
+  own.until = lifted.leaves;
+  // True if a ray meets the own surface, on either side.
+  const auto meets = [&](const glm::vec3& from, const glm::vec3& towards, float rayFar)
+  {
     EmbreeContext context;
     context.own = &own;
-    context.filter = rejectOwn;
-    RTCRay ray{ origin.x, origin.y, origin.z, shadowRayNear, direction.x, direction.y, direction.z,
-      0.0f, picture.rayFar(), 0xffffffffu, 0, 0 };
-    occlude(casters.scene.get(), context, ray);
-    darken(tile, pixel,
-      ray.tfar < 0.0f || meets(origin, lifted.origin - origin, 1.0f) ||
-        meets(lifted.origin, lifted.direction, picture.rayFar()));
-  }
-  return count;
+    context.filter = rejectOthers;
+    return findNearest(casters, context, from, towards, shadowRayNear, rayFar).hit.geomID !=
+      RTC_INVALID_GEOMETRY_ID;
+  };
+  EmbreeContext context;
+  context.own = &own;
+  context.filter = rejectOwn;
+  RTCRay ray{ origin.x, origin.y, origin.z, shadowRayNear, direction.x, direction.y, direction.z,
+    0.0f, picture.rayFar(), 0xffffffffu, 0, 0 };
+  occlude(casters.scene.get(), context, ray);
+  return ray.tfar < 0.0f || meets(origin, lifted.origin - origin, 1.0f) ||
+    meets(lifted.origin, lifted.direction, picture.rayFar());
 }
 
 /// Return the hit triangle's normal, in centred coordinates.
@@ -150,11 +180,38 @@ std::size_t EmbreeTracer::tracePicture(const TracedPicture& picture)
       {
         return 0;
       }
-      const std::size_t turned = traceTurned(impl, picture, tile);
+      const std::size_t turned = this->traceTurned(picture, tile, nullptr,
+        [&](std::size_t pixel, bool isBlocked) { darken(tile, pixel, isBlocked); });
       return turned +
         (impl.lanes16 ? TileTracer<RTCRay16>(scene, rayFar).trace(tile)
                       : TileTracer<RTCRay8>(scene, rayFar).trace(tile));
     });
+}
+
+//------------------------------------------------------------------------------
+std::size_t EmbreeTracer::traceTurned(const TracedPicture& picture, TracedTile& tile,
+  const PatchNames* names, const std::function<void(std::size_t pixel, bool isBlocked)>& take) const
+{
+  const EmbreeCasters& casters = *this->impl_;
+  std::size_t count = 0;
+  for (const TurnedPixel& turned : tile.turned)
+  {
+    if (tile.needed[turned.pixel] == 0)
+    {
+      continue;
+    }
+    tile.needed[turned.pixel] = 0;
+    ++count;
+    const ReceiverPixels& receivers = *tile.receivers;
+    const ReceiverPixels::Curve& curve = receivers.curves[turned.receiver];
+    const auto isBlocked = [&](OwnSurface&& own)
+    { return isTurnedBlocked(casters, picture, tile, turned, own); };
+    take(turned.pixel,
+      names ? isBlocked(OwnPart(casters, *names, curve))
+            : isBlocked(
+                OwnPatch(casters, picture.occluders(), receivers.surface[turned.receiver], curve)));
+  }
+  return count;
 }
 
 //------------------------------------------------------------------------------

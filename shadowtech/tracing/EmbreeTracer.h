@@ -1,11 +1,13 @@
 #pragma once
 
+#include "shadowtech/base/Patches.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/tracing/CasterHits.h"
 #include "shadowtech/tracing/TracedPicture.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -107,6 +109,12 @@ public:
 
 protected:
   bool hasCasters() const;
+  /// Trace the rays of a tile's turned pixels, which are not needed afterwards.
+  /// @param names the casters' patches, if several processes share the picture; else null
+  /// @param take called with each of these pixels and whether this process's casters block its ray
+  /// @return their number
+  std::size_t traceTurned(const TracedPicture& picture, TracedTile& tile, const PatchNames* names,
+    const std::function<void(std::size_t pixel, bool isBlocked)>& take) const;
   /// @return the number of rays traced
   virtual std::size_t tracePicture(const TracedPicture& picture);
 

@@ -38,8 +38,14 @@ std::size_t SharedTracer::traceOwn(
   std::vector<std::size_t> asked(picture.tiles(), 0); // samples, by tile
   const float rayFar = picture.rayFar();
   return picture.visitTiles(samples,
-    [&](const TracedTile& tile)
+    [&](TracedTile& tile)
     {
+      std::uint64_t* const bits =
+        &this->blocked_[tile.number * wordsOfTileSamples + wordsOfTile * asked[tile.number]++];
+      const auto take = [bits](std::size_t pixel, bool isBlocked)
+      { bits[pixel / bitsOfWord] |= std::uint64_t(isBlocked) << pixel % bitsOfWord; };
+      const std::size_t turned =
+        this->hasCasters() ? this->traceTurned(picture, tile, this->names_, take) : 0;
       TracedTile::Plane<float> rays[6]; // the needed ones, closed up
       TracedTile::Plane<std::uint16_t> pixels;
       TracedTile::Plane<std::uint8_t> isBlocked;
@@ -58,18 +64,16 @@ std::size_t SharedTracer::traceOwn(
           ++count;
         }
       }
-      std::uint64_t* const bits =
-        &this->blocked_[tile.number * wordsOfTileSamples + wordsOfTile * asked[tile.number]++];
       if (this->hasCasters())
       {
         this->areBlocked(count, { rays[0].data(), rays[1].data(), rays[2].data() },
           { rays[3].data(), rays[4].data(), rays[5].data() }, rayFar, isBlocked.data());
         for (std::size_t i = 0; i < count; ++i)
         {
-          bits[pixels[i] / bitsOfWord] |= std::uint64_t(isBlocked[i]) << pixels[i] % bitsOfWord;
+          take(pixels[i], isBlocked[i] != 0);
         }
       }
-      return count;
+      return turned + count;
     });
 }
 

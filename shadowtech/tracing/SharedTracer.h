@@ -22,7 +22,12 @@ public:
   using UniteBits = std::function<void(std::vector<std::uint64_t>& bits)>;
 
   /// Set the exchange between the processes; null: this process traces alone.
-  void share(UniteBits unite) { this->unite_ = std::move(unite); }
+  /// @param names of the casters' patches; must outlive the tracer
+  void share(UniteBits unite, const PatchNames& names)
+  {
+    this->unite_ = std::move(unite);
+    this->names_ = &names;
+  }
 
   /// Return the bytes cached for the rays of a picture.
   std::size_t bytesOfRays() const;
@@ -32,6 +37,7 @@ private:
   std::size_t traceOwn(const TracedPicture& picture, const TracedPicture::SampleRange& samples);
 
   UniteBits unite_;
+  const PatchNames* names_ = nullptr;
   std::vector<std::uint64_t> blocked_; ///< by tile, sample and pixel, a bit each
 };
 

@@ -20,6 +20,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkSphereSource.h>
 
 #include <gmock/gmock.h>
@@ -148,6 +149,132 @@ TEST_P(SharedEdges, EqualThoseOfOneProcess)
   smooth("4");
   smooth("64");
   EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
+}
+
+/// VTK's default sphere and a stone in front of it, over a floor.
+tool::Scene coarseScene()
+{
+  tool::Scene scene;
+  const auto add = [&](const auto& source)
+  {
+    source->Update();
+    tool::SceneModel& model = scene.models.emplace_back();
+    model.surface = source->GetOutput();
+    model.property = vtkSmartPointer<vtkProperty>::New();
+  };
+  add(vtkNew<vtkSphereSource>());
+  vtkNew<vtkPlaneSource> floor;
+  floor->SetOrigin(-2.0, -2.0, -0.6);
+  floor->SetPoint1(2.0, -2.0, -0.6);
+  floor->SetPoint2(-2.0, 2.0, -0.6);
+  add(floor);
+  vtkNew<vtkSphereSource> stone;
+  stone->SetRadius(0.12);
+  stone->SetCenter(0.45, -0.35, 0.25);
+  stone->SetThetaResolution(4);
+  stone->SetPhiResolution(4);
+  add(stone);
+  scene.camera = { { 1.0, -2.4, 1.4 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, 35.0, {} };
+  scene.lights.emplace_back().position = { 3.0, -0.5, 1.5 };
+  return scene;
+}
+
+class SharedTerminators : public testing::TestWithParam<Distribution>
+{
+protected:
+  tool::VtkMessages messages_;
+
+  /// Expect the same pictures without and with smooth terminators, and that these differ in more
+  /// than `least` pixels.
+  void expectSmooth(SplitScene& scene, std::size_t least)
+  {
+    scene.smoothTerminators(false);
+    scene.expectSame();
+    const std::vector<float> facets = scene.shared().pass->GetVisibility().visibility.front();
+    scene.smoothTerminators(true);
+    scene.expectSame();
+    const std::vector<float>& smooth = scene.shared().pass->GetVisibility().visibility.front();
+    std::size_t different = 0;
+    for (std::size_t pixel = 0; pixel < smooth.size(); ++pixel)
+    {
+      different += smooth[pixel] != facets[pixel] ? 1 : 0;
+    }
+    EXPECT_GT(different, least);
+    EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Splits, SharedTerminators,
+  testing::Values(wholes(), blocks(), roundRobin(), random(), blocksWithGhosts()),
+  [](const testing::TestParamInfo<Distribution>& split) { return std::string(split.param.name); });
+
+TEST_P(SharedTerminators, EqualThoseOfOneProcess)
+{
+  SplitScene scene(coarseScene(), GetParam());
+  this->expectSmooth(scene, 50);
+  scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(20.0); });
+  this->expectSmooth(scene, 50);
+  scene.change(
+    [](vtkRenderer* renderer)
+    {
+      auto* first = vtkActor::SafeDownCast(renderer->GetActors()->GetItemAsObject(0));
+      first->RotateX(20.0);
+      first->SetScale(1.1, 0.8, 1.0);
+    });
+  this->expectSmooth(scene, 50);
+  scene.smooth("16");
+  this->expectSmooth(scene, 50);
+  scene.smooth("1");
+  scene.change(
+    [](vtkRenderer* renderer)
+    {
+      auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+      vtkGnomonLightKeys::SetSetting(light, "light_radius", "4");
+      vtkGnomonLightKeys::SetSetting(light, "light_samples", "64");
+    });
+  this->expectSmooth(scene, 50);
+}
+
+TEST_P(SharedTerminators, EqualThoseOfOneProcessOnInstances)
+{
+  SplitScene scene(coarseScene(), GetParam());
+  const int own = controller()->GetLocalProcessId();
+  const int ranks = controller()->GetNumberOfProcesses();
+  const auto add = [](RankView& view, const std::function<bool(vtkIdType)>& has)
+  {
+    vtkNew<vtkPoints> points;
+    for (vtkIdType i = 0; i < 3000; ++i)
+    {
+      if (has(i))
+      {
+        points->InsertNextPoint(
+          0.8 + 0.05 * (i % 20), -0.05 * (i / 20 % 20), -0.5 + 0.05 * (i / 400));
+      }
+    }
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    vtkNew<vtkSphereSource> sphere;
+    sphere->SetRadius(0.02);
+    sphere->SetThetaResolution(10);
+    sphere->SetPhiResolution(7);
+    vtkNew<vtkGlyph3DMapper> mapper;
+    mapper->SetInputData(data);
+    mapper->SetSourceConnection(sphere->GetOutputPort());
+    mapper->ScalingOff();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    view.renderer->AddActor(actor);
+  };
+  add(scene.shared(), [&](vtkIdType i) { return GetParam().rankOf(i, 3000, ranks) == own; });
+  add(scene.alone(), [](vtkIdType) { return true; });
+  scene.change(
+    [](vtkRenderer* renderer)
+    {
+      renderer->GetActiveCamera()->SetFocalPoint(1.2, -0.4, -0.2);
+      renderer->GetActiveCamera()->SetViewAngle(6.0);
+    });
+  this->expectSmooth(scene, 50);
+  EXPECT_EQ(scene.alone().report().instances, 3000u);
 }
 
 /// An actor whose next drawing may throw.

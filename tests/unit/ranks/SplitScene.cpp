@@ -5,11 +5,14 @@
 #include <vtkAppendPolyData.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkFloatArray.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkMPIController.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLVertexBufferObject.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkTriangleFilter.h>
 
@@ -115,6 +118,15 @@ const Distribution& blocksWithGhosts()
 }
 
 //------------------------------------------------------------------------------
+const Distribution& wholes()
+{
+  static const Distribution value{ "wholes", [](vtkIdType, vtkIdType triangles, int ranks) {
+                                    return static_cast<int>(triangles / 2 % ranks);
+                                  } };
+  return value;
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> partOf(
   vtkPolyData* surface, const Distribution& distribution, int rank, int ranks)
 {
@@ -123,6 +135,9 @@ vtkSmartPointer<vtkPolyData> partOf(
   vtkNew<vtkPoints> points;
   points->SetDataType(surface->GetPoints()->GetDataType());
   vtkNew<vtkCellArray> cells;
+  vtkDataArray* const normals = surface->GetPointData()->GetNormals();
+  vtkNew<vtkFloatArray> ownNormals;
+  ownNormals->SetNumberOfComponents(3);
   std::vector<vtkIdType> taken(static_cast<std::size_t>(surface->GetNumberOfPoints()), -1);
   vtkNew<vtkIdList> corners;
   for (vtkIdType triangle = 0; triangle < triangles; ++triangle)
@@ -140,6 +155,10 @@ vtkSmartPointer<vtkPolyData> partOf(
       if (id < 0)
       {
         id = points->InsertNextPoint(surface->GetPoint(corners->GetId(i)));
+        if (normals)
+        {
+          ownNormals->InsertNextTuple(normals->GetTuple(corners->GetId(i)));
+        }
       }
       corners->SetId(i, id);
     }
@@ -148,6 +167,7 @@ vtkSmartPointer<vtkPolyData> partOf(
   auto part = vtkSmartPointer<vtkPolyData>::New();
   part->SetPoints(points);
   part->SetPolys(cells);
+  part->GetPointData()->SetNormals(normals ? ownNormals.Get() : nullptr);
   return part;
 }
 
@@ -219,6 +239,13 @@ void SplitScene::smooth(const char* edgeSamples)
 {
   this->shared_->pass->SetSetting("edge_samples", edgeSamples);
   this->alone_->pass->SetSetting("edge_samples", edgeSamples);
+}
+
+//------------------------------------------------------------------------------
+void SplitScene::smoothTerminators(bool smooth)
+{
+  this->shared_->pass->SetSmoothTerminators(smooth);
+  this->alone_->pass->SetSmoothTerminators(smooth);
 }
 
 //------------------------------------------------------------------------------

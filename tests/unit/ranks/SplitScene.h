@@ -38,6 +38,8 @@ const Distribution& blocks();
 const Distribution& roundRobin();
 const Distribution& random();
 const Distribution& blocksWithGhosts();
+/// Whole surfaces, by the number of their triangles.
+const Distribution& wholes();
 
 /// Return the triangles of a surface that one process has.
 vtkSmartPointer<vtkPolyData> partOf(
@@ -68,6 +70,8 @@ public:
 
   /// Set the samples of edge pixels in both views.
   void smooth(const char* edgeSamples);
+  /// Switch smooth terminators on or off in both views; off at first.
+  void smoothTerminators(bool smooth);
   /// Return how many pixels of the shared view are neither lit nor dark.
   std::size_t mixedPixels() const;
 
