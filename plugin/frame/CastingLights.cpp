@@ -1,9 +1,7 @@
 #include "plugin/frame/CastingLights.h"
 
-#include "lights/LightPointSettings.h"
 #include "lights/SettingsTable.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/moment_map/MomentMapTechnique.h"
 
 #include <vtkLightCollection.h>
 #include <vtkRenderer.h>
@@ -21,13 +19,6 @@ namespace
 std::string valueOf(const char* setting, const TechniqueInfo& info, const ShadowLight& light)
 {
   return has(info, setting) ? findSetting(setting)->get(light) : "";
-}
-
-/// Return the value of an integer setting; 0 if an estimator does not have it.
-int numberOf(const char* setting, const TechniqueInfo& info, const ShadowLight& light)
-{
-  const std::string value = valueOf(setting, info, light);
-  return value.empty() ? 0 : std::stoi(value);
 }
 
 /// True if an estimator needs no newer OpenGL than 3.2: it draws on the CPU, its maps included.
@@ -79,13 +70,27 @@ Composition composeHere(ShadowLight light, bool drawsMaps)
   return { std::move(light), estimator, {} };
 }
 
+/// Return the named settings, by name.
+std::vector<const Setting*> namedSettings(const ShadowSettings& settings)
+{
+  std::vector<const Setting*> named;
+  if (settings.named.any())
+  {
+    std::copy_if(shadowSettings().begin(), shadowSettings().end(), std::back_inserter(named),
+      [&](const Setting* setting) { return settings.named[setting->index]; });
+    std::sort(named.begin(), named.end(),
+      [](const Setting* a, const Setting* b) { return a->name < b->name; });
+  }
+  return named;
+}
+
 /// True if a light's technique has a setting. A light that leaves its technique to the pass has the
 /// settings of all techniques that the pass may choose, in this frame or another.
-bool mayHave(const ShadowLight& light, const std::string& settingName)
+bool mayHave(const ShadowLight& light, const Setting& setting)
 {
   const auto hasIt = [&](const char* technique)
-  { return has(findTechnique(technique)->estimator->info, settingName); };
-  return has(estimatorOfLight(light).info, settingName) ||
+  { return has(findTechnique(technique)->estimator->info, setting); };
+  return has(estimatorOfLight(light).info, setting) ||
     (isAutomatic(light) && (hasIt(plainTechnique) || hasIt(restingHard) || hasIt(restingSoft)));
 }
 
@@ -97,21 +102,21 @@ std::vector<std::string> findMisfits(
   std::vector<std::string> misfits;
   for (const ShadowLight& light : lights)
   {
-    for (const std::string& name : light.named)
+    for (const Setting* setting : namedSettings(light))
     {
-      if (!mayHave(light, name))
+      if (!mayHave(light, *setting))
       {
         misfits.push_back(
-          nameOf(light) + " has the technique '" + light.technique + "', and " + whoHas(name));
+          nameOf(light) + " has the technique '" + light.technique + "', and " + whoHas(*setting));
       }
     }
   }
-  for (const std::string& name : defaults.named)
+  for (const Setting* setting : namedSettings(defaults))
   {
-    const auto isHad = [&](const ShadowLight& light) { return mayHave(light, name); };
+    const auto isHad = [&](const ShadowLight& light) { return mayHave(light, *setting); };
     if (!lights.empty() && std::none_of(lights.begin(), lights.end(), isHad))
     {
-      misfits.push_back("No light's technique has it: " + whoHas(name));
+      misfits.push_back("No light's technique has it: " + whoHas(*setting));
     }
   }
   return misfits;
@@ -150,8 +155,8 @@ LightReport reportOfCasting(const ShadowLight& light, const TechniqueInfo& info)
   report.projection = valueOf("projection", info, light);
   report.mapSizeTexels = info.bakesMap() ? light.mapSizeTexels : 0;
   report.kernel = info.kernel.empty() ? valueOf("kernel", info, light) : info.kernel;
-  report.kernelTexels = numberOf("kernel_size", info, light);
-  report.mapSamples = numberOf("map_samples", info, light);
+  report.kernelTexels = info.has(kernelSettings()) ? light.kernel.sizeTexels : 0;
+  report.mapSamples = info.has(momentMapSettings()) ? light.momentMap.samples : 0;
   return report;
 }
 
@@ -194,7 +199,7 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   scene.drawsMaps = drawsMaps;
   if (drawsMaps &&
     std::any_of(scene.set.lights.begin(), scene.set.lights.end(),
-      [](const ShadowLight& light) { return light.of<MomentMapSettings>().samples > 1; }))
+      [](const ShadowLight& light) { return light.momentMap.samples > 1; }))
   {
     scene.mostMapSamples = mostMapSamples();
   }

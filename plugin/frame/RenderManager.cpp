@@ -39,10 +39,12 @@ std::uint64_t hashOf(const CastingLights& lights)
   for (const CastingLight& casting : lights)
   {
     hashLight(seed, casting);
-    for (const std::string& value :
-      valuesOf(casting.own->info(), SettingsOf::Estimator, casting.light))
+    for (const SettingsTable* table : casting.own->info().settings)
     {
-      hashCombine(seed, value);
+      for (const Setting& setting : table->settings)
+      {
+        hashCombine(seed, setting.read(casting.light));
+      }
     }
   }
   return seed;
