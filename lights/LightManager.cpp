@@ -195,7 +195,7 @@ LitArea readArea(vtkLight* light, const ShadowSettings& settings,
 ShadowSettings readSettings(vtkLight* light, const ShadowSettings& defaults, std::string& reason)
 {
   ShadowSettings settings = defaults;
-  settings.named.clear(); // by the pass: the light's own names follow
+  settings.named.reset(); // by the pass: the light's own names follow
   if (const vtkGnomonShadowSettings* const own = vtkGnomonLightKeys::GetSettings(light))
   {
     own->CopySetValues(settings);

@@ -307,4 +307,22 @@ std::size_t pairedPointsWanted(std::size_t all, std::size_t before, std::size_t 
   return wanted + (all - wanted) % 2;
 }
 
+//------------------------------------------------------------------------------
+bool isSquare(int samples)
+{
+  const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(samples))));
+  return side * side == samples;
+}
+
+//------------------------------------------------------------------------------
+std::string refusedSamples(const ShadowLight& light)
+{
+  return light.area && light.lightSampling == LightSampling::Jittered &&
+      !isSquare(light.lightSamples)
+    ? "'light_sampling' jittered has one sample in each cell of a square grid, of which there are "
+      "no " +
+      std::to_string(light.lightSamples) + "; 'light_samples' takes squares then: 4, 9, 16, ..."
+    : "";
+}
+
 } // namespace gnomon

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -90,5 +91,12 @@ std::vector<glm::dvec3> pairedLightSamples(const ShadowLight& light);
 /// @param before points of previous frames
 /// @param perFrame least number of points that each frame adds; 0: every frame has all points
 std::size_t pairedPointsWanted(std::size_t all, std::size_t before, std::size_t perFrame);
+
+/// True if a number of samples is a square, as jittered samples require.
+bool isSquare(int samples);
+
+/// Return why the light's number of samples is refused; empty if it is not. Jittered samples fill a
+/// square grid.
+std::string refusedSamples(const ShadowLight& light);
 
 } // namespace gnomon

@@ -76,13 +76,6 @@ struct Expected
   }
 };
 
-std::vector<const SettingsTable*>& tablesInPlace()
-{
-  static std::vector<const SettingsTable*> tables = { &viewSettings(), &lightAreaSettings(),
-    &lightSampleSettings(), &lightSeedSettings() };
-  return tables;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -97,36 +90,33 @@ std::string listOf(const std::vector<std::string>& names)
 }
 
 //------------------------------------------------------------------------------
-const std::vector<const SettingsTable*>& settingsTables()
+int choiceOf(int number, std::initializer_list<int> numbers)
 {
-  return tablesInPlace();
+  return static_cast<int>(std::find(numbers.begin(), numbers.end(), number) - numbers.begin());
 }
 
 //------------------------------------------------------------------------------
-bool setSettingsTables(std::vector<const SettingsTable*> tables)
+const std::vector<const Setting*>& shadowSettings()
 {
-  tablesInPlace() = std::move(tables);
-  return true;
-}
-
-//------------------------------------------------------------------------------
-std::vector<const Setting*> shadowSettings()
-{
-  std::vector<const Setting*> all;
-  for (const SettingsTable* table : settingsTables())
+  static const std::vector<const Setting*> all = []
   {
-    for (const Setting& setting : table->settings)
+    std::vector<const Setting*> found;
+    for (const SettingsTable* table : settingsTables())
     {
-      all.push_back(&setting);
+      for (const Setting& setting : table->settings)
+      {
+        found.push_back(&setting);
+      }
     }
-  }
+    return found;
+  }();
   return all;
 }
 
 //------------------------------------------------------------------------------
 const Setting* findSetting(const std::string& name)
 {
-  const std::vector<const Setting*> settings = shadowSettings();
+  const std::vector<const Setting*>& settings = shadowSettings();
   const auto found = std::find_if(settings.begin(), settings.end(),
     [&](const Setting* setting) { return setting->name == name; });
   return found == settings.end() ? nullptr : *found;
@@ -144,24 +134,6 @@ std::string settingNames()
 }
 
 //------------------------------------------------------------------------------
-Setting oneOfNames(std::string name, std::string meaning, std::string ShadowSettings::*member,
-  std::vector<std::string> names)
-{
-  const ChoiceSetting values{ std::move(names) };
-  return { std::move(name), std::move(meaning), {}, values,
-    [member](const ShadowSettings& settings) { return settings.*member; },
-    [member, values](ShadowSettings& settings, const SettingValue& value)
-    { settings.*member = values.names[static_cast<std::size_t>(std::get<int>(value))]; } };
-}
-
-//------------------------------------------------------------------------------
-Setting bakedInto(Setting setting)
-{
-  setting.isBaked = true;
-  return setting;
-}
-
-//------------------------------------------------------------------------------
 bool Setting::set(ShadowSettings& settings, const std::string& text) const
 {
   const std::optional<SettingValue> value = std::visit(ReadText{ text }, this->values);
@@ -170,7 +142,7 @@ bool Setting::set(ShadowSettings& settings, const std::string& text) const
     return false;
   }
   this->write(settings, *value);
-  settings.named.insert(this->name);
+  settings.named.set(this->index);
   return true;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "lights/ShadowSettings.h"
+
 #include <vector>
 
 namespace gnomon
 {
 
-constexpr int mostSplits = 8;
+constexpr int mostSplits = ShadowSettings::mostSplits;
 
 /// Distances from the camera, nearest <= farthest.
 struct DistanceInterval

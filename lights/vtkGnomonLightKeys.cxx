@@ -143,9 +143,10 @@ const char* vtkGnomonLightKeys::GetTechnique(vtkLight* light)
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetMapSize(vtkLight* light, int mapSizeTexels)
 {
-  const auto& range = std::get<gnomon::IntegerSetting>(gnomon::findSetting("map_size")->values);
+  using Settings = gnomon::ShadowSettings;
   const std::string text = mapSizeTexels > 0
-    ? std::to_string(std::clamp(mapSizeTexels, range.smallest, range.largest))
+    ? std::to_string(
+        std::clamp(mapSizeTexels, Settings::leastMapSizeTexels, Settings::mostMapSizeTexels))
     : "";
   SetSetting(light, "map_size", text.c_str());
 }
@@ -155,7 +156,9 @@ int vtkGnomonLightKeys::GetMapSize(vtkLight* light)
 {
   const char* const text = GetSetting(light, "map_size");
   // A program may have filled SETTINGS() by itself, with any text.
-  return text ? static_cast<int>(std::clamp(std::strtol(text, nullptr, 10), 0L, 16384L)) : 0;
+  return text ? static_cast<int>(std::clamp(std::strtol(text, nullptr, 10), 0L,
+                  long(gnomon::ShadowSettings::mostMapSizeTexels)))
+              : 0;
 }
 
 //------------------------------------------------------------------------------

@@ -4,10 +4,8 @@
 
 #include "vtkObjectFactory.h"
 
-#include <algorithm>
-#include <set>
+#include <cstddef>
 #include <string>
-#include <variant>
 
 vtkStandardNewMacro(vtkGnomonNamedSettings);
 
@@ -15,7 +13,7 @@ vtkStandardNewMacro(vtkGnomonNamedSettings);
 struct vtkGnomonNamedSettings::Internals
 {
   gnomon::ShadowSettings values;
-  std::set<std::string> set; ///< names of the settings that were set
+  decltype(gnomon::ShadowSettings::named) set; ///< the settings that were set, by index
   std::string error;
 };
 
@@ -31,31 +29,10 @@ const gnomon::Setting* settingOf(const char* name)
 template <typename TextOf>
 std::string textAt(int index, const TextOf& textOf)
 {
-  const auto settings = gnomon::shadowSettings();
+  const auto& settings = gnomon::shadowSettings();
   return index >= 0 && static_cast<std::size_t>(index) < settings.size()
     ? textOf(*settings[static_cast<std::size_t>(index)])
     : std::string();
-}
-
-/// Return a number clamped to a setting's range, as text; empty without such a setting.
-template <typename Range, typename Number>
-std::string clamped(const gnomon::Setting* setting, Number value)
-{
-  if (!setting || value != value)
-  {
-    return setting ? "nan" : "";
-  }
-  const auto& range = std::get<Range>(setting->values);
-  gnomon::ShadowSettings scratch;
-  setting->write(scratch, std::clamp(value, range.smallest, range.largest));
-  return setting->get(scratch);
-}
-
-/// Return a setting's value; 0 without such a setting.
-template <typename Value>
-Value valueOf(const gnomon::Setting* setting, const gnomon::ShadowSettings& settings)
-{
-  return setting ? std::get<Value>(setting->read(settings)) : Value{};
 }
 
 } // namespace
@@ -82,23 +59,18 @@ bool vtkGnomonNamedSettings::TrySetting(const char* name, const char* value)
   }
   gnomon::ShadowSettings& values = this->Internal->values;
   const std::string text = value ? value : "";
-  const std::string before = setting->get(values);
+  const gnomon::SettingValue before = setting->read(values);
   if (!setting->set(values, text))
   {
     error = "Invalid value '" + text + "' for the setting '" + setting->name + "', expected " +
       setting->expected();
     return false;
   }
-  error.clear();
   if (setting->name == "technique")
   {
-    values.named = { setting->name }; // settings for another technique are no errors
+    values.named.reset(); // settings for another technique are no errors
   }
-  const bool isNew = this->Internal->set.insert(setting->name).second;
-  if (isNew || setting->get(values) != before)
-  {
-    this->Modified();
-  }
+  this->NoteAssigned(static_cast<int>(setting->index), setting->read(values) != before);
   return true;
 }
 
@@ -129,10 +101,11 @@ std::string vtkGnomonNamedSettings::GetSetting(const char* name) const
 //------------------------------------------------------------------------------
 void vtkGnomonNamedSettings::UnsetSetting(const char* name)
 {
-  if (this->Internal->set.erase(name ? name : "") == 0)
+  if (!this->IsSettingSet(name))
   {
     return;
   }
+  this->Internal->set.reset(settingOf(name)->index);
   gnomon::ShadowSettings left;
   this->CopySetValues(left);
   this->Internal->values = left;
@@ -142,7 +115,8 @@ void vtkGnomonNamedSettings::UnsetSetting(const char* name)
 //------------------------------------------------------------------------------
 bool vtkGnomonNamedSettings::IsSettingSet(const char* name) const
 {
-  return this->Internal->set.count(name ? name : "") > 0;
+  const gnomon::Setting* const setting = settingOf(name);
+  return setting && this->Internal->set[setting->index];
 }
 
 //------------------------------------------------------------------------------
@@ -186,59 +160,32 @@ void vtkGnomonNamedSettings::CopySetValues(gnomon::ShadowSettings& to) const
 {
   for (const gnomon::Setting* setting : gnomon::shadowSettings())
   {
-    if (this->Internal->set.count(setting->name) > 0)
+    if (this->Internal->set[setting->index])
     {
-      setting->set(to, setting->get(this->Internal->values));
-      if (this->Internal->values.named.count(setting->name) == 0)
-      {
-        to.named.erase(setting->name); // set for another technique
-      }
+      setting->copy(to, this->Internal->values);
+      // False if it was set for another technique.
+      to.named[setting->index] = this->Internal->values.named[setting->index];
     }
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonNamedSettings::SetInteger(const char* name, int value)
+gnomon::ShadowSettings& vtkGnomonNamedSettings::ValuesToAssign()
 {
-  this->SetSetting(name, clamped<gnomon::IntegerSetting>(settingOf(name), value).c_str());
+  return this->Internal->values;
 }
 
 //------------------------------------------------------------------------------
-int vtkGnomonNamedSettings::GetInteger(const char* name) const
+void vtkGnomonNamedSettings::NoteAssigned(int index, bool changes)
 {
-  return valueOf<int>(settingOf(name), this->Internal->values);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonNamedSettings::SetReal(const char* name, double value)
-{
-  this->SetSetting(name, clamped<gnomon::RealSetting>(settingOf(name), value).c_str());
-}
-
-//------------------------------------------------------------------------------
-double vtkGnomonNamedSettings::GetReal(const char* name) const
-{
-  return valueOf<double>(settingOf(name), this->Internal->values);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonNamedSettings::SetChoice(const char* name, int index)
-{
-  const gnomon::Setting* const setting = settingOf(name);
-  std::string text;
-  if (setting)
+  const auto bit = static_cast<std::size_t>(index);
+  this->Internal->error.clear();
+  this->Internal->values.named.set(bit);
+  if (changes || !this->Internal->set[bit])
   {
-    const auto& names = std::get<gnomon::ChoiceSetting>(setting->values).names;
-    const int last = static_cast<int>(names.size()) - 1;
-    text = names[static_cast<std::size_t>(std::clamp(index, 0, last))];
+    this->Internal->set.set(bit);
+    this->Modified();
   }
-  this->SetSetting(name, text.c_str());
-}
-
-//------------------------------------------------------------------------------
-int vtkGnomonNamedSettings::GetChoice(const char* name) const
-{
-  return valueOf<int>(settingOf(name), this->Internal->values);
 }
 
 //------------------------------------------------------------------------------

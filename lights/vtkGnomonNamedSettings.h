@@ -78,18 +78,12 @@ protected:
   vtkGnomonNamedSettings();
   ~vtkGnomonNamedSettings() override;
 
-  ///@{
   /**
-   * Access by type. Numbers are clamped to the setting's range; NaN is an error. A choice is the
-   * index of a value, clamped to the valid indices.
+   * The values, for a typed setter. NoteAssigned() follows an assignment, with the setting's index
+   * and whether the value changed.
    */
-  void SetInteger(const char* name, int value);
-  int GetInteger(const char* name) const;
-  void SetReal(const char* name, double value);
-  double GetReal(const char* name) const;
-  void SetChoice(const char* name, int index);
-  int GetChoice(const char* name) const;
-  ///@}
+  gnomon::ShadowSettings& ValuesToAssign();
+  void NoteAssigned(int index, bool changes);
 
 private:
   vtkGnomonNamedSettings(const vtkGnomonNamedSettings&) = delete;

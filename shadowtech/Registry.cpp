@@ -203,94 +203,49 @@ const TechniqueEntry* findTechnique(const std::string& name)
   return find(registry(), name);
 }
 
+//------------------------------------------------------------------------------
+std::string techniqueNames()
+{
+  return std::string(automaticTechnique) + ", " + listOf(namesOf(registry()));
+}
+
 namespace
 {
 
-/// Return the values of the setting `technique`.
-std::vector<std::string> choosableNames()
+bool contains(const SettingsTable& table, const Setting& setting)
 {
-  std::vector<std::string> names = namesOf(registry());
-  names.insert(names.begin(), automaticTechnique);
-  return names;
+  return std::any_of(table.settings.begin(), table.settings.end(),
+    [&](const Setting& each) { return &each == &setting; });
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-std::string techniqueNames()
+bool has(const TechniqueInfo& info, const Setting& setting)
 {
-  return listOf(choosableNames());
+  return contains(choiceSettings(), setting) || contains(lightAreaSettings(), setting) ||
+    std::any_of(info.settings.begin(), info.settings.end(),
+      [&](const SettingsTable* table) { return contains(*table, setting); });
 }
-
-namespace
-{
-
-/// Return the settings that choose a technique.
-const SettingsTable& choiceSettings()
-{
-  static const SettingsTable table = { "The technique",
-    {
-      oneOfNames("technique", "the shadow technique (see: gnomon techniques)",
-        &ShadowSettings::technique, choosableNames()),
-      oneOfNames("estimator", "what decides a point, in place of the technique's own estimator",
-        &ShadowSettings::estimator,
-        [] // an empty name: the technique's own
-        {
-          std::vector<std::string> names = namesOf(estimators());
-          names.emplace_back();
-          return names;
-        }()),
-    } };
-  return table;
-}
-
-/// Return the tables of all techniques, in the techniques' order, each once.
-std::vector<const SettingsTable*> allTables()
-{
-  std::vector<const SettingsTable*> tables = { &choiceSettings(), &lightAreaSettings() };
-  for (const TechniqueEntry& technique : registry())
-  {
-    for (const SettingsTable* table : technique.estimator->info.settings)
-    {
-      if (std::find(tables.begin(), tables.end(), table) == tables.end())
-      {
-        tables.push_back(table);
-      }
-    }
-  }
-  return tables;
-}
-
-const bool tablesAreSet = setSettingsTables(allTables());
-
-bool contains(const SettingsTable& table, const std::string& settingName)
-{
-  return std::any_of(table.settings.begin(), table.settings.end(),
-    [&](const Setting& setting) { return setting.name == settingName; });
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 bool has(const TechniqueInfo& info, const std::string& settingName)
 {
-  return contains(choiceSettings(), settingName) || contains(lightAreaSettings(), settingName) ||
-    std::any_of(info.settings.begin(), info.settings.end(),
-      [&](const SettingsTable* table) { return contains(*table, settingName); });
+  const Setting* const setting = findSetting(settingName);
+  return setting && has(info, *setting);
 }
 
 //------------------------------------------------------------------------------
-std::vector<std::string> valuesOf(
-  const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings)
+ShadowSettings settingsOf(const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings)
 {
-  std::vector<std::string> values;
+  ShadowSettings values;
   for (const SettingsTable* table : info.settings)
   {
     for (const Setting& setting : table->settings)
     {
       if (of == SettingsOf::Estimator || setting.isBaked)
       {
-        values.push_back(setting.get(settings));
+        setting.copy(values, settings);
       }
     }
   }
@@ -300,7 +255,7 @@ std::vector<std::string> valuesOf(
 //------------------------------------------------------------------------------
 bool isOfLight(const Setting& setting)
 {
-  return contains(lightAreaSettings(), setting.name);
+  return contains(lightAreaSettings(), setting);
 }
 
 //------------------------------------------------------------------------------
@@ -309,7 +264,7 @@ std::string techniquesWith(const SettingsTable& table)
   std::vector<std::string> names;
   for (const TechniqueEntry& technique : registry())
   {
-    if (has(technique.estimator->info, table.settings.front().name))
+    if (has(technique.estimator->info, table.settings.front()))
     {
       names.push_back(technique.name);
     }
@@ -318,12 +273,12 @@ std::string techniquesWith(const SettingsTable& table)
 }
 
 //------------------------------------------------------------------------------
-std::string whoHas(const std::string& settingName)
+std::string whoHas(const Setting& setting)
 {
   const auto& tables = settingsTables();
   const auto found = std::find_if(tables.begin(), tables.end(),
-    [&](const SettingsTable* table) { return contains(*table, settingName); });
-  return "the setting '" + settingName + "' is for: " + techniquesWith(**found);
+    [&](const SettingsTable* table) { return contains(*table, setting); });
+  return "the setting '" + setting.name + "' is for: " + techniquesWith(**found);
 }
 
 namespace
@@ -386,18 +341,13 @@ const EstimatorEntry& compose(ShadowLight& light)
   {
     light.projection = findTechnique(light.technique)->projection;
   }
-  // An estimator's own refusals come before those of single values.
-  std::vector<std::string> refusals = { info.refused ? info.refused(light) : std::string() };
-  for (const SettingsTable* table : info.settings)
+  std::vector<std::string (*)(const ShadowLight&)> refusals = info.refused;
+  refusals.push_back(refusedProjection);
+  for (const auto& refused : refusals)
   {
-    refusals.push_back(table->refused ? table->refused(light) : std::string());
-  }
-  refusals.push_back(refusedProjection(light));
-  for (const std::string& refusal : refusals)
-  {
-    if (!refusal.empty())
+    if (const std::string why = refused(light); !why.empty())
     {
-      throw CompositionError(refusal);
+      throw CompositionError(why);
     }
   }
   return estimator;

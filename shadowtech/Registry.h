@@ -63,19 +63,21 @@ inline constexpr const char* defaultTechnique = automaticTechnique;
 /// on the screen, because screen techniques cover opaque surfaces only.
 inline constexpr const char* plainTechnique = "nsm";
 
+///@{
 /// True if an estimator has a setting. All estimators have the settings that choose a technique,
 /// and those of the light's area.
+bool has(const TechniqueInfo& info, const Setting& setting);
 bool has(const TechniqueInfo& info, const std::string& settingName);
+///@}
 
-/// Which settings valuesOf() lists: all of the estimator, or those that its map is baked with.
+/// Which settings settingsOf() returns: all of the estimator, or those that its map is baked with.
 enum class SettingsOf
 {
   Estimator,
   Map
 };
-/// Return the values of an estimator's settings as text, in the order of its tables.
-std::vector<std::string> valuesOf(
-  const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings);
+/// Return an estimator's settings, for keys. All others have their defaults.
+ShadowSettings settingsOf(const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings);
 
 /// True if a setting describes the light itself, so that all techniques have it.
 bool isOfLight(const Setting& setting);
@@ -85,7 +87,7 @@ std::string techniquesWith(const SettingsTable& table);
 
 /// Return the error for a setting that a technique lacks: "the setting 'contour' is for:
 /// selective".
-std::string whoHas(const std::string& settingName);
+std::string whoHas(const Setting& setting);
 
 /// A light's settings name something that does not exist, or contradict each other.
 class CompositionError : public std::runtime_error

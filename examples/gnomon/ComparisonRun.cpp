@@ -85,7 +85,8 @@ void requireUse(const ComparisonPlan& plan, const std::vector<VariantSpec>& spec
     if (!value.empty() && !isOfLight(*findSetting(name)) &&
       std::none_of(specs.begin(), specs.end(), hasIt))
     {
-      throw BadInput(optionOf(name) + ": " + whoHas(name) + ", none of which is compared");
+      throw BadInput(
+        optionOf(name) + ": " + whoHas(*findSetting(name)) + ", none of which is compared");
     }
   }
 }

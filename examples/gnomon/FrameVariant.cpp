@@ -119,7 +119,7 @@ VariantSpec parseTechnique(const std::string& text)
   {
     if (!has(info, name))
     {
-      throw BadInput("--techniques: " + text + ": " + whoHas(name));
+      throw BadInput("--techniques: " + text + ": " + whoHas(*findSetting(name)));
     }
   }
   return spec;

@@ -5,7 +5,6 @@
 #include "Progress.h"
 #include "SceneExport.h"
 #include "SettingOptions.h"
-#include "SettingsClass.h"
 
 #include "shadowtech/Registry.h"
 
@@ -82,20 +81,9 @@ void addTechniquesCommand(CLI::App& app)
 void addSettingsCommand(CLI::App& app)
 {
   auto asPage = std::make_shared<bool>(false);
-  auto asClass = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("settings", "List the settings of lights' shadows");
   command->add_flag("--markdown", *asPage, "As a page for the documentation");
-  command->add_flag("--class", *asClass, "As the header of vtkGnomonShadowSettings");
-  command->callback(
-    [asPage, asClass]
-    {
-      if (*asClass)
-      {
-        std::cout << settingsClass();
-        return;
-      }
-      *asPage ? printSettingsPage() : printSettings();
-    });
+  command->callback([asPage] { *asPage ? printSettingsPage() : printSettings(); });
 }
 
 //------------------------------------------------------------------------------

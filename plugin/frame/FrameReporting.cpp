@@ -18,13 +18,6 @@ std::string valueOf(const char* setting, const LightPlan& plan)
   return has(plan.info(), setting) ? findSetting(setting)->get(plan.light) : "";
 }
 
-/// Return the value of an integer setting; 0 if an estimator does not have it.
-int numberOf(const char* setting, const LightPlan& plan)
-{
-  const std::string value = valueOf(setting, plan);
-  return value.empty() ? 0 : std::stoi(value);
-}
-
 const char* nameOf(FitTarget target)
 {
   switch (target)
@@ -57,8 +50,8 @@ LightReport reportOfCasting(const CastingLight& casting)
   report.fit = nameOf(plan.fit);
   report.fitReason = plan.fitReason;
   report.kernel = info.kernel.empty() ? valueOf("kernel", plan) : info.kernel;
-  report.kernelTexels = numberOf("kernel_size", plan);
-  report.mapSamples = numberOf("map_samples", plan);
+  report.kernelTexels = info.has(kernelSettings()) ? plan.light.kernel.sizeTexels : 0;
+  report.mapSamples = info.has(momentMapSettings()) ? plan.light.momentMap.samples : 0;
   return report;
 }
 

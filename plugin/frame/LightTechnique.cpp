@@ -1,7 +1,6 @@
 #include "plugin/frame/LightTechnique.h"
 
 #include "lights/KernelShape.h"
-#include "shadowtech/base/BakeSettings.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
@@ -27,7 +26,7 @@ std::string LightTechnique::reasonAgainstMap(
   {
     return "it cannot hold casters that are spheres or cylinders";
   }
-  if (isBaked || light.of<BakeSettings>().time == BakeTime::Always)
+  if (isBaked || light.bake.time == BakeTime::Always)
   {
     return {};
   }
@@ -46,7 +45,7 @@ void LightTechnique::updateMaps(
   const bool isBaked = this->baked_.changesTo(wanted).empty();
   const bool isOptional = this->info().mapIsOptional;
   std::string against = isOptional ? this->reasonAgainstMap(light, stage, isBaked) : "";
-  if (isOptional && against.empty() && light.of<BakeSettings>().time == BakeTime::Settled)
+  if (isOptional && against.empty() && light.bake.time == BakeTime::Settled)
   {
     const bool rested = this->wanted_.changesTo(wanted).empty();
     this->usesMap_ = this->backoff_.usesMap(rested, isBaked, stage.bakesOptional);
@@ -121,7 +120,7 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
   wanted.key.emplace();
   wanted.key->add("its views", wanted.views);
   wanted.key->add("their reach", reach);
-  wanted.key->add("its settings", valuesOf(this->info(), SettingsOf::Map, light));
+  wanted.key->add("its settings", settingsOf(this->info(), SettingsOf::Map, light));
   wanted.key->add(
     "the casters", std::pair(stage.occluders.topologyVersion, stage.occluders.positionsVersion));
   if (light.fittedToReceivers)

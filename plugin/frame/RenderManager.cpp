@@ -37,10 +37,12 @@ std::uint64_t hashOf(const LightSet& lights, bool withSettings)
     hashCombine(seed, identityOf(light).hash);
     if (withSettings)
     {
-      for (const std::string& value :
-        valuesOf(findTechnique("raytraced")->estimator->info, SettingsOf::Estimator, light))
+      for (const SettingsTable* table : findTechnique("raytraced")->estimator->info.settings)
       {
-        hashCombine(seed, value);
+        for (const Setting& setting : table->settings)
+        {
+          hashCombine(seed, setting.read(light));
+        }
       }
     }
   }

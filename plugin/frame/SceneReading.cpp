@@ -9,6 +9,7 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,13 +68,27 @@ Composition composeHere(ShadowLight light, bool drawsMaps)
   return { std::move(light), estimator, {} };
 }
 
+/// Return the named settings, by name.
+std::vector<const Setting*> namedSettings(const ShadowSettings& settings)
+{
+  std::vector<const Setting*> named;
+  if (settings.named.any())
+  {
+    std::copy_if(shadowSettings().begin(), shadowSettings().end(), std::back_inserter(named),
+      [&](const Setting* setting) { return settings.named[setting->index]; });
+    std::sort(named.begin(), named.end(),
+      [](const Setting* a, const Setting* b) { return a->name < b->name; });
+  }
+  return named;
+}
+
 /// True if a light's technique has a setting. A light that leaves its technique to the pass has the
 /// settings of all techniques that the pass may choose, in this frame or another.
-bool mayHave(const ShadowLight& light, const std::string& settingName)
+bool mayHave(const ShadowLight& light, const Setting& setting)
 {
   const auto hasIt = [&](const char* technique)
-  { return has(findTechnique(technique)->estimator->info, settingName); };
-  return has(estimatorOfLight(light).info, settingName) ||
+  { return has(findTechnique(technique)->estimator->info, setting); };
+  return has(estimatorOfLight(light).info, setting) ||
     (isAutomatic(light) && (hasIt(plainTechnique) || hasIt(restingHard) || hasIt(restingSoft)));
 }
 
@@ -108,21 +123,21 @@ std::vector<std::string> findMisfits(
   std::vector<std::string> misfits;
   for (const ShadowLight& light : lights)
   {
-    for (const std::string& name : light.named)
+    for (const Setting* setting : namedSettings(light))
     {
-      if (!mayHave(light, name))
+      if (!mayHave(light, *setting))
       {
         misfits.push_back(
-          nameOf(light) + " has the technique '" + light.technique + "', and " + whoHas(name));
+          nameOf(light) + " has the technique '" + light.technique + "', and " + whoHas(*setting));
       }
     }
   }
-  for (const std::string& name : defaults.named)
+  for (const Setting* setting : namedSettings(defaults))
   {
-    const auto isHad = [&](const ShadowLight& light) { return mayHave(light, name); };
+    const auto isHad = [&](const ShadowLight& light) { return mayHave(light, *setting); };
     if (!lights.empty() && std::none_of(lights.begin(), lights.end(), isHad))
     {
-      misfits.push_back("No light's technique has it: " + whoHas(name));
+      misfits.push_back("No light's technique has it: " + whoHas(*setting));
     }
   }
   return misfits;
@@ -158,7 +173,7 @@ SceneLights LightReading::read(
   { return this->traitsOf(estimator, light); };
   if (drawsMaps &&
     std::any_of(lights.set.lights.begin(), lights.set.lights.end(),
-      [](const ShadowLight& light) { return light.of<MomentMapSettings>().samples > 1; }))
+      [](const ShadowLight& light) { return light.momentMap.samples > 1; }))
   {
     lights.mostMapSamples = mostMapSamples();
   }

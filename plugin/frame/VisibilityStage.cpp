@@ -2,7 +2,7 @@
 
 #include "plugin/frame/KeptVisibility.h"
 #include "shadowtech/base/SeenTriangle.h"
-#include "shadowtech/tracing/RefinementSettings.h"
+#include "shadowtech/tracing/Refinement.h"
 
 #include <tbb/parallel_for.h>
 
@@ -28,7 +28,7 @@ int samplesOf(const CastingLight& casting, int before, bool severalViews)
 {
   const ShadowLight& light = casting.light();
   const bool refines = !severalViews && casting.info().has(refinementSettings()) && light.area;
-  const int named = light.of<RefinementSettings>().movingSamples;
+  const int named = light.refinement.movingSamples;
   const int first = named > 0 ? named : casting.plan.firstSamples;
   return samplesOfStep(refines ? first : 0, before, light.lightSamples);
 }
@@ -86,7 +86,7 @@ ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
   ValueKey key = *this->frame_.view->receivers.key;
   key.add("the light", casting.plan.identity);
   key.add("its technique", std::pair(&casting.own->estimator(), casting.light().fittedToReceivers));
-  key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light()));
+  key.add("its settings", settingsOf(info, SettingsOf::Estimator, casting.light()));
   key.add("its layer", std::pair(casting.plan.layer, casting.plan.bit));
   return key;
 }

@@ -1,7 +1,6 @@
 #include "plugin/plan/LightPlans.h"
 
 #include "plugin/plan/MemoryBudget.h"
-#include "shadowtech/tracing/EdgeSettings.h"
 
 #include <algorithm>
 #include <iterator>
@@ -111,17 +110,15 @@ void keepBudget(LightPlans& plans, const Scene& scene, const FrameWishes& wishes
 void settle(LightPlan& plan, const SceneLights& scene, std::vector<std::string>& notes)
 {
   ShadowLight& light = plan.light;
-  for (const SettingsTable* table : plan.info().settings)
+  int& samples = light.momentMap.samples;
+  const int most = std::max(scene.mostMapSamples, 1);
+  if (plan.info().has(momentMapSettings()) && samples > most)
   {
-    for (const Setting& setting : table->settings)
+    notes.push_back(nameOf(light) + ": OpenGL supports at most " + std::to_string(most) +
+      " samples per texel of a map, not " + std::to_string(samples));
+    while (samples > most)
     {
-      const int most = scene.mostMapSamples;
-      if (setting.name == "map_samples" && std::stoi(setting.get(light)) > std::max(most, 1))
-      {
-        notes.push_back(nameOf(light) + ": OpenGL supports at most " + std::to_string(most) +
-          " samples per texel of a map, not " + setting.get(light));
-        setting.set(light, std::to_string(most));
-      }
+      samples /= 2; // a value of `map_samples`
     }
   }
   if (light.texture && !plan.info().seesTextures)
@@ -198,7 +195,7 @@ bool isHard(const TechniqueInfo& info, const ShadowLight& light)
 std::size_t edgeSamplesOf(const TechniqueInfo& info, const ShadowLight& light)
 {
   const bool smooths = info.has(edgeSettings()) && !light.area;
-  return smooths ? static_cast<std::size_t>(light.of<EdgeSettings>().samples) : 1;
+  return smooths ? static_cast<std::size_t>(light.edge.samples) : 1;
 }
 
 //------------------------------------------------------------------------------

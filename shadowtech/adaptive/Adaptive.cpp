@@ -14,24 +14,10 @@ namespace
 
 bool readsBounds(const ShadowLight& light)
 {
-  return light.of<EarlyOutSettings>().earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
+  return light.earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
 }
 
 } // namespace
-
-//------------------------------------------------------------------------------
-const SettingsTable& adaptiveSettings()
-{
-  using S = AdaptiveSettings;
-  static const SettingsTable table = { "The disc",
-    {
-      bakedInto(integer(
-        "disc_grid", "a disc's points are the square of this", "", &S::discGrid, { 2, 16 })),
-      bakedInto(integer(
-        "disc_sets", "discs that differ are the square of this", "", &S::discSets, { 1, 32 })),
-    } };
-  return table;
-}
 
 //------------------------------------------------------------------------------
 TechniqueInfo Adaptive::info()
@@ -48,7 +34,7 @@ TechniqueInfo Adaptive::info()
 //------------------------------------------------------------------------------
 MapReach Adaptive::mapReach(const ShadowLight& light) const
 {
-  return kernelReach(light, { 0.5, 0.0, 0.5 * light.of<KernelSettings>().sizeTexels });
+  return kernelReach(light, { 0.5, 0.0, 0.5 * light.kernel.sizeTexels });
 }
 
 //------------------------------------------------------------------------------
@@ -67,14 +53,14 @@ void Adaptive::bake(const MapInput& input)
 //------------------------------------------------------------------------------
 void Adaptive::bakeDiscs(const ShadowLight& light)
 {
-  if (this->discs_ && this->discGrid_ == light.of<AdaptiveSettings>().discGrid &&
-    this->discSets_ == light.of<AdaptiveSettings>().discSets)
+  if (this->discs_ && this->discGrid_ == light.adaptive.discGrid &&
+    this->discSets_ == light.adaptive.discSets)
   {
     return;
   }
-  const int points = light.of<AdaptiveSettings>().discGrid * light.of<AdaptiveSettings>().discGrid;
-  const int discs = light.of<AdaptiveSettings>().discSets * light.of<AdaptiveSettings>().discSets;
-  const std::vector<glm::vec2> byDisc = jitteredDiscs(light.of<AdaptiveSettings>().discGrid, discs);
+  const int points = light.adaptive.discGrid * light.adaptive.discGrid;
+  const int discs = light.adaptive.discSets * light.adaptive.discSets;
+  const std::vector<glm::vec2> byDisc = jitteredDiscs(light.adaptive.discGrid, discs);
   std::vector<glm::vec2> byPoint;
   byPoint.reserve(byDisc.size());
   for (int point = 0; point < points; ++point)
@@ -84,14 +70,14 @@ void Adaptive::bakeDiscs(const ShadowLight& light)
       byPoint.push_back(byDisc[static_cast<std::size_t>(disc * points + point)]);
     }
   }
-  allocateTexture(this->discs_, { GL_RG32F, GL_RG, 2 }, light.of<AdaptiveSettings>().discSets,
-    light.of<AdaptiveSettings>().discSets, points, "a table of discs");
+  allocateTexture(this->discs_, { GL_RG32F, GL_RG, 2 }, light.adaptive.discSets,
+    light.adaptive.discSets, points, "a table of discs");
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, light.of<AdaptiveSettings>().discSets,
-    light.of<AdaptiveSettings>().discSets, points, GL_RG, GL_FLOAT, byPoint.data());
-  this->discGrid_ = light.of<AdaptiveSettings>().discGrid;
-  this->discSets_ = light.of<AdaptiveSettings>().discSets;
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, light.adaptive.discSets, light.adaptive.discSets,
+    points, GL_RG, GL_FLOAT, byPoint.data());
+  this->discGrid_ = light.adaptive.discGrid;
+  this->discSets_ = light.adaptive.discSets;
 }
 
 //------------------------------------------------------------------------------
@@ -118,13 +104,11 @@ std::vector<Uniform> Adaptive::uniforms(const ReceiverSpace& space) const
 //------------------------------------------------------------------------------
 std::string Adaptive::estimatorGlsl(const ShadowLight& light) const
 {
-  return kernelDefines(light) +
-    glslDefine("DISC_TEXELS_LIGHT", light.of<KernelSettings>().sizeTexels) +
-    glslDefine("DISC_RING_LIGHT", light.of<AdaptiveSettings>().discGrid) +
-    glslDefine("DISC_POINTS_LIGHT",
-      light.of<AdaptiveSettings>().discGrid * light.of<AdaptiveSettings>().discGrid) +
-    glslDefine("DISC_SETS_LIGHT", light.of<AdaptiveSettings>().discSets) +
-    glslDefine("DISC_ASKS_RING_LIGHT", light.of<EarlyOutSettings>().earlyOut == EarlyOut::Ring) +
+  return kernelDefines(light) + glslDefine("DISC_TEXELS_LIGHT", light.kernel.sizeTexels) +
+    glslDefine("DISC_RING_LIGHT", light.adaptive.discGrid) +
+    glslDefine("DISC_POINTS_LIGHT", light.adaptive.discGrid * light.adaptive.discGrid) +
+    glslDefine("DISC_SETS_LIGHT", light.adaptive.discSets) +
+    glslDefine("DISC_ASKS_RING_LIGHT", light.earlyOut == EarlyOut::Ring) +
     glslDefine("DISC_ASKS_BOUNDS_LIGHT", readsBounds(light)) +
     ShaderLibrary::source("shadowtech/adaptive/adaptive_estimator.glsl");
 }

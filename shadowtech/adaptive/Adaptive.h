@@ -6,14 +6,6 @@
 namespace gnomon
 {
 
-/// Settings of the disc; each counts by its square.
-struct AdaptiveSettings
-{
-  int discGrid = 8;  ///< a disc has discGrid^2 points
-  int discSets = 16; ///< there are discSets^2 different discs
-};
-const SettingsTable& adaptiveSettings();
-
 /// `adaptive`: percentage closer filtering over a jittered disc, which reads few texels where the
 /// whole disc is lit or hidden (docs/techniques/pcf.md). Sources: Uralsky, GPU Gems 2, chapter 17;
 /// Rzeczkowski, section 3.2.4.

@@ -24,6 +24,12 @@ inline std::string glslNumber(double value)
   return { text.data(), result.ptr };
 }
 
+/// Return the line that defines a macro as a finite number.
+inline std::string glslDefine(const std::string& name, double value)
+{
+  return "#define " + name + " float(" + glslNumber(value) + ")\n";
+}
+
 /// Return the name of one element of an array of uniforms.
 inline std::string glslElement(const std::string& name, std::size_t index)
 {

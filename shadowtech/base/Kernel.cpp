@@ -10,22 +10,9 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-const SettingsTable& kernelSettings()
-{
-  static const SettingsTable table = { "The filter's width",
-    { integer(
-        "kernel_size", "the kernel's width", "texels", &KernelSettings::sizeTexels, { 1, 32 }),
-      real("kernel_width",
-        "above 0: the kernel's width across the light (from a position: at distance 1), over which "
-        "as many taps are spread as kernel_size says",
-        "world units", &KernelSettings::widthAcross, anyLength) } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 KernelUnits kernelUnits(const ShadowLight& light)
 {
-  if (light.of<KernelSettings>().widthAcross > 0.0)
+  if (light.kernel.widthAcross > 0.0)
   {
     return KernelUnits::Across;
   }
@@ -44,15 +31,15 @@ MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent)
       reach.discTexels = extent.disc;
       return reach;
     case KernelUnits::Even:
-      reach.largestStretch = largestStretch(light.of<KernelSettings>().sizeTexels);
+      reach.largestStretch = largestStretch(light.kernel.sizeTexels);
       break;
     case KernelUnits::Across:
     {
       constexpr double widest = 1e12; // as good as infinite
       // From a position, at distance 1, it is a tangent.
       const double unit = light.kind == LightKind::Directional ? light.unitWorld : 1.0;
-      reach.unitAcross = std::min(widest,
-        light.of<KernelSettings>().widthAcross / unit / light.of<KernelSettings>().sizeTexels);
+      reach.unitAcross =
+        std::min(widest, light.kernel.widthAcross / unit / light.kernel.sizeTexels);
     }
     break;
   }

@@ -9,17 +9,6 @@
 namespace gnomon
 {
 
-/// The width of a filter's kernel, for all techniques with a filter.
-struct KernelSettings
-{
-  int sizeTexels = 3; ///< side of a square kernel, diameter of a disc
-  /// The width across the light in the world's lengths, of a positional light at distance 1; 0: use
-  /// sizeTexels.
-  double widthAcross = 0.0;
-};
-/// Return the settings of techniques with a filter.
-const SettingsTable& kernelSettings();
-
 /// The unit of a filter's kernel (kernel_units.glsl). The kernel is `kernel_size` units wide.
 enum class KernelUnits
 {

@@ -1,7 +1,5 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 
-#include "lights/SettingsTable.h"
-
 #include "shadowtech/base/GlslText.h"
 
 namespace gnomon
@@ -27,7 +25,7 @@ std::string lightViewsDefines(const ShadowLight& light, bool asksPixels)
     glslDefine("VIEWS_CUBE_LIGHT", layout == ViewLayout::Cube) +
     glslDefine("VIEWS_SPLITS_LIGHT", layout == ViewLayout::Splits) +
     glslDefine("VIEWS_BLENDED_LIGHT", layout == ViewLayout::Splits && light.splitBlend > 0.0) +
-    "#define SPLIT_BLEND_LIGHT float(" + findSetting("split_blend")->get(light) + ")\n" +
+    glslDefine("SPLIT_BLEND_LIGHT", light.splitBlend) +
     glslDefine("VIEWS_WARPED_LIGHT", isWarped(light)) +
     glslDefine("VIEWS_FITTED_LIGHT", light.fittedToReceivers) +
     glslDefine("VIEWS_PIXELS_LIGHT", asksPixels) +

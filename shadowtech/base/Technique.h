@@ -72,9 +72,9 @@ struct TechniqueInfo
   std::function<double(const ShadowLight&)> bytesPerTexel = {};
   double bytesPerPixel = 0.0; ///< largest memory besides maps, per pixel of the picture
 
-  /// Return why it cannot follow a light's settings, whose projection is resolved; empty if it can.
-  /// A null pointer: it always can.
-  std::string (*refused)(const ShadowLight&) = nullptr;
+  /// Functions that return why it cannot follow a light's settings, whose projection is resolved;
+  /// empty if it can. The first reason counts.
+  std::vector<std::string (*)(const ShadowLight&)> refused = {};
 
   /// The classes of its pixels; empty: it does not classify them. A screen technique fills
   /// ScreenInput::classes or LayerInput::classes. A pointwise one sets `int pixelClass_LIGHT` in

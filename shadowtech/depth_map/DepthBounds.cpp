@@ -10,17 +10,6 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-const SettingsTable& earlyOutSettings()
-{
-  static const SettingsTable table = { "Early out",
-    { bakedInto(choice("early_out",
-      "what is asked before the whole kernel is read: nothing, its outermost ring (adaptive), or "
-      "the depths' bounds",
-      &EarlyOutSettings::earlyOut, { "none", "ring", "exact" })) } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 void DepthBounds::release()
 {
   this->bounds_.reset();

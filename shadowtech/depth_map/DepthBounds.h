@@ -9,21 +9,6 @@
 namespace gnomon
 {
 
-/// What `adaptive` and `pcss` test before they read their whole kernel.
-enum class EarlyOut
-{
-  None, ///< nothing
-  Ring, ///< the outermost points, trusted if they agree; may err
-  Exact ///< the least and the largest depth around the point; never errs
-};
-/// The settings of tests before the whole kernel.
-struct EarlyOutSettings
-{
-  EarlyOut earlyOut = EarlyOut::Exact;
-};
-/// Return the settings of techniques with an early out.
-const SettingsTable& earlyOutSettings();
-
 /// A pyramid of the least and the largest depth of a map's blocks of 2, 4, 8, ... texels, up to the
 /// whole layer. It bounds all texels of a region without reading them (depth_bounds.glsl).
 ///

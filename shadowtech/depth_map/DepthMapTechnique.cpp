@@ -48,9 +48,8 @@ std::vector<std::string> writingDefines(
   const MapReach& reach, const Layer& layer, const ShadowLight& light)
 {
   std::vector<std::string> defines = { "DEPTH_LINEAR", "WRITES_DEPTH",
-    define("PUSH", layer.push + light.of<DepthMapSettings>().biasSlope),
-    define("DEEPEST", deepestPushed), define("REACH_SQUARE", reach.squareTexels),
-    define("REACH_DISC", reach.discTexels) };
+    define("PUSH", layer.push + light.depthMap.biasSlope), define("DEEPEST", deepestPushed),
+    define("REACH_SQUARE", reach.squareTexels), define("REACH_DISC", reach.discTexels) };
   if (measuresAlongRay(light))
   {
     defines.emplace_back("EUCLIDEAN");
@@ -79,8 +78,7 @@ void drawView(std::size_t number, const MapReach& reach, const Layer& layer, con
   const float farthest = 1.0f;
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 
-  const bool biased =
-    light.of<DepthMapSettings>().biasConstant > 0.0 || light.of<DepthMapSettings>().biasSlope > 0.0;
+  const bool biased = light.depthMap.biasConstant > 0.0 || light.depthMap.biasSlope > 0.0;
   std::vector<std::string> defines;
   glDisable(GL_POLYGON_OFFSET_FILL);
   if (layer.push == 1.0 && !biased && polygonOffsetServes(view, reach))
@@ -93,7 +91,7 @@ void drawView(std::size_t number, const MapReach& reach, const Layer& layer, con
     defines = writingDefines(reach, layer, light);
   }
   constexpr double deepest = 2.0; // pushes all out of the map
-  const double bias = light.of<DepthMapSettings>().biasConstant / light.unitWorld * view.depthScale;
+  const double bias = light.depthMap.biasConstant / light.unitWorld * view.depthScale;
   std::vector<Uniform> uniforms = { { "bias", static_cast<float>(std::min(bias, deepest)) },
     { "rayScale", static_cast<float>(1.0 / longestRay(view)) },
     { "frontLayer", static_cast<int>(number) } };
@@ -123,29 +121,9 @@ void drawInto(const GlTexture& depths, std::size_t layer)
 } // namespace
 
 //------------------------------------------------------------------------------
-const SettingsTable& depthMapSettings()
-{
-  using S = DepthMapSettings;
-  static const SettingsTable table = { "Depth maps",
-    {
-      bakedInto(choice("depth", "the surface on a ray that the map holds", &S::surface,
-        { "first", "second", "midpoint" })),
-      bakedInto(choice("metric", "how the map measures: along the view's axis, or along the ray",
-        &S::metric, { "linear", "euclidean" })),
-      bakedInto(real("bias_constant", "how far the map is pushed back on top of what acne needs",
-        "world units", &S::biasConstant, anyLength)),
-      bakedInto(
-        real("bias_slope", "the same, times what a caster's depth spans within the filter's reach",
-          "", &S::biasSlope, { 0.0, 1000.0 })),
-    } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 bool measuresAlongRay(const ShadowLight& light)
 {
-  return light.kind != LightKind::Directional &&
-    light.of<DepthMapSettings>().metric == DepthMetric::Euclidean;
+  return light.kind != LightKind::Directional && light.depthMap.metric == DepthMetric::Euclidean;
 }
 
 //------------------------------------------------------------------------------
@@ -177,13 +155,13 @@ void DepthMapTechnique::bake(const MapInput& input)
   this->reach_ = this->mapReach(input.light);
 
   beginCasters(this->framebuffer_.name(), this->sizeTexels_);
-  if (input.light.of<DepthMapSettings>().surface == DepthSurface::Midpoint)
+  if (input.light.depthMap.surface == DepthSurface::Midpoint)
   {
     this->bakeMidpoints(input);
     return;
   }
   Layer layer;
-  if (input.light.of<DepthMapSettings>().surface == DepthSurface::Second)
+  if (input.light.depthMap.surface == DepthSurface::Second)
   {
     layer.push = 0.0; // faces away from the light, so it cannot shadow itself
     layer.backOnly = true;

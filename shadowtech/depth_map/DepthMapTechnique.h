@@ -7,32 +7,6 @@ namespace gnomon
 
 class DepthBounds;
 
-/// Which surface on a light's ray a depth map holds.
-enum class DepthSurface
-{
-  First,   ///< the nearest
-  Second,  ///< the nearest that faces away from the light
-  Midpoint ///< between the nearest two
-};
-
-/// How a depth map measures depth.
-enum class DepthMetric
-{
-  Linear,   ///< along the view's axis
-  Euclidean ///< along the ray
-};
-
-/// The contents of a depth map.
-struct DepthMapSettings
-{
-  DepthSurface surface = DepthSurface::First;
-  DepthMetric metric = DepthMetric::Linear;
-  double biasConstant = 0.0; ///< in the world's lengths
-  double biasSlope = 0.0;    ///< in units of the caster's depth span within the reach
-};
-/// Return the settings of techniques with a depth map.
-const SettingsTable& depthMapSettings();
-
 /// True if a light's depth maps hold distances along the ray, which are not linear across the
 /// light.
 bool measuresAlongRay(const ShadowLight& light);

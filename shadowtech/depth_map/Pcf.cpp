@@ -34,24 +34,13 @@ std::string castanoGlsl(int texels)
 
 std::string refusedKernel(const ShadowLight& light)
 {
-  const int texels = light.of<KernelSettings>().sizeTexels;
-  return light.of<PcfSettings>().kernel == FilterKernel::Castano && texels != 3 && texels != 5 &&
-      texels != 7
+  const int texels = light.kernel.sizeTexels;
+  return light.pcf.kernel == FilterKernel::Castano && texels != 3 && texels != 5 && texels != 7
     ? "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(texels)
     : "";
 }
 
 } // namespace
-
-//------------------------------------------------------------------------------
-const SettingsTable& pcfSettings()
-{
-  static const SettingsTable table = { "The filter's kernel",
-    { choice("kernel", "what is averaged over", &PcfSettings::kernel,
-      { "bilinear", "box", "poisson", "castano" }) },
-    refusedKernel };
-  return table;
-}
 
 //------------------------------------------------------------------------------
 TechniqueInfo Pcf::info()
@@ -60,6 +49,7 @@ TechniqueInfo Pcf::info()
   info.name = "pcf";
   info.bytesPerTexel = bytesPerTexel;
   info.settings = { &viewSettings(), &kernelSettings(), &pcfSettings(), &depthMapSettings() };
+  info.refused = { refusedKernel };
   return info;
 }
 
@@ -67,8 +57,8 @@ TechniqueInfo Pcf::info()
 MapReach Pcf::mapReach(const ShadowLight& light) const
 {
   const KernelUnits units = kernelUnits(light);
-  const double width = light.of<KernelSettings>().sizeTexels;
-  switch (light.of<PcfSettings>().kernel)
+  const double width = light.kernel.sizeTexels;
+  switch (light.pcf.kernel)
   {
     case FilterKernel::Bilinear:
     case FilterKernel::Castano:
@@ -86,19 +76,17 @@ MapReach Pcf::mapReach(const ShadowLight& light) const
 std::string Pcf::estimatorGlsl(const ShadowLight& light) const
 {
   const KernelUnits units = kernelUnits(light);
-  const bool poisson = light.of<PcfSettings>().kernel == FilterKernel::Poisson;
-  const bool castano = light.of<PcfSettings>().kernel == FilterKernel::Castano;
-  const bool smooth = castano || light.of<PcfSettings>().kernel == FilterKernel::Bilinear;
-  const bool rows =
-    light.of<PcfSettings>().kernel == FilterKernel::Bilinear && units == KernelUnits::Texels;
+  const bool poisson = light.pcf.kernel == FilterKernel::Poisson;
+  const bool castano = light.pcf.kernel == FilterKernel::Castano;
+  const bool smooth = castano || light.pcf.kernel == FilterKernel::Bilinear;
+  const bool rows = light.pcf.kernel == FilterKernel::Bilinear && units == KernelUnits::Texels;
   const bool weighted = smooth && !rows && units != KernelUnits::Across;
-  return kernelDefines(light) +
-    glslDefine("PCF_TEXELS_LIGHT", light.of<KernelSettings>().sizeTexels) +
+  return kernelDefines(light) + glslDefine("PCF_TEXELS_LIGHT", light.kernel.sizeTexels) +
     glslDefine("PCF_ROWS_LIGHT", rows) + glslDefine("PCF_WEIGHTED_LIGHT", weighted) +
     glslDefine("PCF_POISSON_LIGHT", poisson) + glslDefine("PCF_POINTS_LIGHT", poissonPoints) +
-    glslDefine("PCF_BOX_LIGHT", light.of<PcfSettings>().kernel == FilterKernel::Box) +
+    glslDefine("PCF_BOX_LIGHT", light.pcf.kernel == FilterKernel::Box) +
     glslDefine("PCF_CASTANO_LIGHT", castano) + (poisson ? poissonDiscGlsl() : "") +
-    (castano ? castanoGlsl(light.of<KernelSettings>().sizeTexels) : "") +
+    (castano ? castanoGlsl(light.kernel.sizeTexels) : "") +
     ShaderLibrary::source("shadowtech/depth_map/pcf_estimator.glsl");
 }
 

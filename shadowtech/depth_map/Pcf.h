@@ -5,24 +5,6 @@
 namespace gnomon
 {
 
-/// The texels around a receiver that a filter reads, and their weights.
-enum class FilterKernel
-{
-  Bilinear, ///< a square anywhere: texels count by their covered share
-  Box,      ///< n x n texels of equal weight
-  Poisson,  ///< a few texels of equal weight, on a disc turned from place to place
-  Castano   ///< a square anywhere: weights fall with the distance
-};
-/// The settings of percentage closer filtering.
-struct PcfSettings
-{
-  /// The default is the narrowest kernel that shows no single texels, as a box does, and also
-  /// smooths the steps of an edge that runs across the texels.
-  FilterKernel kernel = FilterKernel::Bilinear;
-};
-/// Return the settings of `pcf`.
-const SettingsTable& pcfSettings();
-
 /// `pcf`: the plain shadow map with percentage closer filtering (Reeves, Salesin and Cook 1987;
 /// docs/techniques/pcf.md). Visibility is a weighted mean of comparisons with the texels of the
 /// light's kernel, each made where its texel was sampled (DepthMapTechnique.h).

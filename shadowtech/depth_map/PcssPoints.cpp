@@ -12,17 +12,6 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-const SettingsTable& pcssSettings()
-{
-  static const SettingsTable table = { "Percentage closer soft shadows",
-    { bakedInto(choice("pcss_samples",
-      "points of the light to look for blockers with, and to filter with: 16 and 16, 36 and 64, 64 "
-      "and 256",
-      &PcssSettings::samples, { "low", "medium", "high" })) } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 PcssCounts pcssCounts(PcssSamples samples)
 {
   static constexpr std::array<PcssCounts, 3> counts = { { { 4 * 4, 4 * 4 }, { 6 * 6, 8 * 8 },

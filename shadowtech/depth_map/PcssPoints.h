@@ -13,22 +13,6 @@
 namespace gnomon
 {
 
-/// The number of points of the light for the blocker search and the filter of percentage closer
-/// soft shadows (Apelles, table 4.1).
-enum class PcssSamples
-{
-  Low,    ///< 4 x 4 and 4 x 4
-  Medium, ///< 6 x 6 and 8 x 8
-  High    ///< 8 x 8 and 16 x 16
-};
-/// The settings of percentage closer soft shadows.
-struct PcssSettings
-{
-  PcssSamples samples = PcssSamples::Medium;
-};
-/// Return the settings of `pcss`.
-const SettingsTable& pcssSettings();
-
 /// The numbers of points of the blocker search and the filter.
 struct PcssCounts
 {

@@ -1,7 +1,5 @@
 #include "shadowtech/exact/ConservativeTechnique.h"
 
-#include "shadowtech/base/BakeSettings.h"
-#include "shadowtech/tracing/EdgeSettings.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 namespace gnomon

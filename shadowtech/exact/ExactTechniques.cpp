@@ -1,7 +1,5 @@
 #include "shadowtech/exact/ExactTechniques.h"
 
-#include "shadowtech/base/PublishedSettings.h"
-
 namespace gnomon
 {
 namespace
@@ -27,17 +25,6 @@ TechniqueInfo infoOfCrsma()
 } // namespace
 
 //------------------------------------------------------------------------------
-const SettingsTable& crsmaSettings()
-{
-  static const SettingsTable table = { "Adjacency",
-    { bakedInto(choice("adjacency_ring",
-      "which triangles around one may cover a texel with it: across its edges, or all around its "
-      "vertices, which decides more and takes longer",
-      &CrsmaSettings::ring, { "edges", "vertices" })) } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 const std::vector<ConservativeEntry>& exactTechniques()
 {
   static const std::vector<ConservativeEntry> entries = {
@@ -45,7 +32,7 @@ const std::vector<ConservativeEntry>& exactTechniques()
     { infoOfCrsma(),
       [](const ShadowSettings& settings)
       {
-        const bool fan = settings.of<CrsmaSettings>().ring == AdjacencyRing::Vertices;
+        const bool fan = settings.crsma.ring == AdjacencyRing::Vertices;
         return certainRule(fan ? Covering::Fan : Covering::Ring);
       } },
     { infoOfExact("silhouette"),

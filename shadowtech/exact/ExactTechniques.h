@@ -7,18 +7,6 @@
 namespace gnomon
 {
 
-/// Neighbours of a triangle that may cover a texel together with it.
-enum class AdjacencyRing
-{
-  Edges,   ///< across its edges
-  Vertices ///< around its corners
-};
-struct CrsmaSettings
-{
-  AdjacencyRing ring = AdjacencyRing::Edges;
-};
-const SettingsTable& crsmaSettings();
-
 /// The exact techniques for hard shadows. They differ in which casters must cover a texel:
 /// - `crsm`: one triangle contains it (conservative shadow maps after Hertel et al. 2009, with
 ///   correct depth bounds).

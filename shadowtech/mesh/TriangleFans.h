@@ -12,14 +12,6 @@
 namespace gnomon
 {
 
-/// Which neighbours of a triangle are adjacent to it.
-enum class Adjacency
-{
-  Off,
-  Edges,   ///< triangles that share an edge with it
-  Vertices ///< triangles that share a vertex with it
-};
-
 /// The triangles around each vertex of a surface. Vertices at exactly the same place count as one.
 struct SurfaceFans
 {

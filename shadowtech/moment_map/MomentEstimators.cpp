@@ -1,8 +1,6 @@
 #include "shadowtech/moment_map/MomentEstimators.h"
 
 #include "lights/LightViews.h"
-#include "lights/SettingsTable.h"
-#include "shadowtech/base/Kernel.h"
 
 #include <cmath>
 
@@ -15,17 +13,25 @@ namespace
 /// of a summed-area table (MomentEstimator::largest is 0).
 std::string refusedSums(const ShadowLight& light)
 {
-  return light.of<MomentMapSettings>().blur == MapBlur::Sat ? "'" + light.estimator +
+  return light.momentMap.blur == MapBlur::Sat ? "'" + light.estimator +
       "' has moments beyond the range of the 32-bit integers that a summed-area table holds; use "
       "'blur' box"
-                                                            : "";
+                                              : "";
+}
+
+std::string refusedLevels(const ShadowLight& light)
+{
+  const MomentMapSettings& settings = light.momentMap;
+  return settings.blur == MapBlur::Sat && settings.mipMaps
+    ? "a summed-area table has no levels; 'mip_maps' is for 'blur' box"
+    : "";
 }
 
 /// Return the bytes per texel of all layers with their levels, their depth buffer, a layer's
 /// samples, and the summed-area table or the blur's layer.
 double bytesPerTexelOf(int moments, const ShadowLight& light)
 {
-  const auto& settings = light.of<MomentMapSettings>();
+  const MomentMapSettings& settings = light.momentMap;
   const bool summed = settings.blur == MapBlur::Sat;
   const double views = mostViews(light);
   const double layers = (summed ? 1.0 : views) * (settings.mipMaps ? 4.0 / 3.0 : 1.0);
@@ -42,6 +48,7 @@ TechniqueInfo infoOfMoments(const char* name, int moments)
   info.bytesPerTexel = [moments](const ShadowLight& light)
   { return bytesPerTexelOf(moments, light); };
   info.settings = { &viewSettings(), &kernelSettings(), &momentMapSettings() };
+  info.refused = { refusedLevels };
   info.kernel = "square";
   return info;
 }
@@ -49,19 +56,10 @@ TechniqueInfo infoOfMoments(const char* name, int moments)
 } // namespace
 
 //------------------------------------------------------------------------------
-const SettingsTable& varianceSettings()
-{
-  static const SettingsTable table = { "Variance",
-    { real("variance_floor", "the least variance of depths",
-      "share of the map's depth range, squared", &VarianceSettings::floor, { 1e-9, 1.0 }) } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 MomentEstimator singleExponential()
 {
   TechniqueInfo info = infoOfMoments("single_exponential", 1);
-  info.refused = refusedSums;
+  info.refused = { refusedSums, refusedLevels };
   return { std::move(info), 1, "shadowtech/moment_map/single_exponential_moments.glsl",
     "shadowtech/moment_map/single_exponential_estimator.glsl",
     glm::vec4(std::exp(exponentPositive), 0.0, 0.0, 0.0), glm::vec4(0.0f) };
@@ -81,7 +79,7 @@ MomentEstimator exponential()
 {
   TechniqueInfo info = infoOfMoments("exponential", 4);
   info.settings.push_back(&varianceSettings());
-  info.refused = refusedSums;
+  info.refused = { refusedSums, refusedLevels };
   const double positive = std::exp(exponentPositive);
   const double negative = -std::exp(-exponentNegative);
   return { std::move(info), 4, "shadowtech/moment_map/exponential_moments.glsl",

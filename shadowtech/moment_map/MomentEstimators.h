@@ -5,14 +5,6 @@
 namespace gnomon
 {
 
-/// Settings of estimators by variance: the least variance of depths, as a square of shares of the
-/// map's depth range.
-struct VarianceSettings
-{
-  double floor = 1e-6;
-};
-const SettingsTable& varianceSettings();
-
 ///@{
 /// Factors of depths in exponents, as in exponential_warps.glsl. `single_exponential` uses the
 /// positive one.

@@ -26,63 +26,28 @@ TexelFormat momentsFormat(int moments)
                       : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
 }
 
-/// Return the line that defines a GLSL macro as a real setting of the light.
-std::string defineSetting(const std::string& name, const char* setting, const ShadowLight& light)
-{
-  return "#define " + name + " float(" + findSetting(setting)->get(light) + ")\n";
-}
-
 /// Return the number of levels of a light's map: down to a single texel, or 1 without mip maps.
 int levelsOf(const ShadowLight& light)
 {
   int levels = 1;
-  while (light.of<MomentMapSettings>().mipMaps && light.mapSizeTexels >> levels > 0)
+  while (light.momentMap.mipMaps && light.mapSizeTexels >> levels > 0)
   {
     ++levels;
   }
   return levels;
 }
 
-std::string refusedLevels(const ShadowLight& light)
-{
-  const auto& settings = light.of<MomentMapSettings>();
-  return settings.blur == MapBlur::Sat && settings.mipMaps
-    ? "a summed-area table has no levels; 'mip_maps' is for 'blur' box"
-    : "";
-}
-
 } // namespace
-
-//------------------------------------------------------------------------------
-const SettingsTable& momentMapSettings()
-{
-  using S = MomentMapSettings;
-  static const SettingsTable table = { "Maps of moments",
-    {
-      real("bleeding", "up to what visibility points are dark", "", &S::bleeding, { 0.0, 0.99 }),
-      bakedInto(choice("blur",
-        "averaged over the same box of texels everywhere, or over each point's own rectangle, by "
-        "summed-area tables (not esm, evsm)",
-        &S::blur, { "box", "sat" })),
-      bakedInto(
-        choice("mip_maps", "with blur=box: whether pixels that see many texels read coarser levels",
-          &S::mipMaps, { "off", "on" })),
-      bakedInto(oneOf("map_samples", "how many samples of a texel are drawn and averaged", "",
-        &S::samples, { { "1", 1 }, { "2", 2 }, { "4", 4 }, { "8", 8 } })),
-    },
-    refusedLevels };
-  return table;
-}
 
 //------------------------------------------------------------------------------
 MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 {
-  if (light.of<MomentMapSettings>().blur == MapBlur::Sat)
+  if (light.momentMap.blur == MapBlur::Sat)
   {
     // Along each axis the rectangle extends as far as a disc would.
-    return kernelReach(light, { 0.5, 0.0, 0.5 * light.of<KernelSettings>().sizeTexels });
+    return kernelReach(light, { 0.5, 0.0, 0.5 * light.kernel.sizeTexels });
   }
-  return { 0.5 * (light.of<KernelSettings>().sizeTexels + 1.0), 0.0 };
+  return { 0.5 * (light.kernel.sizeTexels + 1.0), 0.0 };
 }
 
 //------------------------------------------------------------------------------
@@ -90,14 +55,14 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
 {
   const TexelFormat format = momentsFormat(this->estimator_.count);
   const int sizeTexels = light.mapSizeTexels;
-  const bool blurred = !this->summed_ && light.of<KernelSettings>().sizeTexels > 1;
+  const bool blurred = !this->summed_ && light.kernel.sizeTexels > 1;
   blurred ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();
   this->summed_ ? this->table_.allocate(format.channels, sizeTexels, views)
                 : this->table_.release();
   const int layers = this->summed_ ? 1 : views;
   const int levels = levelsOf(light);
   if (this->sizeTexels_ == sizeTexels && this->layers_ == layers && this->levels_ == levels &&
-    this->samples_ == light.of<MomentMapSettings>().samples)
+    this->samples_ == light.momentMap.samples)
   {
     return;
   }
@@ -113,9 +78,9 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
   glTexParameterfv(
     GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(this->estimator_.empty));
-  if (light.of<MomentMapSettings>().samples > 1)
+  if (light.momentMap.samples > 1)
   {
-    this->sampled_.allocate(format, sizeTexels, light.of<MomentMapSettings>().samples);
+    this->sampled_.allocate(format, sizeTexels, light.momentMap.samples);
   }
   else
   {
@@ -126,7 +91,7 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   this->sizeTexels_ = sizeTexels;
   this->layers_ = layers;
   this->levels_ = levels;
-  this->samples_ = light.of<MomentMapSettings>().samples;
+  this->samples_ = light.momentMap.samples;
 }
 
 //------------------------------------------------------------------------------
@@ -134,7 +99,7 @@ void MomentMapTechnique::bake(const MapInput& input)
 {
   const GlStateGuard guard;
   const std::vector<LightView>& views = input.views.views;
-  this->summed_ = input.light.of<MomentMapSettings>().blur == MapBlur::Sat;
+  this->summed_ = input.light.momentMap.blur == MapBlur::Sat;
   // Even a light without a view needs a texture to bind.
   this->allocate(input.light, std::max(static_cast<int>(views.size()), 1));
   this->views_ = input.views;
@@ -184,10 +149,10 @@ void MomentMapTechnique::bake(const MapInput& input)
       this->table_.sum(this->map_.name(), 0, view, input.shaders);
     }
   }
-  if (!this->summed_ && input.light.of<KernelSettings>().sizeTexels > 1)
+  if (!this->summed_ && input.light.kernel.sizeTexels > 1)
   {
     this->blur_.apply(this->map_.name(), static_cast<int>(views.size()),
-      input.light.of<KernelSettings>().sizeTexels, this->estimator_.empty, input.shaders);
+      input.light.kernel.sizeTexels, this->estimator_.empty, input.shaders);
   }
   if (this->levels_ > 1)
   {
@@ -226,12 +191,12 @@ std::size_t MomentMapTechnique::bytesOfMaps() const
 //------------------------------------------------------------------------------
 std::string MomentMapTechnique::visibilityGlsl(const ShadowLight& light) const
 {
-  return lightViewsDefines(light, light.of<MomentMapSettings>().mipMaps) + kernelDefines(light) +
-    glslDefine("KERNEL_TEXELS_LIGHT", light.of<KernelSettings>().sizeTexels) +
+  return lightViewsDefines(light, light.momentMap.mipMaps) + kernelDefines(light) +
+    glslDefine("KERNEL_TEXELS_LIGHT", light.kernel.sizeTexels) +
     glslDefine("MOMENT_LEVELS_LIGHT", levelsOf(light)) +
-    glslDefine("MOMENTS_SUMMED_LIGHT", light.of<MomentMapSettings>().blur == MapBlur::Sat) +
-    defineSetting("BLEEDING_LIGHT", "bleeding", light) +
-    defineSetting("VARIANCE_FLOOR_LIGHT", "variance_floor", light) +
+    glslDefine("MOMENTS_SUMMED_LIGHT", light.momentMap.blur == MapBlur::Sat) +
+    glslDefine("BLEEDING_LIGHT", light.momentMap.bleeding) +
+    glslDefine("VARIANCE_FLOOR_LIGHT", light.variance.floor) +
     ShaderLibrary::source(this->estimator_.estimatorFile);
 }
 

@@ -10,24 +10,6 @@
 namespace gnomon
 {
 
-/// How to average maps of moments.
-enum class MapBlur
-{
-  Box, ///< when baked, by one box for the whole map
-  Sat  ///< when read, over a rectangle for each lookup, by a summed-area table
-};
-
-/// How to bake a map of moments and use its bound. Moments bound the lit share from above. A bound
-/// up to `bleeding` counts as shadow, and the rest is rescaled to [0, 1].
-struct MomentMapSettings
-{
-  double bleeding = 0.2;
-  MapBlur blur = MapBlur::Box;
-  bool mipMaps = false; ///< true if pixels that cover many texels read coarser levels of the map
-  int samples = 1;      ///< 1, 2, 4 or 8 samples per texel, which are averaged
-};
-const SettingsTable& momentMapSettings();
-
 /// An estimator over moments.
 struct MomentEstimator
 {

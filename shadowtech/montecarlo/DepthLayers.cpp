@@ -3,7 +3,6 @@
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/montecarlo/MonteCarloSettings.h"
 
 #include <utility>
 
@@ -27,7 +26,7 @@ CasterShader layerShader(const char* path, const LightView& view, double nearest
 
 bool isPeeled(const ShadowLight& light)
 {
-  return light.of<MonteCarloSettings>().layers == RayLayers::Peeled;
+  return light.monteCarlo.layers == RayLayers::Peeled;
 }
 
 int pagesOf(const ShadowLight& light)
@@ -120,7 +119,7 @@ void DepthLayers::drawPeeled(const MapInput& input, std::size_t view, double nea
 void DepthLayers::makeSlabs(const MapInput& input, std::size_t view)
 {
   std::vector<std::string> defines = { "PEELED " + std::to_string(peeledSurfaces) };
-  if (input.light.of<MonteCarloSettings>().layers == RayLayers::Near)
+  if (input.light.monteCarlo.layers == RayLayers::Near)
   {
     defines.emplace_back("ENDLESS");
   }

@@ -12,7 +12,7 @@ namespace gnomon
 /// The solid parts of casters in a light's map: up to four slabs per texel, between depths of ray
 /// space (RaySpace.h).
 ///
-/// RayLayers chooses the slabs (MonteCarloSettings.h): between the nearest and the farthest
+/// RayLayers chooses the slabs (settings.json): between the nearest and the farthest
 /// surface, or between peeled surfaces. The whole texel counts as what its centre sees.
 class DepthLayers
 {

@@ -28,13 +28,13 @@ LightArea areaOf(const ShadowLight& light)
 /// Return the number of rays along each side of the grid on the light; 1 for a point.
 int raysOf(const ShadowLight& light)
 {
-  return light.area ? light.of<MonteCarloSettings>().rays : 1;
+  return light.area ? light.monteCarlo.rays : 1;
 }
 
 /// Return the filter's radius in pixels; 0 for hard shadows, which have no noise.
 int filterOf(const ShadowLight& light)
 {
-  return light.area ? light.of<MonteCarloSettings>().filter : 0;
+  return light.area ? light.monteCarlo.filter : 0;
 }
 
 std::string refusedByMonteCarlo(const ShadowLight& light)
@@ -45,13 +45,13 @@ std::string refusedByMonteCarlo(const ShadowLight& light)
       findSetting("projection")->get(light) +
       "' covers only what a camera sees; use uniform or cube";
   }
-  const bool linear = light.of<MonteCarloSettings>().search == RaySearch::Linear;
-  if (linear && light.of<MonteCarloSettings>().layers == RayLayers::Peeled)
+  const bool linear = light.monteCarlo.search == RaySearch::Linear;
+  if (linear && light.monteCarlo.layers == RayLayers::Peeled)
   {
     return "'mc_search' linear needs at most one solid in a texel, and 'mc_layers' peeled has up "
            "to four; use near_far, near or eye";
   }
-  if (!linear && light.of<MonteCarloSettings>().layers == RayLayers::Eye)
+  if (!linear && light.monteCarlo.layers == RayLayers::Eye)
   {
     return "'mc_layers' eye asks the camera about single points of a ray, and 'mc_search' "
            "hierarchical has no such points; use linear";
@@ -65,38 +65,6 @@ std::string refusedByMonteCarlo(const ShadowLight& light)
 } // namespace
 
 //------------------------------------------------------------------------------
-const SettingsTable& monteCarloSettings()
-{
-  using S = MonteCarloSettings;
-  static const SettingsTable table = { "Rays through depth layers",
-    {
-      integer("mc_rays",
-        "rays of a pixel along either side of a grid on the light, so that 3 makes 9", "", &S::rays,
-        { 1, 32 }),
-      bakedInto(choice("mc_layers",
-        "what is solid in a texel: each of up to four casters, all between the first and the last "
-        "surface, all behind the first, or (eye) between the first and the last what the camera "
-        "does not see to be empty",
-        &S::layers, { "peeled", "near_far", "near", "eye" })),
-      choice("mc_search",
-        "how rays are searched: from cell to cell of a hierarchy, or in steps of equal length, "
-        "which misses some",
-        &S::search, { "hierarchical", "linear" }),
-      choice("mc_classify",
-        "what bounds over the map decide without a search: nothing, pixels, or pixels and then "
-        "single rays",
-        &S::classify, { "off", "pixels", "rays" }),
-      bakedInto(choice("mc_pyramid",
-        "how the bounds over the map lie: on a grid, or around every texel, which takes ten times "
-        "the memory",
-        &S::pyramid, { "mips", "nbuffer" })),
-      integer("mc_filter", "radius of the filter that takes off the noise, on surfaces; 0: none",
-        "pixels", &S::filter, { 0, 32 }),
-    } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 TechniqueInfo MonteCarlo::info()
 {
   TechniqueInfo info;
@@ -106,7 +74,7 @@ TechniqueInfo MonteCarlo::info()
   info.bytesPerTexel = [](const ShadowLight& light)
   { return DepthLayers::bytesPerTexel(light) + SlabBounds::bytesPerTexel(light); };
   info.bytesPerPixel = 64.0; // rays, means, weights, the filter's images
-  info.refused = refusedByMonteCarlo;
+  info.refused = { refusedByMonteCarlo };
   info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
     { "lit by the map's bounds", { 230, 230, 230 } },
     { "in shadow by the map's bounds", { 90, 90, 90 } },
@@ -137,8 +105,7 @@ void MonteCarlo::bake(const MapInput& input)
   this->layers_.draw(
     { input.light, this->views_, input.occluders, input.buffers, input.shaders }, this->nearest_);
   this->bounds_.build(this->layers_.slabs(), this->layers_.pages(), input.light.mapSizeTexels,
-    static_cast<int>(this->views_.views.size()), input.light.of<MonteCarloSettings>().pyramid,
-    input.shaders);
+    static_cast<int>(this->views_.views.size()), input.light.monteCarlo.pyramid, input.shaders);
 }
 
 //------------------------------------------------------------------------------
@@ -262,14 +229,14 @@ void MonteCarlo::followRays(const LayerInput& input)
     }
   };
   // Bounds cover one view, and a receiver's rays may cross several faces of a cube.
-  const bool decides = light.of<MonteCarloSettings>().classify != RayClasses::Off &&
-    viewLayout(light) == ViewLayout::Single;
+  const bool decides =
+    light.monteCarlo.classify != RayClasses::Off && viewLayout(light) == ViewLayout::Single;
   defineWhere(textured, "TEXTURED");
-  defineWhere(light.of<MonteCarloSettings>().pyramid == SlabHierarchy::NBuffer, "NBUFFER");
-  defineWhere(light.of<MonteCarloSettings>().search == RaySearch::Linear, "LINEAR_SEARCH");
-  defineWhere(light.of<MonteCarloSettings>().layers == RayLayers::Eye, "EYE_LAYER");
+  defineWhere(light.monteCarlo.pyramid == SlabHierarchy::NBuffer, "NBUFFER");
+  defineWhere(light.monteCarlo.search == RaySearch::Linear, "LINEAR_SEARCH");
+  defineWhere(light.monteCarlo.layers == RayLayers::Eye, "EYE_LAYER");
   defineWhere(decides, "CLASSIFY_PIXELS");
-  defineWhere(light.of<MonteCarloSettings>().classify == RayClasses::Rays, "CLASSIFY_RAYS");
+  defineWhere(light.monteCarlo.classify == RayClasses::Rays, "CLASSIFY_RAYS");
 
   std::vector<ScreenPass::Image> images = { { this->unfiltered_.name() },
     { this->slopes_.name() } };

@@ -113,7 +113,7 @@ std::size_t SlabBounds::bytes() const
 //------------------------------------------------------------------------------
 double SlabBounds::bytesPerTexel(const ShadowLight& light)
 {
-  const bool mips = light.of<MonteCarloSettings>().pyramid == SlabHierarchy::Mips;
+  const bool mips = light.monteCarlo.pyramid == SlabHierarchy::Mips;
   const double levels = mips ? 4.0 / 3.0 : 2.0 + std::log2(light.mapSizeTexels);
   constexpr double rounded = 4.0; // texels for one, as the side may be rounded up to twice as many
   return rounded * levels * mostViews(light) * 4 * sizeof(float);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "lights/ShadowSettings.h"
 #include "shadowtech/base/Gl.h"
-#include "shadowtech/montecarlo/MonteCarloSettings.h"
 
 #include <cstddef>
 

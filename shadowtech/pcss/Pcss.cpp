@@ -2,7 +2,6 @@
 
 #include "lights/LightViews.h"
 #include "shadowtech/base/GlslText.h"
-#include "shadowtech/base/PublishedSettings.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
 namespace gnomon
@@ -12,7 +11,7 @@ namespace
 
 std::string refusedByPcss(const ShadowLight& light)
 {
-  return light.of<EarlyOutSettings>().earlyOut == EarlyOut::Ring
+  return light.earlyOut == EarlyOut::Ring
     ? "'pcss' has no ring of points, as its points cover the whole light; its 'early_out' is "
       "exact or none"
     : "";
@@ -28,7 +27,7 @@ TechniqueInfo Pcss::info()
   info.bytesPerTexel = bytesPerTexelWithBounds;
   info.settings = { &viewSettings(), &pcssSettings(), &earlyOutSettings(), &depthMapSettings(),
     &publishedSettings() };
-  info.refused = refusedByPcss;
+  info.refused = { refusedByPcss };
   info.isSlow = true;
   info.asPublished = "pcss_as_published";
   info.classes = classesOfMaps();
@@ -67,7 +66,7 @@ void Pcss::bake(const MapInput& input)
   if (input.light.area)
   {
     this->bakeBounds(this->bounds_, input.shaders);
-    this->points_.upload(input.light.of<PcssSettings>().samples, input.light.area->shape);
+    this->points_.upload(input.light.pcss.samples, input.light.area->shape);
   }
 }
 
@@ -101,12 +100,10 @@ std::string Pcss::estimatorGlsl(const ShadowLight& light) const
   }
   const std::string around =
     viewLayout(light) == ViewLayout::Cube ? "#define LOOKS_AROUND_LIGHT\n" : "";
-  const bool asksBounds =
-    light.of<EarlyOutSettings>().earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
+  const bool asksBounds = light.earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
   return around + glslDefine("PCSS_BALL_LIGHT", light.area->shape == LightArea::Shape::Ball) +
     glslDefine("PCSS_RECTANGLE_LIGHT", light.area->shape == LightArea::Shape::Rectangle) +
-    pcssCountsDefines(light.of<PcssSettings>().samples) +
-    glslDefine("PCSS_ASKS_BOUNDS_LIGHT", asksBounds) +
+    pcssCountsDefines(light.pcss.samples) + glslDefine("PCSS_ASKS_BOUNDS_LIGHT", asksBounds) +
     ShaderLibrary::source("shadowtech/pcss/pcss_estimator.glsl");
 }
 

@@ -2,7 +2,7 @@
 
 #include "shadowtech/penumbra/PenumbraChooser.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
-#include "shadowtech/tracing/RefinementSettings.h"
+#include "shadowtech/tracing/Refinement.h"
 #include "shadowtech/tracing/TraceAll.h"
 
 namespace gnomon
@@ -15,6 +15,7 @@ TechniqueInfo Penumbra::info()
   info.name = "penumbra";
   info.exact = true;
   info.settings = { &lightSampleSettings(), &lightSeedSettings(), &refinementSettings() };
+  info.refused = { refusedSamples, refusedMovingSamples };
   info.seesTextures = true;
   info.classes = classesOfPenumbra();
   return info;

@@ -116,20 +116,12 @@ struct Planar::Batch
 };
 
 //------------------------------------------------------------------------------
-const SettingsTable& planarSettings()
-{
-  static const SettingsTable table = { "Planes",
-    { integer("planes", "how many planes show shadows, at most: the largest", "",
-      &PlanarSettings::planes, { 1, mostPlanes }) } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 TechniqueInfo Planar::info()
 {
   TechniqueInfo info;
   info.name = "planar";
   info.settings = { &planarSettings(), &lightSampleSettings(), &lightSeedSettings() };
+  info.refused = { refusedSamples };
   return info;
 }
 
@@ -137,8 +129,7 @@ TechniqueInfo Planar::info()
 void Planar::drawVisibility(const LayerInput& input, LightCounts& counts)
 {
   const GlStateGuard guard;
-  this->planes_.update(
-    input.occluders, static_cast<std::size_t>(input.light.of<PlanarSettings>().planes));
+  this->planes_.update(input.occluders, static_cast<std::size_t>(input.light.planar.planes));
   this->centre_ = lightPoint(input.light, input.occluders.frame.centre);
   this->samples_ = lightSamples(input.light, input.occluders.frame.centre);
   counts.lightSamples = static_cast<int>(this->samples_.size());

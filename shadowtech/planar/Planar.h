@@ -12,12 +12,6 @@
 namespace gnomon
 {
 
-struct PlanarSettings
-{
-  int planes = 8; ///< the most planes that show shadows, the largest first
-};
-const SettingsTable& planarSettings();
-
 /// `planar`: casters are projected from the light onto receiving planes (Blinn 1988), and rendered
 /// there as the camera sees them (docs/techniques/planar.md). Receivers on no such plane show no
 /// cast shadow.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/Bounds.h"
+#include "lights/ShadowSettings.h"
 
 #include <glm/glm.hpp>
 
@@ -14,7 +15,7 @@ namespace gnomon
 struct Occluders;
 
 /// The largest number of planes that a setting may ask for.
-constexpr int mostPlanes = 64;
+constexpr int mostPlanes = PlanarSettings::mostPlanes;
 
 /// A plane on which receiving triangles lie, in centred coordinates.
 struct ReceiverPlane

@@ -1,6 +1,5 @@
 #include "shadowtech/published/PublishedCrsm.h"
 
-#include "shadowtech/base/PublishedSettings.h"
 #include "shadowtech/published/PublishedMap.h"
 
 namespace gnomon

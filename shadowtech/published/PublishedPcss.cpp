@@ -1,7 +1,6 @@
 #include "shadowtech/published/PublishedPcss.h"
 
 #include "lights/LightViews.h"
-#include "shadowtech/base/PublishedSettings.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
 #include <algorithm>
@@ -38,7 +37,7 @@ TechniqueInfo PublishedPcss::info()
   info.bytesPerTexel = bytesPerTexel;
   info.asPublished = info.name;
   info.settings = { &viewSettings(), &pcssSettings(), &depthMapSettings(), &publishedSettings() };
-  info.refused = refusedByPublishedPcss;
+  info.refused = { refusedByPublishedPcss };
   info.isSlow = true;
   return info;
 }
@@ -50,7 +49,7 @@ MapReach PublishedPcss::mapReach(const ShadowLight& light) const
   if (light.area)
   {
     // The search's largest radius, plus half of its step.
-    const double step = 1.0 / std::sqrt(pcssCounts(light.of<PcssSettings>().samples).search);
+    const double step = 1.0 / std::sqrt(pcssCounts(light.pcss.samples).search);
     const double map = 2.0 * std::tan(glm::radians(light.coneAngleDegrees));
     reach.unbiasedAcross = widthOf(*light.area) * (1.0 + step) * map;
   }
@@ -65,7 +64,7 @@ void PublishedPcss::bake(const MapInput& input)
   this->widthLight_ = 0.0;
   if (input.light.area)
   {
-    this->points_.upload(input.light.of<PcssSettings>().samples, LightArea::Shape::Disk);
+    this->points_.upload(input.light.pcss.samples, LightArea::Shape::Disk);
     this->widthLight_ = widthOf(*input.light.area);
   }
 }
@@ -95,7 +94,7 @@ std::string PublishedPcss::estimatorGlsl(const ShadowLight& light) const
   {
     return ShaderLibrary::source("shadowtech/depth_map/compare_estimator.glsl");
   }
-  return pcssCountsDefines(light.of<PcssSettings>().samples) +
+  return pcssCountsDefines(light.pcss.samples) +
     ShaderLibrary::source("shadowtech/published/published_pcss_estimator.glsl");
 }
 

@@ -1,8 +1,7 @@
 #include "shadowtech/raytraced/Raytraced.h"
 
-#include "shadowtech/tracing/EdgeSettings.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
-#include "shadowtech/tracing/RefinementSettings.h"
+#include "shadowtech/tracing/Refinement.h"
 #include "shadowtech/tracing/TraceAll.h"
 
 namespace gnomon
@@ -16,6 +15,7 @@ TechniqueInfo Raytraced::info()
   info.exact = true;
   info.settings = { &edgeSettings(), &lightSampleSettings(), &lightSeedSettings(),
     &refinementSettings() };
+  info.refused = { refusedSamples, refusedMovingSamples };
   info.seesTextures = true;
   info.classes = classesOfTracing();
   return info;

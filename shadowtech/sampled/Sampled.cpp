@@ -65,21 +65,6 @@ std::string refusedBySampled(const ShadowLight& light)
 } // namespace
 
 //------------------------------------------------------------------------------
-const SettingsTable& sampledSettings()
-{
-  static const SettingsTable table = { "Maps of samples",
-    {
-      integer("batch", "how many points of the light have their maps held at a time", "",
-        &SampledSettings::batch, { 1, mostBatchSamples }),
-      integer("progressive",
-        "above 0: how many points of the light each frame adds while nothing changes, after a "
-        "first frame with hard shadows",
-        "", &SampledSettings::progressive, { 0, 65536 }),
-    } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 TechniqueInfo Sampled::info()
 {
   TechniqueInfo info;
@@ -88,9 +73,9 @@ TechniqueInfo Sampled::info()
     &sampledSettings(), &depthMapSettings() };
   info.seesTextures = true;
   info.bytesPerTexel = [](const ShadowLight& light)
-  { return (1.0 + light.of<SampledSettings>().batch) * Compare::bytesPerTexel(light); };
+  { return (1.0 + light.sampled.batch) * Compare::bytesPerTexel(light); };
   info.bytesPerPixel = 32.0; // two sums of four channels
-  info.refused = refusedBySampled;
+  info.refused = { refusedBySampled, refusedSamples };
   return info;
 }
 
@@ -124,7 +109,7 @@ void Sampled::drawVisibility(const LayerInput& input, LightCounts& counts)
     counts.progress = begins ? 0.0 : 1.0;
     return;
   }
-  const auto most = static_cast<std::size_t>(input.light.of<SampledSettings>().batch);
+  const auto most = static_cast<std::size_t>(input.light.sampled.batch);
   if (this->batch_.size() > most)
   {
     this->batch_.clear(); // frees their memory
@@ -145,7 +130,7 @@ void Sampled::drawVisibility(const LayerInput& input, LightCounts& counts)
 /// Return how many points this frame may add; 0 for all. The sum belongs to one view.
 std::size_t Sampled::progressiveIn(const LayerInput& input) const
 {
-  const int progressive = input.light.of<SampledSettings>().progressive;
+  const int progressive = input.light.sampled.progressive;
   if (progressive > 0 && input.severalViews)
   {
     input.notes.push_back(nameOf(input.light) +

@@ -14,18 +14,6 @@
 namespace gnomon
 {
 
-/// The largest batch: one shader reads all of its maps.
-constexpr int mostBatchSamples = 8;
-
-struct SampledSettings
-{
-  int batch = mostBatchSamples; ///< number of points whose maps exist at a time
-  /// Number of points that each frame adds while nothing changes. The first frame shows the hard
-  /// shadow of the centre. 0 computes all points in every frame.
-  int progressive = 0;
-};
-const SettingsTable& sampledSettings();
-
 /// `sampled`: soft shadows as the mean of the hard shadows of many points of the light, each from
 /// its own depth map. Heckbert and Herf (1997) do so with projected casters instead of maps
 /// (docs/techniques/sampled.md).

@@ -19,21 +19,6 @@ namespace gnomon
 
 struct ReceiverTile;
 
-/// How to resolve pixels that no test decides.
-enum class Leftovers
-{
-  Trace,   ///< trace their shadow ray
-  Lit,     ///< lit, as most pixels without a proof of shadow are
-  Majority ///< the status of most of the nine texels around them
-};
-
-/// How to resolve pixels outside the contour.
-enum class OutsideContour
-{
-  Map,  ///< by the map's status
-  Check ///< as inside, if their nine texels disagree
-};
-
 /// The stages of a chain, in order.
 struct ChainStages
 {

@@ -7,15 +7,6 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-const SettingsTable& coherenceSettings()
-{
-  static const SettingsTable table = { "Coherence",
-    { oneOf("coherence", "how many texels have to agree for the map to be believed; off: it is not",
-      "texels", &CoherenceSettings::texels, { { "off", 0 }, { "4", 4 }, { "9", 9 } }) } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
 TechniqueInfo ChainTechnique::infoOf(const std::string& name)
 {
   TechniqueInfo info;

@@ -11,14 +11,6 @@
 namespace gnomon
 {
 
-/// Setting of `coherence` and `selective`: how many texels around a pixel's place on the map must
-/// agree for the map's status to count. 0 never uses it.
-struct CoherenceSettings
-{
-  int texels = 4;
-};
-const SettingsTable& coherenceSettings();
-
 /// The base of `coherence` and `selective`: triangle maps, and a chain of tests that decides pixels
 /// by them. A technique chooses the stages.
 class ChainTechnique : public CpuScreenTechnique

@@ -1,5 +1,7 @@
 #include "shadowtech/selective/Coherence.h"
 
+#include "lights/LightSamples.h"
+
 namespace gnomon
 {
 namespace
@@ -7,7 +9,7 @@ namespace
 
 std::string refusedByCoherence(const ShadowLight& light)
 {
-  return light.of<CoherenceSettings>().texels == 0
+  return light.coherence.texels == 0
     ? "'coherence' decides pixels by texels that agree, and without that traces all of them, as "
       "'raytraced' does; its setting 'coherence' takes 4 or 9"
     : "";
@@ -22,7 +24,7 @@ TechniqueInfo Coherence::info()
   info.settings.push_back(&lightSampleSettings());
   info.settings.push_back(&lightSeedSettings());
   info.seesTextures = true;
-  info.refused = refusedByCoherence;
+  info.refused = { refusedByCoherence, refusedSamples };
   return info;
 }
 
@@ -30,7 +32,7 @@ TechniqueInfo Coherence::info()
 ChainStages Coherence::stagesOf(const ShadowSettings& settings) const
 {
   ChainStages stages;
-  stages.coherenceTexels = settings.of<CoherenceSettings>().texels;
+  stages.coherenceTexels = settings.coherence.texels;
   stages.rimPoints = 7;
   return stages;
 }

@@ -132,9 +132,9 @@ void run(int side, int frames)
       technique.bake({ plain, plainViews, occluders, buffers, shaders });
     });
   ShadowLight second = plain;
-  second.of<DepthMapSettings>().surface = DepthSurface::Second;
+  second.depthMap.surface = DepthSurface::Second;
   ShadowLight midpoint = plain;
-  midpoint.of<DepthMapSettings>().surface = DepthSurface::Midpoint;
+  midpoint.depthMap.surface = DepthSurface::Midpoint;
   Compare secondMap;
   Compare midpointMap;
   add("the same, second depths",

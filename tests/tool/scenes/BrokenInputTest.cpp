@@ -600,8 +600,8 @@ TEST(Program, FailsWithCodeOneWhenItsOutputCannotBeWritten)
   ASSERT_EQ(run(folder, { "render", "cube", "--size", "8x8", "-o", "a.png" }).code, 0);
   const std::vector<std::vector<std::string>> commands = { { "techniques" }, { "scenes" },
     { "scenes", "--hard" }, { "scenes", "--export", "cube", "." }, { "settings" },
-    { "settings", "--markdown" }, { "settings", "--class" }, { "view", "--keys" },
-    { "diff", "a.png", "a.png" }, { "--help" }, { "--version" }, { "render", "--help" } };
+    { "settings", "--markdown" }, { "view", "--keys" }, { "diff", "a.png", "a.png" }, { "--help" },
+    { "--version" }, { "render", "--help" } };
   for (const std::vector<std::string>& arguments : commands)
   {
     const Outcome outcome = run(folder, arguments, "/dev/full");

@@ -1,6 +1,6 @@
 // What a frame does, as tables of facts and plans. Nothing here links VTK's rendering or OpenGL.
 
-#include "lights/ViewSettings.h"
+#include "lights/ShadowSettings.h"
 #include "plugin/plan/FramePlan.h"
 
 #include <gmock/gmock.h>

@@ -6,10 +6,10 @@
 #include "lights/LightSamples.h"
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
-#include "lights/vtkGnomonShadowSettings.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "vtkGnomonShadowSettings.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>

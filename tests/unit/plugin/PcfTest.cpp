@@ -7,7 +7,6 @@
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
-#include "shadowtech/base/Kernel.h"
 #include "shadowtech/depth_map/Pcf.h"
 
 #include <vtkInformation.h>
@@ -56,7 +55,7 @@ protected:
   {
     gnomon::ShadowLight light;
     gnomon::findSetting("kernel")->set(light, GetParam().name);
-    light.of<gnomon::KernelSettings>().sizeTexels = GetParam().texels;
+    light.kernel.sizeTexels = GetParam().texels;
     return gnomon::Pcf().mapReach(light);
   }
 };

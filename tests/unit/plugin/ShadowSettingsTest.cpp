@@ -4,7 +4,7 @@
 
 #include "lights/SettingsTable.h"
 #include "lights/vtkGnomonLightKeys.h"
-#include "lights/vtkGnomonShadowSettings.h"
+#include "vtkGnomonShadowSettings.h"
 
 #include <vtkNew.h>
 

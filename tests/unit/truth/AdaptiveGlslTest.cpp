@@ -22,8 +22,8 @@ namespace
 ShadowLight adaptiveSun(int texels, int grid, EarlyOut earlyOut)
 {
   ShadowLight light = filteredSun("bilinear", texels);
-  light.of<AdaptiveSettings>().discGrid = grid;
-  light.of<EarlyOutSettings>().earlyOut = earlyOut;
+  light.adaptive.discGrid = grid;
+  light.earlyOut = earlyOut;
   return light;
 }
 
@@ -32,11 +32,9 @@ struct BakedDiscs
 {
   BakedDiscs(const ShadowLight& light, const Map& map)
   {
-    const int points =
-      light.of<AdaptiveSettings>().discGrid * light.of<AdaptiveSettings>().discGrid;
-    const int sets = light.of<AdaptiveSettings>().discSets * light.of<AdaptiveSettings>().discSets;
-    const std::vector<glm::vec2> byDisc =
-      jitteredDiscs(light.of<AdaptiveSettings>().discGrid, sets);
+    const int points = light.adaptive.discGrid * light.adaptive.discGrid;
+    const int sets = light.adaptive.discSets * light.adaptive.discSets;
+    const std::vector<glm::vec2> byDisc = jitteredDiscs(light.adaptive.discGrid, sets);
     std::vector<glm::vec2> byPoint;
     for (int point = 0; point < points; ++point)
     {
@@ -46,8 +44,8 @@ struct BakedDiscs
       }
     }
     glBindTexture(GL_TEXTURE_2D_ARRAY, this->discs.create());
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG32F, light.of<AdaptiveSettings>().discSets,
-      light.of<AdaptiveSettings>().discSets, points, 0, GL_RG, GL_FLOAT, byPoint.data());
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG32F, light.adaptive.discSets, light.adaptive.discSets,
+      points, 0, GL_RG, GL_FLOAT, byPoint.data());
     nearest(GL_NEAREST);
     glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds.create());
     int level = 0;
@@ -110,19 +108,19 @@ bool patches(const glm::ivec2& texel)
 /// Return the hidden share of the disc as Adaptive.h states it for a place.
 double hiddenShareOfDisc(const ShadowLight& light, const Map& map, const glm::dvec2& place)
 {
-  const auto& settings = light.of<AdaptiveSettings>();
+  const auto& settings = light.adaptive;
   const int points = settings.discGrid * settings.discGrid;
   const std::vector<glm::vec2> discs =
     jitteredDiscs(settings.discGrid, settings.discSets * settings.discSets);
   const glm::ivec2 cell = glm::ivec2(4.0 * place) % settings.discSets;
   const glm::vec2* const disc = discs.data() + (cell.y * settings.discSets + cell.x) * points;
-  const double radius = 0.5 * light.of<KernelSettings>().sizeTexels;
+  const double radius = 0.5 * light.kernel.sizeTexels;
   const auto isHidden = [&](const glm::vec2& point)
   { return map(glm::ivec2(glm::floor(place + radius * glm::dvec2(point)))); };
   const auto hidden = std::count_if(disc, disc + points, isHidden);
   const auto ofRing = std::count_if(disc, disc + settings.discGrid, isHidden);
-  const bool ringDecides = light.of<EarlyOutSettings>().earlyOut == EarlyOut::Ring &&
-    (ofRing == 0 || ofRing == settings.discGrid);
+  const bool ringDecides =
+    light.earlyOut == EarlyOut::Ring && (ofRing == 0 || ofRing == settings.discGrid);
   return ringDecides ? (ofRing == 0 ? 0.0 : 1.0) : static_cast<double>(hidden) / points;
 }
 
@@ -278,7 +276,7 @@ TEST_F(AdaptiveGlsl, theNoiseRepeatsAfterAsManyCellsAsThereAreDiscs)
 {
   ShadowLight light = adaptiveSun(10, 8, EarlyOut::None);
   const int sets = 24;
-  light.of<AdaptiveSettings>().discSets = sets;
+  light.adaptive.discSets = sets;
   std::vector<glm::dvec2> places;
   for (int cell = 0; cell < 4 * sets; ++cell)
   {

@@ -8,7 +8,6 @@
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/montecarlo/DepthLayers.h"
-#include "shadowtech/montecarlo/MonteCarloSettings.h"
 #include "shadowtech/montecarlo/RaySpace.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -39,7 +38,7 @@ public:
     , occluders_(makeOccluders(props))
   {
     light.mapSizeTexels = side;
-    light.of<MonteCarloSettings>().layers = kind;
+    light.monteCarlo.layers = kind;
     LightViews views = fitLightViews(lightOfMap(light),
       { this->occluders_.frame.centre, this->occluders_.castersCentred, {}, { side, 1 }, {} });
     this->view_ = views.views.at(0);

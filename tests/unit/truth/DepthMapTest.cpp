@@ -89,8 +89,8 @@ TEST_F(DepthMap, euclideanDepthIsTheDistanceWhateverNearAndFarAre)
           { makePlane(0.5), at({ 0.0, 0.0, -1.0 - farther }) } };
       }
       ShadowLight light = spotLight({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), 30.0);
-      light.of<DepthMapSettings>().metric = DepthMetric::Euclidean;
-      light.of<DepthMapSettings>().surface = surface;
+      light.depthMap.metric = DepthMetric::Euclidean;
+      light.depthMap.surface = surface;
       const BakedDepths<Compare> baked(light, props);
       int counted = 0;
       for (int y = 0; y < mapSide; y += 5)
@@ -120,12 +120,12 @@ TEST_F(DepthMap, constantBiasIsAddedInWorldUnits)
     const ShadowLight plain = lamp ? spotLight({ 1.0, 0.5, 6.0 }, glm::dvec3(0.0), 40.0)
                                    : directionalLight({ 0.3, 0.2, -1.0 });
     ShadowLight biased = plain;
-    biased.of<DepthMapSettings>().biasConstant = 0.03;
+    biased.depthMap.biasConstant = 0.03;
     const BakedDepths<Compare> without(plain, floorAndBox());
     const BakedDepths<Compare> with(biased, floorAndBox());
     // Polygon offset pushes by the larger slope; the shader pushes by half of the slopes' sum.
     ShadowLight twice = biased;
-    twice.of<DepthMapSettings>().biasConstant = 0.06;
+    twice.depthMap.biasConstant = 0.06;
     const BakedDepths<Compare> withTwice(twice, floorAndBox());
     int casters = 0;
     for (std::size_t i = 0; i < with.depths.size(); ++i)
@@ -151,8 +151,8 @@ TEST_F(DepthMap, slopeBiasIsAFactorOnWhatASlopeSpans)
   const auto pushedBy = [&](double factor)
   {
     ShadowLight light = plain;
-    light.of<DepthMapSettings>().biasSlope = factor;
-    light.of<DepthMapSettings>().biasConstant = 1e-9; // the shader then pushes in all cases
+    light.depthMap.biasSlope = factor;
+    light.depthMap.biasConstant = 1e-9; // the shader then pushes in all cases
     const BakedDepths<Compare> baked(light, { { makePlane(6.0) } });
     return baked.at(mapSide / 2, mapSide / 2);
   };
@@ -167,7 +167,7 @@ TEST_F(DepthMap, holdsTheSurfaceThatIsAskedFor)
   const auto heightsOf = [](DepthSurface surface, const std::vector<Prop>& props)
   {
     ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
-    light.of<DepthMapSettings>().surface = surface;
+    light.depthMap.surface = surface;
     const BakedDepths<Compare> baked(light, props);
     const auto height = [&](int x, int y)
     {
@@ -202,7 +202,7 @@ GLuint fragmentsOf(
   DepthSurface surface, const glm::dvec3& direction, const std::vector<Prop>& props)
 {
   ShadowLight light = directionalLight(direction);
-  light.of<DepthMapSettings>().surface = surface;
+  light.depthMap.surface = surface;
   GLuint query = 0;
   glGenQueries(1, &query);
   glBeginQuery(GL_SAMPLES_PASSED, query);

@@ -83,7 +83,7 @@ inline ShadowLight filteredSun(const char* kernel, int texels)
   ShadowLight light;
   light.directionWorld = { 0.0, 0.0, -1.0 };
   findSetting("kernel")->set(light, kernel);
-  light.of<KernelSettings>().sizeTexels = texels;
+  light.kernel.sizeTexels = texels;
   return light;
 }
 

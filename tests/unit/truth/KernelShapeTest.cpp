@@ -214,13 +214,13 @@ TEST_F(KernelShapeGlsl, warpedMapsBlurAsEvenlyAsPlainOnesAndAsWidelyAsIsAskedFor
   for (const char* kernel : { "bilinear", "castano", "box", "poisson" })
   {
     ShadowLight plain = filteredSun(kernel, 5);
-    plain.of<KernelSettings>().widthAcross = width;
+    plain.kernel.widthAcross = width;
     const double expected = edgeAt(plain, sunViews(plain), { 0.0, 0.0 }, 0, 0.9).spread();
     EXPECT_GT(expected, 0.3 * width);
     EXPECT_LT(expected, 1.1 * width);
     const ShadowLight light = warpedSun(kernel, 5);
     ShadowLight wide = light;
-    wide.of<KernelSettings>().widthAcross = width;
+    wide.kernel.widthAcross = width;
     const LightViews views = warpedViews(light, 0.6);
     for (const double y : { -0.7, 0.3 })
     {
@@ -251,7 +251,7 @@ TEST_F(KernelShapeGlsl, aBoxOfAnyWidthHasOneLevelMoreThanTaps)
     {
       ShadowLight light = filteredSun("box", texels);
       const double texelAcross = 1.0 / mostTexelsAcross(sunViews(light), mapSize);
-      light.of<KernelSettings>().widthAcross = scale * texels * texelAcross;
+      light.kernel.widthAcross = scale * texels * texelAcross;
       std::vector<glm::dvec2> places;
       for (int i = 0; i < 6400; ++i)
       {

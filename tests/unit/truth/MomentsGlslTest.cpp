@@ -105,8 +105,8 @@ ShadowLight sun(double bleeding, int kernelTexels = 1)
 {
   ShadowLight light;
   light.directionWorld = { 0.0, 0.0, -1.0 };
-  light.of<MomentMapSettings>().bleeding = bleeding;
-  light.of<KernelSettings>().sizeTexels = kernelTexels;
+  light.momentMap.bleeding = bleeding;
+  light.kernel.sizeTexels = kernelTexels;
   return light;
 }
 

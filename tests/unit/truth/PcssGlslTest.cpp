@@ -161,8 +161,7 @@ std::vector<float> run(const PointwiseTechnique& technique, const ShadowLight& l
   ShaderLibrary library;
   DepthBounds bounds;
   bounds.bake(map.name(), mapSize, 1, library);
-  const std::vector<glm::vec2> lightPoints =
-    pcssPoints(light.of<PcssSettings>().samples, light.area->shape);
+  const std::vector<glm::vec2> lightPoints = pcssPoints(light.pcss.samples, light.area->shape);
   GlTexture pointTexture;
   glBindTexture(GL_TEXTURE_2D, pointTexture.create());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, static_cast<GLsizei>(lightPoints.size()), 1, 0, GL_RG,
@@ -207,7 +206,7 @@ TEST_P(PcssGlsl, theEarlyOutChangesNothing)
       const LightViews views = firstView(light);
       const std::vector<Receiver> receivers = receiversOf(views, tilt);
       const std::vector<float> early = run(Pcss(), light, views, depths, receivers);
-      light.of<EarlyOutSettings>().earlyOut = EarlyOut::None;
+      light.earlyOut = EarlyOut::None;
       EXPECT_EQ(early, run(Pcss(), light, views, depths, receivers)) << tilt.x;
     }
   }
@@ -273,8 +272,8 @@ Reads readsOf(const ShadowLight& light, const Depths& depths, const glm::dvec2& 
 
 ShadowLight withSettings(ShadowLight light, PcssSamples samples, EarlyOut earlyOut)
 {
-  light.of<PcssSettings>().samples = samples;
-  light.of<EarlyOutSettings>().earlyOut = earlyOut;
+  light.pcss.samples = samples;
+  light.earlyOut = earlyOut;
   return light;
 }
 
@@ -472,7 +471,7 @@ protected:
     ShadowLight light;
     light.directionWorld = { 0.0, 0.0, -1.0 };
     light.area = diskArea(light.directionWorld, 0.5);
-    light.of<PcssSettings>().samples = PcssSamples::Low;
+    light.pcss.samples = PcssSamples::Low;
     const LightViews views = firstView(light);
     const LightView& view = views.views.front();
     const double distance = (0.7 - view.depthOffset) / view.depthScale;

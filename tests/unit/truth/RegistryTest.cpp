@@ -2,14 +2,14 @@
 
 #include "shadowtech/Registry.h"
 
+#include "lights/SettingsTable.h"
 #include "lights/ShadowLight.h"
-#include "shadowtech/depth_map/DepthBounds.h"
-#include "shadowtech/moment_map/MomentMapTechnique.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace gnomon::test
@@ -140,10 +140,41 @@ TEST(Registry, takesOrRefusesEveryComposition)
   }
 }
 
+/// Return a setting's choices as a list.
+std::string choicesOf(const char* setting)
+{
+  return listOf(std::get<ChoiceSetting>(findSetting(setting)->values).names);
+}
+
+TEST(Registry, settingsNameItsEntries)
+{
+  EXPECT_EQ(choicesOf("technique"), techniqueNames());
+  EXPECT_EQ(choicesOf("estimator"), estimatorNames());
+}
+
+TEST(Registry, keysHoldTheSettingsOfAnEstimatorAndOfItsMap)
+{
+  const TechniqueInfo& info = findEstimator("pcf")->info;
+  const auto changesKey = [&](const char* setting, const char* value, SettingsOf of)
+  {
+    ShadowSettings settings;
+    EXPECT_TRUE(findSetting(setting)->set(settings, value));
+    return settingsOf(info, of, settings) != settingsOf(info, of, ShadowSettings());
+  };
+  EXPECT_TRUE(changesKey("kernel_size", "5", SettingsOf::Estimator));
+  EXPECT_FALSE(changesKey("kernel_size", "5", SettingsOf::Map));
+  EXPECT_TRUE(changesKey("bias_slope", "2", SettingsOf::Estimator));
+  EXPECT_TRUE(changesKey("bias_slope", "2", SettingsOf::Map));
+  EXPECT_FALSE(changesKey("mc_rays", "5", SettingsOf::Estimator));
+  EXPECT_FALSE(changesKey("mc_layers", "eye", SettingsOf::Map));
+}
+
 TEST(Registry, saysWhoHasASetting)
 {
-  EXPECT_EQ(whoHas("map_samples"), "the setting 'map_samples' is for: esm, vsm, evsm, msm");
-  EXPECT_EQ(whoHas("as_published"), "the setting 'as_published' is for: pcss, crsm, crsma");
+  EXPECT_EQ(
+    whoHas(*findSetting("map_samples")), "the setting 'map_samples' is for: esm, vsm, evsm, msm");
+  EXPECT_EQ(
+    whoHas(*findSetting("as_published")), "the setting 'as_published' is for: pcss, crsm, crsma");
   for (const EstimatorEntry& estimator : estimators())
   {
     const TechniqueInfo& info = estimator.info;
@@ -162,11 +193,11 @@ TEST(Registry, sumsOnlyMomentsThatIntegersHold)
   {
     ShadowSettings settings;
     settings.estimator = name;
-    settings.of<MomentMapSettings>().blur = MapBlur::Sat;
+    settings.momentMap.blur = MapBlur::Sat;
     const char* verdict =
       settings.estimator.find("exponential") != std::string::npos ? "32-bit integers" : "";
     expectVerdicts(settings, { verdict, verdict, verdict, verdict }, name);
-    settings.of<MomentMapSettings>().mipMaps = true;
+    settings.momentMap.mipMaps = true;
     verdict =
       settings.estimator.find("exponential") != std::string::npos ? "32-bit integers" : "no levels";
     expectVerdicts(settings, { verdict, verdict, verdict, verdict }, name);
@@ -179,10 +210,10 @@ TEST(Registry, refusesARingOfPointsThatThereIsNot)
   {
     ShadowSettings settings;
     settings.estimator = estimator.info.name;
-    settings.of<EarlyOutSettings>().earlyOut = EarlyOut::Ring;
+    settings.earlyOut = EarlyOut::Ring;
     const char* verdict = estimator.info.name == "pcss" ? "exact or none" : "";
     expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
-    settings.of<EarlyOutSettings>().earlyOut = EarlyOut::None;
+    settings.earlyOut = EarlyOut::None;
     expectVerdicts(settings, { "", "", "", "" }, settings.estimator);
   }
 }

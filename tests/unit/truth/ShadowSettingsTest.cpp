@@ -2,9 +2,6 @@
 
 #include "lights/vtkGnomonLightKeys.h"
 #include "shadowtech/Registry.h"
-#include "shadowtech/depth_map/Pcf.h"
-#include "shadowtech/moment_map/MomentMapTechnique.h"
-#include "shadowtech/selective/Selective.h"
 
 #include <gtest/gtest.h>
 #include <vtkLight.h>
@@ -46,10 +43,10 @@ TEST(ShadowSettings, refuseWhatTheyDoNotTakeAndStayAsTheyAre)
   for (const char* text : { "", "Box", "box ", "1" })
   {
     EXPECT_FALSE(findSetting("kernel")->set(settings, text)) << text;
-    EXPECT_EQ(settings.of<PcfSettings>().kernel, FilterKernel::Bilinear);
+    EXPECT_EQ(settings.pcf.kernel, FilterKernel::Bilinear);
   }
   EXPECT_TRUE(findSetting("kernel")->set(settings, "poisson"));
-  EXPECT_EQ(settings.of<PcfSettings>().kernel, FilterKernel::Poisson);
+  EXPECT_EQ(settings.pcf.kernel, FilterKernel::Poisson);
 }
 
 TEST(ShadowSettings, takeEveryChoiceAndGiveItBack)
@@ -67,11 +64,11 @@ TEST(ShadowSettings, takeEveryChoiceAndGiveItBack)
   }
   ShadowSettings settings;
   EXPECT_TRUE(findSetting("contour")->set(settings, "6"));
-  EXPECT_EQ(settings.of<ChainSettings>().contourPixels, 6);
+  EXPECT_EQ(settings.chain.contourPixels, 6);
   EXPECT_TRUE(findSetting("contour")->set(settings, "image"));
-  EXPECT_EQ(settings.of<ChainSettings>().contourPixels, 0);
+  EXPECT_EQ(settings.chain.contourPixels, 0);
   EXPECT_TRUE(findSetting("map_samples")->set(settings, "8"));
-  EXPECT_EQ(settings.of<MomentMapSettings>().samples, 8);
+  EXPECT_EQ(settings.momentMap.samples, 8);
 }
 
 TEST(ShadowSettings, areALightsOwn)

@@ -1,0 +1,368 @@
+# gnomon_settings(<folder>/<table>...)
+#
+# Makes the settings of lights' shadows from the tables in <folder>/settings.json, in the order of
+# documentation. docs/dev/add_a_setting.md describes these files. The templates *.in in the current
+# folder become, in the current binary folder:
+#   ShadowSettings.h               plain structs with defaults and comparisons
+#   SettingsTables.cpp             the tables by which text is read and written
+#   vtkGnomonShadowSettings.h/cxx  the class with typed setters
+
+# Set `result` to the text at a place in JSON. An array of texts is one text in several lines. A
+# missing text is empty.
+function(gnomon_json_text result json)
+  string(JSON type ERROR_VARIABLE missing TYPE "${json}" ${ARGN})
+  set(text "")
+  if(missing STREQUAL "NOTFOUND" AND type STREQUAL "ARRAY")
+    string(JSON count LENGTH "${json}" ${ARGN})
+    math(EXPR last "${count} - 1")
+    foreach(i RANGE ${last})
+      string(JSON line GET "${json}" ${ARGN} ${i})
+      string(APPEND text " ${line}")
+    endforeach()
+    string(STRIP "${text}" text)
+  elseif(missing STREQUAL "NOTFOUND")
+    string(JSON text GET "${json}" ${ARGN})
+  endif()
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Set `result` to "kernel_size" as "KernelSize".
+function(gnomon_camel_case result name)
+  string(REGEX REPLACE "[_-]" ";" words "${name}")
+  set(text "")
+  foreach(word IN LISTS words)
+    string(SUBSTRING "${word}" 0 1 first)
+    string(SUBSTRING "${word}" 1 -1 rest)
+    string(TOUPPER "${first}" first)
+    string(APPEND text "${first}${rest}")
+  endforeach()
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Set `result` to a text with its first letter in the other case: TOUPPER or TOLOWER.
+function(gnomon_first_letter result to text)
+  string(SUBSTRING "${text}" 0 1 first)
+  string(SUBSTRING "${text}" 1 -1 rest)
+  string(${to} "${first}" first)
+  set(${result} "${first}${rest}" PARENT_SCOPE)
+endfunction()
+
+# Set `result` to words as lines of at most 100 columns that begin with `mark`.
+function(gnomon_wrap result mark text)
+  set(lines "")
+  set(line "${mark}")
+  while(NOT "${text}" STREQUAL "")
+    string(FIND "${text} " " " end)
+    string(SUBSTRING "${text}" 0 ${end} word)
+    string(SUBSTRING "${text} " ${end} -1 text)
+    string(STRIP "${text}" text)
+    string(LENGTH "${line} ${word}" columns)
+    if(columns GREATER 100)
+      string(APPEND lines "${line}\n")
+      set(line "${mark}")
+    endif()
+    string(APPEND line " ${word}")
+  endwhile()
+  set(${result} "${lines}${line}\n" PARENT_SCOPE)
+endfunction()
+
+# What follows depends on a setting's type. Each macro reads the setting from `json`, its place in
+# ShadowSettings from `place`, and its index from `index`. It sets
+#   type        of the member in C++
+#   value       the member's default in C++
+#   values      the valid values in C++
+#   expected    the same for users, as Setting::expected() says it
+#   read        the member's SettingValue in C++, of the settings `s`
+#   write       the member's value in C++, of the SettingValue `v`
+#   setter, getter, others, define   the accessors' declarations and definitions
+# and appends to `enumerations` and `limits`.
+
+# Declare and define accessors with one argument `value`.
+macro(gnomon_accessors argument assigned got)
+  set(setter "void Set${camel}(${argument} value);")
+  set(getter "${argument} Get${camel}() const;")
+  set(others "")
+  string(CONCAT define
+    "void vtkGnomonShadowSettings::Set${camel}(${argument} value)\n{\n${refusal}"
+    "  this->NoteAssigned(${index}, assign(this->ValuesToAssign().${place}, ${assigned}));\n}\n"
+    "${argument} vtkGnomonShadowSettings::Get${camel}() const\n{\n"
+    "  return ${got};\n}\n")
+endmacro()
+
+macro(gnomon_integer_setting)
+  gnomon_json_text(least "${json}" range 0)
+  gnomon_json_text(most "${json}" range 1)
+  set(type int)
+  set(value "${default}")
+  set(values "IntegerSetting{ ${least}, ${most} }")
+  set(expected "an integer in [${least}, ${most}]")
+  set(read "s.${place}")
+  set(write "std::get<int>(v)")
+  gnomon_first_letter(Member TOUPPER "${member}")
+  string(APPEND limits "  static constexpr int least${Member} = ${least};\n"
+    "  static constexpr int most${Member} = ${most};\n")
+  gnomon_accessors(int "std::clamp(value, ${least}, ${most})" "this->GetValues().${place}")
+endmacro()
+
+macro(gnomon_real_setting)
+  gnomon_json_text(least "${json}" range 0)
+  gnomon_json_text(most "${json}" range 1)
+  set(type double)
+  set(value "${default}")
+  if(most STREQUAL "")
+    set(expected "a number of at least ${least}")
+    set(most "gnomon::anyLength.largest")
+  else()
+    set(expected "a number in [${least}, ${most}]")
+    set(most "double(${most})")
+  endif()
+  set(values "RealSetting{ ${least}, ${most} }")
+  set(read "s.${place}")
+  set(write "std::get<double>(v)")
+  string(CONCAT refusal "  if (std::isnan(value))\n  {\n"
+    "    this->SetSetting(\"${name}\", \"nan\"); // an error\n    return;\n  }\n")
+  gnomon_accessors(double "std::clamp(value, double(${least}), ${most})"
+    "this->GetValues().${place}")
+endmacro()
+
+macro(gnomon_switch_setting)
+  set(type bool)
+  set(value "false")
+  if(default STREQUAL "on")
+    set(value "true")
+  endif()
+  set(values "ChoiceSetting{ { \"off\", \"on\" } }")
+  set(expected "one of: off, on")
+  set(read "int(s.${place})")
+  set(write "std::get<int>(v) != 0")
+  gnomon_accessors(bool "value" "this->GetValues().${place}")
+  string(CONCAT others "  void ${camel}On() { this->Set${camel}(true); }\n"
+    "  void ${camel}Off() { this->Set${camel}(false); }\n")
+endmacro()
+
+# Append to `constants` and `shortcuts` of the class and to `names` and `expected`.
+macro(gnomon_choice)
+  string(APPEND names "\"${choice}\", ")
+  if(NOT choice STREQUAL "")
+    string(APPEND expected "${separator}${choice}")
+    set(separator ", ")
+  endif()
+  string(TOUPPER "${name}_${choice}" constant)
+  string(REPLACE "-" "_" constant "${constant}")
+  gnomon_camel_case(Choice "${choice}")
+  string(APPEND constants "    ${constant} = ${i},\n")
+  string(APPEND shortcuts
+    "  void Set${camel}To${Choice}() { this->Set${camel}(${constant}); }\n")
+endmacro()
+
+# Declare what choices have beside setter and getter.
+macro(gnomon_choice_accessors)
+  set(setter "enum ${camel}Type\n  {\n${constants}  };\n  ${setter}")
+  string(CONCAT others "  std::string Get${camel}AsString() const { return "
+    "this->GetSetting(\"${name}\"); }\n${shortcuts}")
+endmacro()
+
+macro(gnomon_choice_setting)
+  gnomon_json_text(type "${json}" enum)
+  gnomon_json_text(about "${json}" about)
+  gnomon_wrap(comment "///" "${about}")
+  string(APPEND enumerations "\n${comment}enum class ${type}\n{\n")
+  foreach(i RANGE ${last})
+    gnomon_json_text(choice "${json}" choices ${i} 0)
+    gnomon_choice()
+    gnomon_json_text(about "${json}" choices ${i} 1)
+    gnomon_json_text(enumerator "${json}" choices ${i} 2)
+    if(enumerator STREQUAL "")
+      set(enumerator "${Choice}")
+    endif()
+    gnomon_wrap(comment "  ///" "${about}")
+    string(APPEND enumerations "${comment}  ${enumerator},\n")
+    if(choice STREQUAL default)
+      set(value "${type}::${enumerator}")
+    endif()
+  endforeach()
+  string(APPEND enumerations "};\n")
+  set(values "ChoiceSetting{ { ${names}} }")
+  set(read "int(s.${place})")
+  set(write "${type}(std::get<int>(v))")
+  gnomon_accessors(int "gnomon::${type}(std::clamp(value, 0, ${last}))"
+    "static_cast<int>(this->GetValues().${place})")
+  gnomon_choice_accessors()
+endmacro()
+
+macro(gnomon_number_setting)
+  set(type int)
+  set(numbers "")
+  foreach(i RANGE ${last})
+    gnomon_json_text(choice "${json}" choices ${i} 0)
+    gnomon_choice()
+    gnomon_json_text(number "${json}" choices ${i} 1)
+    string(APPEND numbers "${number}, ")
+    if(choice STREQUAL default)
+      set(value "${number}")
+    endif()
+  endforeach()
+  set(values "ChoiceSetting{ { ${names}} }")
+  set(read "choiceOf(s.${place}, { ${numbers}})")
+  set(write "valueAt(std::get<int>(v), { ${numbers}})")
+  gnomon_accessors(int "gnomon::valueAt(std::clamp(value, 0, ${last}), { ${numbers}})"
+    "gnomon::choiceOf(this->GetValues().${place}, { ${numbers}})")
+  gnomon_choice_accessors()
+endmacro()
+
+# A name that the registry of techniques explains. Only text sets it.
+macro(gnomon_name_setting)
+  set(type "std::string")
+  foreach(i RANGE ${last})
+    gnomon_json_text(choice "${json}" choices ${i})
+    gnomon_choice()
+  endforeach()
+  set(values "ChoiceSetting{ { ${names}} }")
+  set(read "s.${place}")
+  set(write "valueAt(std::get<int>(v), { ${names}})")
+  set(setter "void Set${camel}(const char* value) { this->SetSetting(\"${name}\", value); }")
+  string(CONCAT getter "std::string Get${camel}() const { return "
+    "this->GetSetting(\"${name}\"); }")
+  set(others "")
+  set(define "")
+endmacro()
+
+# Append a setting to what is made of a table.
+macro(gnomon_setting)
+  foreach(part name type default unit)
+    gnomon_json_text(${part} "${json}" ${part})
+  endforeach()
+  gnomon_json_text(meaning "${json}" meaning)
+  gnomon_json_text(note "${json}" note)
+  gnomon_json_text(baked "${json}" baked)
+  gnomon_json_text(member "${json}" member)
+  gnomon_camel_case(camel "${name}")
+  if(member STREQUAL "")
+    gnomon_first_letter(member TOLOWER "${camel}")
+  endif()
+  set(place "${of}${member}")
+  set(value "")
+  set(refusal "")
+  set(names "")
+  set(constants "")
+  set(shortcuts "")
+  set(expected "one of: ")
+  set(separator "")
+  string(JSON last ERROR_VARIABLE none LENGTH "${json}" choices)
+  if(none STREQUAL "NOTFOUND")
+    math(EXPR last "${last} - 1")
+  endif()
+  if(NOT type MATCHES "^(integer|real|switch|choice|number|name)$")
+    message(FATAL_ERROR "${file}: the setting '${name}' has no type '${type}'")
+  endif()
+  cmake_language(CALL gnomon_${type}_setting)
+  if(value STREQUAL "" AND NOT type STREQUAL "std::string")
+    message(FATAL_ERROR "${file}: the setting '${name}' has no default '${default}'")
+  endif()
+
+  if(note STREQUAL "")
+    gnomon_first_letter(note TOUPPER "${meaning}.")
+  endif()
+  gnomon_wrap(comment "  ///" "${note}")
+  string(APPEND members "${comment}  ${type} ${member}{ ${value} };\n")
+  string(APPEND equal " && a.${member} == b.${member}")
+  string(TOLOWER "${baked}" baked)
+  string(APPEND rows
+    "    { ${index}, \"${name}\", \"${meaning}\", \"${unit}\", ${values},\n"
+    "      [](const ShadowSettings& s) -> SettingValue { return ${read}; },\n"
+    "      [](ShadowSettings& s, const SettingValue& v) { s.${place} = ${write}; },\n"
+    "      [](ShadowSettings& to, const ShadowSettings& from) { to.${place} = from.${place}; },\n"
+    "      ${baked_${baked}} },\n")
+
+  set(in_unit "")
+  if(NOT unit STREQUAL "")
+    set(in_unit ", in ${unit}")
+  endif()
+  if(default STREQUAL "")
+    set(default "none")
+  endif()
+  gnomon_first_letter(meaning TOUPPER "${meaning}")
+  gnomon_wrap(comment "   *"
+    "${meaning}${in_unit}: ${expected}. Default ${default}. The setting `${name}`.")
+  string(APPEND accessors
+    "\n  ///@{\n  /**\n${comment}   */\n  ${setter}\n  ${getter}\n${others}  ///@}\n")
+  if(define)
+    string(APPEND definitions "\n${define}")
+  endif()
+  math(EXPR index "${index} + 1")
+endmacro()
+
+# Append a table to what becomes the templates' variables.
+macro(gnomon_table)
+  gnomon_json_text(title "${table}" title)
+  gnomon_json_text(table_about "${table}" about)
+  gnomon_json_text(direct "${table}" direct)
+  set(of "${table_name}.")
+  if(direct)
+    set(of "")
+  endif()
+  gnomon_first_letter(Struct TOUPPER "${table_name}Settings")
+  set(members "")
+  set(limits "")
+  set(equal "")
+  set(rows "")
+  string(APPEND accessors "\n  // ${title}\n")
+  string(JSON setting_count LENGTH "${table}" settings)
+  math(EXPR last_setting "${setting_count} - 1")
+  foreach(setting RANGE ${last_setting})
+    string(JSON json GET "${table}" settings ${setting})
+    gnomon_setting()
+  endforeach()
+  if(direct)
+    string(APPEND direct_members "${members}${limits}")
+    string(APPEND all_equal "${equal}")
+  else()
+    gnomon_wrap(comment "///" "${table_about}")
+    string(SUBSTRING "${equal}" 4 -1 equal)
+    string(APPEND structs "\n${comment}struct ${Struct}\n{\n${members}${limits}};\n"
+      "inline bool operator==(const ${Struct}& a, const ${Struct}& b)\n{\n"
+      "  return ${equal};\n}\n")
+    string(APPEND struct_members "  ${Struct} ${table_name};\n")
+    string(APPEND all_equal " && a.${table_name} == b.${table_name}")
+  endif()
+  string(APPEND declarations "const SettingsTable& ${table_name}Settings();\n")
+  string(APPEND tables "\nconst SettingsTable& ${table_name}Settings()\n{\n"
+    "  static const SettingsTable table = { \"${title}\", {\n${rows}  } };\n  return table;\n}\n")
+  string(APPEND table_list "    &${table_name}Settings(),\n")
+endmacro()
+
+function(gnomon_settings)
+  set(index 0)
+  set(baked_ "false")
+  set(baked_on "true")
+  foreach(made enumerations structs direct_members struct_members all_equal declarations tables
+      table_list accessors definitions)
+    set(${made} "")
+  endforeach()
+  foreach(path IN LISTS ARGN)
+    get_filename_component(folder "${path}" DIRECTORY)
+    get_filename_component(table_name "${path}" NAME)
+    set(file "${GNOMON_SOURCE_DIR}/${folder}/settings.json")
+    file(READ "${file}" of_folder)
+    string(JSON table_count LENGTH "${of_folder}")
+    math(EXPR last_table "${table_count} - 1")
+    set(found FALSE)
+    foreach(i RANGE ${last_table})
+      string(JSON table GET "${of_folder}" ${i})
+      gnomon_json_text(name "${table}" table)
+      if(name STREQUAL table_name)
+        set(found TRUE)
+        gnomon_table()
+      endif()
+    endforeach()
+    if(NOT found)
+      message(FATAL_ERROR "${file} has no table '${table_name}'")
+    endif()
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+  endforeach()
+  set(setting_count ${index})
+  foreach(made ShadowSettings.h SettingsTables.cpp vtkGnomonShadowSettings.h
+      vtkGnomonShadowSettings.cxx)
+    configure_file(${made}.in ${made} @ONLY)
+  endforeach()
+endfunction()

@@ -1,5 +1,0 @@
-#include "vtkGnomonShadowSettings.h"
-
-#include "vtkObjectFactory.h"
-
-vtkStandardNewMacro(vtkGnomonShadowSettings);
