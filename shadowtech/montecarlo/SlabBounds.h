@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lights/ShadowSettings.h"
+#include "lights/ShadowLight.h"
 #include "shadowtech/base/Gl.h"
 
 #include <cstddef>
