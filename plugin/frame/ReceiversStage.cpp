@@ -260,8 +260,13 @@ void ReceiversStage::share(const ReceiverPixels& own, SharedReceivers& shared)
 {
   Ranks& ranks = *this->frame_.ranks;
   const Occluders& occluders = this->collector_.occluders();
+  std::vector<SharedName> names;
+  for (const SurfaceName& name : this->names_)
+  {
+    names.push_back(name.shared);
+  }
   shared.share(ranks, own, occluders);
-  if (this->patches_.update(ranks, occluders, this->names_, own))
+  if (this->patches_.update(ranks, occluders, names, own))
   {
     shared.shareCurves(ranks, own, occluders, this->patches_.names());
   }

@@ -122,7 +122,7 @@ std::set<SharedName> united(Ranks& ranks, const std::set<SharedName>& mine)
 
 /// Return the surfaces that receivers with curves are on.
 std::set<SharedName> namesOfCurved(
-  const std::vector<SurfaceName>& names, const ReceiverPixels& receivers)
+  const std::vector<SharedName>& names, const ReceiverPixels& receivers)
 {
   std::vector<bool> hasCurves(names.size(), false);
   for (std::size_t i = 0; i < receivers.curves.size(); ++i)
@@ -137,7 +137,7 @@ std::set<SharedName> namesOfCurved(
   {
     if (hasCurves[surface])
     {
-      curved.insert(names[surface].shared);
+      curved.insert(names[surface]);
     }
   }
   return curved;
@@ -145,12 +145,12 @@ std::set<SharedName> namesOfCurved(
 
 /// Return the patches of the surfaces that are asked for; null for others.
 std::vector<std::shared_ptr<Patches>> patchesOf(const Occluders& snapshot,
-  const std::vector<SurfaceName>& names, const std::set<SharedName>& asked)
+  const std::vector<SharedName>& names, const std::set<SharedName>& asked)
 {
   std::vector<std::shared_ptr<Patches>> patches(names.size());
   for (std::size_t i = 0; i < names.size(); ++i)
   {
-    patches[i] = asked.count(names[i].shared) > 0 ? snapshot.surfaces[i].patches : nullptr;
+    patches[i] = asked.count(names[i]) > 0 ? snapshot.surfaces[i].patches : nullptr;
   }
   return patches;
 }
@@ -159,7 +159,7 @@ std::vector<std::shared_ptr<Patches>> patchesOf(const Occluders& snapshot,
 
 //------------------------------------------------------------------------------
 bool SharedPatches::update(Ranks& ranks, const Occluders& snapshot,
-  const std::vector<SurfaceName>& names, const ReceiverPixels& own)
+  const std::vector<SharedName>& names, const ReceiverPixels& own)
 {
   std::set<SharedName> asked = united(ranks, namesOfCurved(names, own));
   if (asked.empty())
@@ -183,7 +183,7 @@ bool SharedPatches::update(Ranks& ranks, const Occluders& snapshot,
 /// Name the patches of patches_. Ranks send the edges that one triangle of theirs has, and one of
 /// each patch, as other ranks may have all of it. Each finds these among its own edges.
 void SharedPatches::name(
-  Ranks& ranks, const Occluders& snapshot, const std::vector<SurfaceName>& names)
+  Ranks& ranks, const Occluders& snapshot, const std::vector<SharedName>& names)
 {
   const auto visitOwn = [&](const auto& visit)
   {
@@ -194,7 +194,7 @@ void SharedPatches::name(
       {
         const std::vector<std::uint32_t>& numbers = this->patches_[i]->numbers(snapshot, surface);
         const auto number = static_cast<std::uint32_t>(
-          std::distance(this->asked_.begin(), this->asked_.find(names[i].shared)));
+          std::distance(this->asked_.begin(), this->asked_.find(names[i])));
         visitEdges(snapshot, surface, number,
           [&](const Edge& edge, std::uint32_t triangle) {
             visit(

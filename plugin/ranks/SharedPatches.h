@@ -1,7 +1,6 @@
 #pragma once
 
 #include "plugin/ranks/Ranks.h"
-#include "plugin/scene/SurfaceNames.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Patches.h"
 #include "shadowtech/base/Receivers.h"
@@ -24,7 +23,7 @@ public:
   /// @param names of the snapshot's surfaces
   /// @param own receivers of this rank
   /// @return false if no rank's receivers have curves
-  bool update(Ranks& ranks, const Occluders& snapshot, const std::vector<SurfaceName>& names,
+  bool update(Ranks& ranks, const Occluders& snapshot, const std::vector<SharedName>& names,
     const ReceiverPixels& own);
 
   /// Return the names as of the last update that returned true.
@@ -32,7 +31,7 @@ public:
   std::size_t bytes() const;
 
 private:
-  void name(Ranks& ranks, const Occluders& snapshot, const std::vector<SurfaceName>& names);
+  void name(Ranks& ranks, const Occluders& snapshot, const std::vector<SharedName>& names);
 
   std::set<SharedName> asked_; ///< surfaces whose patches have names; the same on all ranks
   std::vector<std::shared_ptr<Patches>> patches_; ///< by surface; null for others

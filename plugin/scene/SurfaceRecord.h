@@ -4,6 +4,7 @@
 #include "plugin/scene/DrawnProps.h"
 #include "plugin/scene/KeptInstances.h"
 #include "plugin/scene/SurfaceExtraction.h"
+#include "shadowtech/base/Patches.h"
 
 #include "lights/Bounds.h"
 #include "lights/vtkGnomonVersions.h"
@@ -47,8 +48,6 @@ struct SurfaceKey
   }
 };
 
-/// A surface's identity in all processes that draw a picture. All blocks of a prop are one.
-using SharedName = std::array<std::int64_t, 4>;
 /// @param prop the view prop's number in vtkRenderer::GetViewProps()
 inline SharedName sharedName(int prop, const SurfaceKey& key)
 {

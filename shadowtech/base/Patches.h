@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,8 @@ private:
   std::vector<std::uint8_t> creased_; ///< by vertex: 1 or 0
 };
 
+/// A surface's identity in all processes that draw a picture. All blocks of a prop are one.
+using SharedName = std::array<std::int64_t, 4>;
 /// Names a patch in all processes that draw a picture, by one of its triangles in one of them.
 struct PatchName
 {

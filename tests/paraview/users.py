@@ -13,6 +13,7 @@ import statistics
 import sys
 import time
 
+import numpy as np
 from paraview import servermanager
 from paraview.simple import Box, Calculator, Connect, Contour, CreateView, Delete
 from paraview.simple import GetActiveView, GetActiveViewOrCreate, Line, LoadState, Plane
@@ -242,7 +243,7 @@ def views(pictures):
         state.write_text(state.read_text().replace('type="RenderView"', 'type="GnomonShadowView"'))
         ResetSession()
         LoadState(str(state))
-        view = GetActiveViewOrCreate("RenderView")
+        view = GetActiveView()  # GetActiveViewOrCreate() would not take it for a RenderView
         kind = view.GetXMLName()
         scenario.check("an earlier view's name", kind == "GnomonShadowView", kind)
         scenario.check("a state keeps shadows", view.ShowShadows == 1, str(view.ShowShadows))
