@@ -434,14 +434,8 @@ void vtkGnomonShadowPass::DrawDeferred(const vtkRenderState* s)
   const auto afterwards = [&]
   {
     manager.endOpaque(s);
-
-    // maps
     manager.bakeMaps();
-
-    // visibility
     manager.computeVisibility();
-
-    // shading
     manager.drawShadows();
     manager.beginShading(s); // of the props that are left
   };

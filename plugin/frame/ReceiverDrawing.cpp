@@ -1,6 +1,7 @@
 #include "plugin/frame/ReceiverDrawing.h"
 
 #include "lights/Hash.h"
+#include "plugin/scene/ActorInternals.h"
 #include "plugin/scene/MapperKind.h"
 #include "plugin/scene/PropStamps.h"
 
@@ -73,12 +74,6 @@ struct PropAccess : vtkProp
     return prop->*(&PropAccess::ShaderProperty);
   }
 };
-
-/// True for nearly every prop, which then is its only part. IsA() and collections take longer.
-bool isPlainActor(vtkProp* prop)
-{
-  return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
-}
 
 /// True if a predicate holds for any of a prop's parts.
 /// @param holds called with the part and its mapper, which may be null

@@ -121,16 +121,11 @@ private:
   std::vector<Asked> asked_;
 };
 
-bool isSoft(const LightPlan& light)
-{
-  return light.light.area || light.light.texture;
-}
-
 //------------------------------------------------------------------------------
 AutoPlan Planner::plan()
 {
   AutoPlan plan;
-  const auto isSoftOne = [](const Asked& asked) { return isSoft(asked.light); };
+  const auto isSoftOne = [](const Asked& asked) { return asked.light.isSoft(); };
   if (!this->asked_.empty())
   {
     const FrameCounters counters = this->takeChanges();
@@ -202,7 +197,7 @@ FrameCounters Planner::takeChanges()
     choice.identity = of.identity;
     choice.tracedShare = moved ? 1.0 : choice.tracedShare;
     choice.sinceProbed += moved ? framesPerProbe / framesPerProbeOfMoved : 1;
-    counters.lights += of.asked && !isSoft(of) ? 1 : 0;
+    counters.lights += of.asked && !of.isSoft() ? 1 : 0;
     if (of.asked && !light.area)
     {
       const auto side = static_cast<std::size_t>(light.mapSizeTexels) << choice.step;
@@ -485,15 +480,6 @@ const Evidence& Planner::evidenceFor(const EvidenceRequest& request)
 }
 
 } // namespace
-
-//------------------------------------------------------------------------------
-bool AutoHistory::Request::isLike(const Request& other) const
-{
-  const auto [least, most] = std::minmax(this->areaRadius, other.areaRadius);
-  return this->isSoft == other.isSoft && this->mapSizeTexels == other.mapSizeTexels &&
-    this->lightSamples == other.lightSamples && this->errorLimit == other.errorLimit &&
-    most <= 1.1 * least;
-}
 
 //------------------------------------------------------------------------------
 AutoPlan planAuto(const Scene& scene, const std::vector<LightPlan>& lights,

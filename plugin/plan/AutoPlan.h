@@ -7,6 +7,7 @@
 #include "plugin/plan/Slowness.h"
 #include "shadowtech/probing/ProbeCounts.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -57,7 +58,13 @@ struct AutoHistory
     double areaRadius = 0.0; ///< 0 without an area
 
     /// True if one choice answers both: an area's size may differ by a tenth.
-    bool isLike(const Request& other) const;
+    bool isLike(const Request& other) const
+    {
+      const auto [least, most] = std::minmax(this->areaRadius, other.areaRadius);
+      return this->isSoft == other.isSoft && this->mapSizeTexels == other.mapSizeTexels &&
+        this->lightSamples == other.lightSamples && this->errorLimit == other.errorLimit &&
+        most <= 1.1 * least;
+    }
   };
   struct Light
   {

@@ -57,6 +57,7 @@ struct LightPlan
   ///@}
 
   const TechniqueInfo& info() const { return this->estimator->info; }
+  bool isSoft() const { return this->light.area || this->light.texture; }
 };
 
 struct LightPlans

@@ -35,9 +35,15 @@ struct LodPropAccess : vtkLODProp3D
 } // namespace
 
 //------------------------------------------------------------------------------
+bool isPlainActor(const vtkProp* prop)
+{
+  return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
+}
+
+//------------------------------------------------------------------------------
 ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* renderer)
 {
-  if (std::strcmp(actor->GetClassName(), "vtkOpenGLActor") == 0)
+  if (isPlainActor(actor))
   {
     return { actor, actor->GetMapper(), matrix }; // nearly every actor; a cast costs more
   }

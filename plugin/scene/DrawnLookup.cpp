@@ -1,6 +1,7 @@
 #include "plugin/scene/DrawnLookup.h"
 
 #include "lights/Hash.h"
+#include "plugin/scene/ActorInternals.h"
 #include "plugin/scene/DrawnProps.h"
 #include "plugin/scene/MapperInternals.h"
 #include "plugin/scene/MapperKind.h"
@@ -15,7 +16,6 @@
 #include "vtkProperty.h"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -104,7 +104,7 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   const std::size_t number = this->held_.size();
   this->heldAt_.emplace(Place{ actor, worldFromModel }, number);
   const bool isGlyph = held.front().isGlyph;
-  if (isGlyph || std::strcmp(actor->GetClassName(), "vtkOpenGLActor") != 0)
+  if (isGlyph || !isPlainActor(actor))
   {
     // It may be drawn by another actor, which has the mapper.
     this->heldAt_.emplace(Place{ mapper, worldFromModel }, number);

@@ -25,7 +25,6 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <utility>
 
@@ -33,12 +32,6 @@ namespace gnomon
 {
 namespace
 {
-
-/// True for nearly every prop. IsA() and casts compare with all base classes, which costs more.
-bool isPlainActor(vtkProp* prop)
-{
-  return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
-}
 
 /// Add an actor to those that a list of DrawnProps names.
 void nameDrawer(const DrawnActor& taken, std::vector<const void*>& drawers)

@@ -117,8 +117,7 @@ private:
 void Stamper::addViewProp(vtkProp* prop)
 {
   this->addKeys(prop);
-  const bool isPlain = isOneOf(prop, { "vtkOpenGLActor" }); // nearly every prop; IsA() costs more
-  if (isPlain ||
+  if (isPlainActor(prop) ||
     (!prop->IsA("vtkAssembly") && !prop->IsA("vtkPropAssembly") && !prop->IsA("vtkImageStack")))
   {
     this->addLeaf(prop, prop->GetMatrix());
