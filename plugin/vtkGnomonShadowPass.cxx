@@ -354,10 +354,8 @@ void vtkGnomonShadowPass::DrawShadows(
   if (goesOn)
   {
     const vtkRenderPass* delegate = this->FindDelegate(s);
-    gnomon::tellOfResolution(this, renderer, complaints, manager.report(),
-      manager.endShading() ? ""
-        : delegate         ? delegate->GetClassName()
-                           : "the renderer");
+    gnomon::tellOfMisfit(this, renderer, complaints,
+      delegate ? delegate->GetClassName() : "the renderer", manager.endShading());
   }
   manager.endFrame(s);
   complaints.tellError(this, renderer, gnomon::Topic::Frame, "");

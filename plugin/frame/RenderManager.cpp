@@ -6,12 +6,15 @@
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/base/GlState.h"
 
+#include <vtkCamera.h>
 #include <vtkMapper.h>
+#include <vtkMatrix4x4.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -30,6 +33,24 @@ void hashLight(std::size_t& seed, const CastingLight& casting)
 {
   hashCombine(seed, casting.light.sceneIndex);
   hashCombine(seed, casting.identity.hash);
+}
+
+/// Return a camera's view transformation and its angle.
+std::array<double, 17> viewOf(vtkRenderer* renderer)
+{
+  vtkCamera* const camera = renderer->GetActiveCamera();
+  std::array<double, 17> view;
+  std::copy_n(camera->GetModelViewTransformMatrix()->GetData(), 16, view.begin());
+  view.back() = camera->GetViewAngle();
+  return view;
+}
+
+/// True if shaders for one view are right in another. Visibility of the picture's pixels needs the
+/// same angle, which passes compute again.
+bool isSameView(const std::array<double, 17>& a, const std::array<double, 17>& b, Route route)
+{
+  return std::equal(a.begin(), a.end() - 1, b.begin()) &&
+    (route == Route::Inline || std::abs(a.back() - b.back()) < 1e-6 * b.back());
 }
 
 /// Return a number that differs where lights differ in what decides their rays.
@@ -356,15 +377,21 @@ void RenderManager::drawShadows()
 void RenderManager::beginShading(const vtkRenderState* s)
 {
   this->stageValues_.receiversStage = false;
+  this->shading_ = s->GetRenderer();
+  this->shadingView_ = viewOf(this->shading_);
+  this->hadOtherView_ = false;
   this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
 }
 
 //------------------------------------------------------------------------------
-bool RenderManager::endShading()
+std::string RenderManager::endShading()
 {
   const bool fitted = this->programs_.shaders.endStage();
   this->frame_.endStage(this->frame_.route == Route::Deferred ? "shading: the rest" : "shading");
-  return fitted;
+  return this->hadOtherView_ ? "by another camera"
+    : fitted
+    ? ""
+    : "at another resolution than the receivers were drawn, and " + this->frame_.report.routeReason;
 }
 
 //------------------------------------------------------------------------------
@@ -471,6 +498,12 @@ void RenderManager::setShaderParameters(
   // The layers of the image route hold what is behind.
   drawn.translucent |= this->frame_.route == Route::Image && this->collector_.isSeenThrough(prop);
   drawn.receives = drawn.receives && (!drawn.translucent || this->shadesTranslucent_);
+  if (!this->stageValues_.receiversStage &&
+    !isSameView(viewOf(this->shading_), this->shadingView_, this->frame_.route))
+  {
+    this->hadOtherView_ = true;
+    drawn.receives = false;
+  }
   this->programs_.shaders.setParameters(program, drawn);
 }
 

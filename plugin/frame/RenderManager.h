@@ -16,6 +16,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -102,9 +103,9 @@ public:
   /// shading: between the two calls VTK draws its props with the hook in place; on the deferred
   /// route those that are left.
   void beginShading(const vtkRenderState* s);
-  /// @return false if props were drawn at another resolution than the visibility layers have; they
-  /// show no shadows then
-  bool endShading();
+  /// @return how a pass inside this one drew props that its shaders do not fit, as the end of a
+  /// clause; they show no shadows then. Empty if all fitted
+  std::string endShading();
 
   /// Count where the picture shows another process's surface than its receivers. This is a
   /// collective frame of its own (Ranks), after the picture was drawn and the report completed.
@@ -141,6 +142,12 @@ private:
     programs_.library };
   TechniqueChoice choice_{ frame_, collector_.occluders(), tracer_, programs_.library };
   RendererViews views_;
+  ///@{
+  /// The renderer that shades, and its camera as the shaders know it.
+  vtkRenderer* shading_ = nullptr;
+  std::array<double, 17> shadingView_{};
+  bool hadOtherView_ = false; ///< true if a pass drew props by another camera
+  ///@}
   bool shadesTranslucent_ = false; ///< whether translucent surfaces show shadows in this frame
   std::int64_t checkedBefore_ = 0; ///< triangle numbers, in a frame that is drawn again
   ///@{

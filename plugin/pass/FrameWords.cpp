@@ -50,13 +50,12 @@ void tellOfRoute(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
 }
 
 //------------------------------------------------------------------------------
-void tellOfResolution(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
-  const FrameReport& report, const std::string& shader)
+void tellOfMisfit(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
+  const std::string& shader, const std::string& how)
 {
-  complaints.tellError(pass, renderer, Topic::Resolution,
-    shader.empty() ? ""
-                   : "Props were drawn without shadows: " + shader +
-        " shades at another resolution than the receivers were drawn, and " + report.routeReason +
+  complaints.tellError(pass, renderer, Topic::Misfit,
+    how.empty() ? ""
+                : "Props were drawn without shadows: " + shader + " shades " + how +
         ". Let such a pass have this one as its delegate instead.");
 }
 

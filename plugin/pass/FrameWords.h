@@ -27,9 +27,10 @@ void tellOfRoute(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
   const FrameReport& report, const std::string& route);
 ///@}
 
-/// Let a pass say that props were shaded at another resolution than their receivers.
-/// @param shader the class that shades them; empty if all is well
-void tellOfResolution(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
-  const FrameReport& report, const std::string& shader);
+/// Let a pass say that another pass shades in a way that its shaders do not fit.
+/// @param shader the class that shades
+/// @param how at another resolution or the like; empty if all is well
+void tellOfMisfit(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
+  const std::string& shader, const std::string& how);
 
 } // namespace gnomon
