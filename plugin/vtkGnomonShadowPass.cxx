@@ -352,10 +352,8 @@ void vtkGnomonShadowPass::DrawShadows(
   }
   if (plan.hasShadows)
   {
-    gnomon::tellOfResolution(this, renderer, complaints, route,
-      manager.endShading() ? ""
-        : delegate         ? delegate->GetClassName()
-                           : "the renderer");
+    gnomon::tellOfMisfit(this, renderer, complaints,
+      delegate ? delegate->GetClassName() : "the renderer", manager.endShading());
   }
   manager.endFrame(s);
   complaints.tellError(this, renderer, gnomon::Topic::Frame, "");

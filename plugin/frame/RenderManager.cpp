@@ -7,12 +7,15 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/GlState.h"
 
+#include <vtkCamera.h>
 #include <vtkMapper.h>
+#include <vtkMatrix4x4.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -24,6 +27,15 @@ namespace
 vtkOpenGLRenderWindow* windowOf(const vtkRenderState* s)
 {
   return vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
+}
+
+/// Return a camera's view transformation and its angle.
+std::array<double, 17> viewOf(vtkCamera* camera)
+{
+  std::array<double, 17> view;
+  std::copy_n(camera->GetModelViewTransformMatrix()->GetData(), 16, view.begin());
+  view.back() = camera->GetViewAngle();
+  return view;
 }
 
 /// Return a number that differs where lights differ in what decides their rays.
@@ -329,15 +341,39 @@ void RenderManager::drawShadows()
 void RenderManager::beginShading(const vtkRenderState* s)
 {
   this->stageValues_.receiversStage = false;
+  this->shading_ = s->GetRenderer();
+  this->shadingCamera_ = this->shading_->GetActiveCamera();
+  this->shadingTime_ = this->shadingCamera_->GetMTime();
+  this->shadingView_ = viewOf(this->shadingCamera_);
+  this->hadOtherView_ = false;
   this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
 }
 
 //------------------------------------------------------------------------------
-bool RenderManager::endShading()
+std::string RenderManager::endShading()
 {
   const bool fitted = this->programs_.shaders.endStage();
   this->frame_.endStage(this->frame_.route() == Route::Deferred ? "shading: the rest" : "shading");
-  return fitted;
+  return this->hadOtherView_ ? "by another camera"
+    : fitted                 ? ""
+                             : "at another resolution than the receivers were drawn, and " +
+      this->frame_.plan.picture.route.reason;
+}
+
+//------------------------------------------------------------------------------
+/// True if VTK draws by another view than the shaders know. Only visibility of the picture's pixels
+/// needs the same angle, which passes compute again with rounding.
+bool RenderManager::isOtherView() const
+{
+  vtkCamera* const camera = this->shading_->GetActiveCamera();
+  if (camera == this->shadingCamera_ && camera->GetMTime() == this->shadingTime_)
+  {
+    return false;
+  }
+  const std::array<double, 17> view = viewOf(camera);
+  const double angle = this->shadingView_.back();
+  return !std::equal(view.begin(), view.end() - 1, this->shadingView_.begin()) ||
+    (this->frame_.route() != Route::Inline && std::abs(view.back() - angle) >= 1e-6 * angle);
 }
 
 //------------------------------------------------------------------------------
@@ -438,6 +474,11 @@ void RenderManager::setShaderParameters(
   drawn.translucent |= this->frame_.route() == Route::Image && this->collector_.isSeenThrough(prop);
   drawn.receives =
     drawn.receives && (!drawn.translucent || this->frame_.plan.picture.shadesTranslucent);
+  if (!this->stageValues_.receiversStage && this->isOtherView())
+  {
+    this->hadOtherView_ = true;
+    drawn.receives = false;
+  }
   this->programs_.shaders.setParameters(program, drawn);
 }
 

@@ -14,11 +14,16 @@
 #include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/OccluderBuffers.h"
 
+#include <vtkType.h>
+
+#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractMapper;
+class vtkCamera;
 class vtkObjectBase;
 class vtkRenderState;
 class vtkRenderer;
@@ -94,9 +99,9 @@ public:
   /// shading: between the two calls VTK draws its props with the hook in place; on the deferred
   /// route those that are left.
   void beginShading(const vtkRenderState* s);
-  /// @return false if props were drawn at another resolution than the visibility layers have; they
-  /// show no shadows then
-  bool endShading();
+  /// @return how a pass inside this one drew props that its shaders do not fit, as the end of a
+  /// clause; they show no shadows then. Empty if all fitted
+  std::string endShading();
 
   /// Count where the picture shows another process's surface than its receivers. This is a
   /// collective frame of its own (Ranks), after the picture was drawn and the report completed.
@@ -120,6 +125,7 @@ private:
   void configureShaders(const vtkRenderState* s);
   MapStage mapStage(bool bakesOptional);
   void makeRoomForLayers();
+  bool isOtherView() const;
 
   Frame frame_;
   LightReading lights_;
@@ -135,6 +141,14 @@ private:
     programs_.library };
   FramePlanner planner_{ frame_, collector_.occluders(), tracer_, programs_.library };
   RendererViews views_;
+  ///@{
+  /// The camera of the shaders, and its view.
+  vtkRenderer* shading_ = nullptr;
+  vtkCamera* shadingCamera_ = nullptr; ///< only to be compared
+  vtkMTimeType shadingTime_ = 0;
+  std::array<double, 17> shadingView_{};
+  bool hadOtherView_ = false; ///< true if a pass drew props by another camera
+  ///@}
   FrameReport report_;             ///< of the last frame
   std::int64_t checkedBefore_ = 0; ///< triangle numbers, in a frame that is drawn again
   ///@{

@@ -24,7 +24,7 @@ enum class Topic
   Headlight,
   LeftOut,
   Route,
-  Resolution,
+  Misfit,
   Frame
 };
 

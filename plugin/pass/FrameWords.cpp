@@ -45,13 +45,12 @@ void tellWhatIsLeftOut(vtkObject* pass, vtkRenderer* renderer, Complaints& compl
 }
 
 //------------------------------------------------------------------------------
-void tellOfResolution(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
-  const RouteChoice& route, const std::string& shader)
+void tellOfMisfit(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
+  const std::string& shader, const std::string& how)
 {
-  complaints.tellError(pass, renderer, Topic::Resolution,
-    shader.empty() ? ""
-                   : "Props were drawn without shadows: " + shader +
-        " shades at another resolution than the receivers were drawn, and " + route.reason +
+  complaints.tellError(pass, renderer, Topic::Misfit,
+    how.empty() ? ""
+                : "Props were drawn without shadows: " + shader + " shades " + how +
         ". Let such a pass have this one as its delegate instead.");
 }
 

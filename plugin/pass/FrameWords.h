@@ -16,7 +16,6 @@ namespace gnomon
 class Complaints;
 enum class RouteWish;
 struct FramePlan;
-struct RouteChoice;
 
 /// Let a pass say what is news in a frame's plan: lights whose settings do not fit, a lone
 /// headlight, a route that was wished for and cannot be taken.
@@ -27,9 +26,10 @@ void tellOfPlan(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
 void tellWhatIsLeftOut(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
   const std::vector<std::string>& leftOut);
 
-/// Let a pass say that props were shaded at another resolution than their receivers.
-/// @param shader the class that shades them; empty if all is well
-void tellOfResolution(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
-  const RouteChoice& route, const std::string& shader);
+/// Let a pass say that another pass shades in a way that its shaders do not fit.
+/// @param shader the class that shades
+/// @param how at another resolution or the like; empty if all is well
+void tellOfMisfit(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
+  const std::string& shader, const std::string& how);
 
 } // namespace gnomon

@@ -6,8 +6,10 @@
 #include <vtkCameraPass.h>
 #include <vtkDepthPeelingPass.h>
 #include <vtkDualDepthPeelingPass.h>
+#include <vtkEDLShading.h>
 #include <vtkLightCollection.h>
 #include <vtkOpenGLFXAAPass.h>
+#include <vtkPanoramicProjectionPass.h>
 #include <vtkPlaneSource.h>
 #include <vtkProperty.h>
 #include <vtkRenderPassCollection.h>
@@ -215,6 +217,57 @@ TEST_F(ChainedScene, SupersamplingInsideIsForFunctionsOfThePoint)
       testing::AllOf(testing::HasSubstr("vtkSSAAPass"), testing::HasSubstr("resolution")));
     EXPECT_GT(unshadowed.falseLight, 500u);
     EXPECT_EQ(unshadowed.falseShadow, 0u);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ChainedScene, DepthLightingInsideIsAsAround)
+{
+  for (const char* technique : { "raytraced", "pcf" })
+  {
+    this->scene.pass->SetTechnique(technique);
+    const Pass outer = around<vtkEDLShading>(this->scene.pass);
+    const Pass inner = around<vtkEDLShading>(steps());
+    this->scene.renderer->SetPass(outer);
+    const Picture outside = this->scene.render();
+    this->scene.pass->SetDelegatePass(inner);
+    this->scene.renderer->SetPass(this->scene.pass);
+    EXPECT_EQ(differingPixels(this->scene.render(), outside, 1), 0u) << technique;
+    this->scene.pass->SetDelegatePass(nullptr);
+    outer->ReleaseGraphicsResources(this->scene.window);
+    inner->ReleaseGraphicsResources(this->scene.window);
+    EXPECT_EQ(this->takeErrors(), "");
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ChainedScene, PassesInsideWithCamerasOfTheirOwnAreRefused)
+{
+  const auto panorama = []
+  {
+    auto pass = vtkSmartPointer<vtkPanoramicProjectionPass>::New();
+    pass->SetCubeResolution(256); // the window's size: no other resolution
+    pass->SetDelegatePass(steps());
+    return pass;
+  };
+  this->scene.window->SetSize(256, 256);
+  this->scene.renderer->SetPass(panorama());
+  const Picture plain = this->scene.render();
+  this->scene.renderer->SetPass(this->scene.pass);
+  for (const char* technique : { "nsm", "raytraced" })
+  {
+    this->scene.pass->SetTechnique(technique);
+    this->scene.pass->SetDelegatePass(nullptr);
+    this->scene.render(); // an error is said once until it is mended
+    EXPECT_EQ(this->takeErrors(), "");
+    this->scene.pass->SetDelegatePass(panorama());
+    const Picture picture = this->scene.render();
+    EXPECT_THAT(this->takeErrors(),
+      testing::AllOf(testing::HasSubstr("vtkPanoramic"), testing::HasSubstr("another camera")));
+    if (this->scene.report().route == "image")
+    {
+      EXPECT_EQ(differingPixels(picture, plain, 1), 0u);
+    }
   }
 }
 
