@@ -86,6 +86,11 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   plan.moves = scene.picture.moves && !wishes.isShared;
   plan.history = history;
 
+  plan.hasShadows = !plan.lights.empty() || wishes.keepVisibility;
+  if (!plan.hasShadows)
+  {
+    return plan;
+  }
   chooseTechniques(plan, scene, wishes, evidence);
   plan.needsDeferredFacts =
     !plan.needs && !scene.deferred && whyNotDeferred(plan.lights, wishes, scene).empty();
@@ -93,7 +98,6 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   {
     return plan;
   }
-  plan.hasShadows = !plan.lights.empty() || wishes.keepVisibility;
   plan.picture = planPicture(plan.lights, wishes, scene);
   plan.notes.insert(plan.notes.end(), plan.picture.notes.begin(), plan.picture.notes.end());
   for (LightPlan& light : plan.lights)

@@ -435,6 +435,9 @@ TEST(FramePlans, haveNoShadowsWithoutLights)
 {
   FrameWishes wishes;
   EXPECT_FALSE(planFrame(sceneOf({}), wishes, {}, {}).hasShadows);
+  wishes.route = RouteWish::Deferred;
+  EXPECT_TRUE(planFrame(sceneOf({}), wishes, {}, {}).picture.isAsTold) << "no route is needed";
+  wishes.route = RouteWish::Auto;
   EXPECT_TRUE(planFrame(sceneOf({ "nsm" }), wishes, {}, {}).hasShadows);
   wishes.keepVisibility = true;
   EXPECT_TRUE(planFrame(sceneOf({}), wishes, {}, {}).hasShadows) << "receivers are kept";
