@@ -7,15 +7,12 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/GlState.h"
 
-#include <vtkCamera.h>
 #include <vtkMapper.h>
-#include <vtkMatrix4x4.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -27,15 +24,6 @@ namespace
 vtkOpenGLRenderWindow* windowOf(const vtkRenderState* s)
 {
   return vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
-}
-
-/// Return a camera's view transformation and its angle.
-std::array<double, 17> viewOf(vtkCamera* camera)
-{
-  std::array<double, 17> view;
-  std::copy_n(camera->GetModelViewTransformMatrix()->GetData(), 16, view.begin());
-  view.back() = camera->GetViewAngle();
-  return view;
 }
 
 /// Return a number that differs where lights differ in what decides their rays.
@@ -341,10 +329,7 @@ void RenderManager::drawShadows()
 void RenderManager::beginShading(const vtkRenderState* s)
 {
   this->stageValues_.receiversStage = false;
-  this->shading_ = s->GetRenderer();
-  this->shadingCamera_ = this->shading_->GetActiveCamera();
-  this->shadingTime_ = this->shadingCamera_->GetMTime();
-  this->shadingView_ = viewOf(this->shadingCamera_);
+  this->shadedView_.emplace(s->GetRenderer());
   this->hadOtherView_ = false;
   this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
 }
@@ -358,22 +343,6 @@ std::string RenderManager::endShading()
     : fitted                 ? ""
                              : "at another resolution than the receivers were drawn, and " +
       this->frame_.plan.picture.route.reason;
-}
-
-//------------------------------------------------------------------------------
-/// True if VTK draws by another view than the shaders know. Only visibility of the picture's pixels
-/// needs the same angle, which passes compute again with rounding.
-bool RenderManager::isOtherView() const
-{
-  vtkCamera* const camera = this->shading_->GetActiveCamera();
-  if (camera == this->shadingCamera_ && camera->GetMTime() == this->shadingTime_)
-  {
-    return false;
-  }
-  const std::array<double, 17> view = viewOf(camera);
-  const double angle = this->shadingView_.back();
-  return !std::equal(view.begin(), view.end() - 1, this->shadingView_.begin()) ||
-    (this->frame_.route() != Route::Inline && std::abs(view.back() - angle) >= 1e-6 * angle);
 }
 
 //------------------------------------------------------------------------------
@@ -474,7 +443,8 @@ void RenderManager::setShaderParameters(
   drawn.translucent |= this->frame_.route() == Route::Image && this->collector_.isSeenThrough(prop);
   drawn.receives =
     drawn.receives && (!drawn.translucent || this->frame_.plan.picture.shadesTranslucent);
-  if (!this->stageValues_.receiversStage && this->isOtherView())
+  if (!this->stageValues_.receiversStage &&
+    !this->shadedView_->isShown(this->frame_.route() != Route::Inline))
   {
     this->hadOtherView_ = true;
     drawn.receives = false;

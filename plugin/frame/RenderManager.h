@@ -11,19 +11,17 @@
 #include "plugin/frame/VisibilityStage.h"
 #include "plugin/ranks/SharedPatches.h"
 #include "plugin/scene/OccluderCollector.h"
+#include "plugin/scene/ShadedView.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/OccluderBuffers.h"
 
-#include <vtkType.h>
-
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractMapper;
-class vtkCamera;
 class vtkObjectBase;
 class vtkRenderState;
 class vtkRenderer;
@@ -125,7 +123,6 @@ private:
   void configureShaders(const vtkRenderState* s);
   MapStage mapStage(bool bakesOptional);
   void makeRoomForLayers();
-  bool isOtherView() const;
 
   Frame frame_;
   LightReading lights_;
@@ -141,16 +138,10 @@ private:
     programs_.library };
   FramePlanner planner_{ frame_, collector_.occluders(), tracer_, programs_.library };
   RendererViews views_;
-  ///@{
-  /// The camera of the shaders, and its view.
-  vtkRenderer* shading_ = nullptr;
-  vtkCamera* shadingCamera_ = nullptr; ///< only to be compared
-  vtkMTimeType shadingTime_ = 0;
-  std::array<double, 17> shadingView_{};
-  bool hadOtherView_ = false; ///< true if a pass drew props by another camera
-  ///@}
-  FrameReport report_;             ///< of the last frame
-  std::int64_t checkedBefore_ = 0; ///< triangle numbers, in a frame that is drawn again
+  std::optional<ShadedView> shadedView_; ///< once a frame's shaders shade
+  bool hadOtherView_ = false;            ///< true if a pass drew props by another camera
+  FrameReport report_;                   ///< of the last frame
+  std::int64_t checkedBefore_ = 0;       ///< triangle numbers, in a frame that is drawn again
   ///@{
   /// Before the frame.
   int compilesBefore_ = 0;

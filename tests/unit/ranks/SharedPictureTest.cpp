@@ -41,6 +41,24 @@ namespace gnomon::test
 namespace
 {
 
+/// Add spheres of 100 triangles at points, as glyphs.
+void addSpheres(RankView& view, vtkPoints* points, double radius)
+{
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(radius);
+  sphere->SetThetaResolution(10);
+  sphere->SetPhiResolution(7);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetSourceConnection(sphere->GetOutputPort());
+  mapper->ScalingOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  view.renderer->AddActor(actor);
+}
+
 using Split = std::tuple<std::string, Distribution>;
 
 class SharedPicture : public testing::TestWithParam<Split>
@@ -251,19 +269,7 @@ TEST_P(SharedTerminators, EqualThoseOfOneProcessOnInstances)
           0.8 + 0.05 * (i % 20), -0.05 * (i / 20 % 20), -0.5 + 0.05 * (i / 400));
       }
     }
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points);
-    vtkNew<vtkSphereSource> sphere;
-    sphere->SetRadius(0.02);
-    sphere->SetThetaResolution(10);
-    sphere->SetPhiResolution(7);
-    vtkNew<vtkGlyph3DMapper> mapper;
-    mapper->SetInputData(data);
-    mapper->SetSourceConnection(sphere->GetOutputPort());
-    mapper->ScalingOff();
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    view.renderer->AddActor(actor);
+    addSpheres(view, points, 0.02);
   };
   add(scene.shared(), [&](vtkIdType i) { return GetParam().rankOf(i, 3000, ranks) == own; });
   add(scene.alone(), [](vtkIdType) { return true; });
@@ -382,22 +388,6 @@ TEST_F(SharedFrames, HoldGlyphsByTheirNumberInAllProcesses)
   constexpr int many = 3000;
   const int ranks = this->last_ + 1;
   vtkNew<vtkPoints> own, all;
-  const auto add = [](RankView& view, vtkPoints* points)
-  {
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points);
-    vtkNew<vtkSphereSource> sphere;
-    sphere->SetRadius(0.03);
-    sphere->SetThetaResolution(10);
-    sphere->SetPhiResolution(7);
-    vtkNew<vtkGlyph3DMapper> mapper;
-    mapper->SetInputData(data);
-    mapper->SetSourceConnection(sphere->GetOutputPort());
-    mapper->ScalingOff();
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    view.renderer->AddActor(actor);
-  };
   const auto fill = [&](int first, int end, const std::function<int(int)>& ownerOf)
   {
     for (int i = first; i < end; ++i)
@@ -413,8 +403,8 @@ TEST_F(SharedFrames, HoldGlyphsByTheirNumberInAllProcesses)
     all->Modified();
   };
   fill(0, few, [&](int i) { return i % ranks; });
-  add(this->scene_.shared(), own);
-  add(this->scene_.alone(), all);
+  addSpheres(this->scene_.shared(), own, 0.03);
+  addSpheres(this->scene_.alone(), all, 0.03);
   this->scene_.expectSame();
   EXPECT_EQ(this->scene_.alone().report().instances, 0u);
   EXPECT_EQ(this->scene_.shared().report().instances, 0u);
