@@ -128,18 +128,18 @@ void vtkGnomonShadowPass::Internals::tellOfOther(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-/// The processes of a controller; null if there is one at most. Collective where they change.
-gnomon::Ranks* vtkGnomonShadowPass::Internals::updateRanks(vtkMultiProcessController* controller)
+/// Take the processes of a controller as the ranks. Collective where they change.
+void vtkGnomonShadowPass::Internals::updateRanks(vtkMultiProcessController* controller)
 {
-  if (!controller || controller->GetNumberOfProcesses() < 2)
+  this->ranks = &gnomon::alone(); // keeps those of before: the others need not know of this frame
+  if (controller && controller->GetNumberOfProcesses() > 1)
   {
-    return nullptr; // keeps those of before: the others need not know of this frame
+    if (!this->many || this->many->controller() != controller)
+    {
+      this->many = std::make_unique<gnomon::ManyRanks>(controller);
+    }
+    this->ranks = this->many.get();
   }
-  if (!this->ranks || this->ranks->controller() != controller)
-  {
-    this->ranks = std::make_unique<gnomon::Ranks>(controller);
-  }
-  return this->ranks.get();
 }
 
 //------------------------------------------------------------------------------
@@ -234,8 +234,7 @@ gnomon::FrameEnd vtkGnomonShadowPass::DrawFrame(const vtkRenderState* s)
     end.isDrawn = true;
     return end;
   }
-  gnomon::Ranks* ranks = nullptr;
-  end.whyPlain = this->EnterContext(renderer, ranks);
+  end.whyPlain = this->EnterContext(renderer);
   if (end.whyPlain)
   {
     return end;
@@ -243,7 +242,7 @@ gnomon::FrameEnd vtkGnomonShadowPass::DrawFrame(const vtkRenderState* s)
   gnomon::RenderManager& manager = this->Internal->managerOf(renderer);
   try
   {
-    this->DrawShadows(s, ranks, end);
+    this->DrawShadows(s, end);
   }
   catch (const gnomon::FrameMustBeDrawnAgain&)
   {
@@ -252,10 +251,7 @@ gnomon::FrameEnd vtkGnomonShadowPass::DrawFrame(const vtkRenderState* s)
   }
   catch (const std::exception& error)
   {
-    if (ranks)
-    {
-      ranks->fail(error.what());
-    }
+    this->Internal->ranks->fail(error.what());
     this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Frame,
       std::string("The scene is drawn without shadows: ") + error.what());
     manager.abandonFrame();
@@ -267,45 +263,42 @@ gnomon::FrameEnd vtkGnomonShadowPass::DrawFrame(const vtkRenderState* s)
 
 //------------------------------------------------------------------------------
 /// Make the renderer's context this pass's, and find the processes that draw the picture.
-/// @param ranks receives them; null for this process alone
 /// @return why there can be no shadows, as a clause; nothing if there can
-std::optional<std::string> vtkGnomonShadowPass::EnterContext(
-  vtkRenderer* renderer, gnomon::Ranks*& ranks)
+std::optional<std::string> vtkGnomonShadowPass::EnterContext(vtkRenderer* renderer)
 {
   std::string whyNot = this->Internal->context.enter(this, renderer, { 3, 2 });
   try
   {
-    ranks = this->Internal->updateRanks(this->Controller);
-    whyNot = ranks ? ranks->beginFrame(whyNot) : whyNot;
+    this->Internal->updateRanks(this->Controller);
+    whyNot = this->Internal->ranks->beginFrame(whyNot);
   }
   catch (const std::exception& error)
   {
     whyNot = error.what();
   }
   this->Internal->complaints.tellError(this, renderer, gnomon::Topic::Context, whyNot);
-  return whyNot.empty() ? std::optional<std::string>()
-    : ranks             ? "a process cannot draw shadows"
-                        : "OpenGL 3.2 is not available";
+  return whyNot.empty()                  ? std::optional<std::string>()
+    : this->Internal->ranks->count() > 1 ? "a process cannot draw shadows"
+                                         : "OpenGL 3.2 is not available";
 }
 
 //------------------------------------------------------------------------------
 /// The frame's stages, from top to bottom.
-/// @param ranks the processes that draw the picture; null for this one alone
 /// @throws std::exception for a frame without shadows
-void vtkGnomonShadowPass::DrawShadows(
-  const vtkRenderState* s, gnomon::Ranks* ranks, gnomon::FrameEnd& end)
+void vtkGnomonShadowPass::DrawShadows(const vtkRenderState* s, gnomon::FrameEnd& end)
 {
   vtkRenderer* renderer = s->GetRenderer();
   gnomon::RenderManager& manager = this->Internal->manager();
   gnomon::Complaints& complaints = this->Internal->complaints;
+  gnomon::Ranks& ranks = *this->Internal->ranks;
   std::optional<tbb::global_control> threads;
-  gnomon::FrameWishes wishes = this->Wishes();
-  if (ranks)
+  if (ranks.threads() > 0)
   {
-    threads.emplace(tbb::global_control::max_allowed_parallelism, ranks->threads());
-    end.measuresProcesses = wishes.measureStages = ranks->isAny(wishes.measureStages);
-    wishes.keepVisibility = ranks->isAny(wishes.keepVisibility);
+    threads.emplace(tbb::global_control::max_allowed_parallelism, ranks.threads());
   }
+  gnomon::FrameWishes wishes = this->Wishes();
+  end.measuresProcesses = wishes.measureStages = ranks.isAny(wishes.measureStages);
+  wishes.keepVisibility = ranks.isAny(wishes.keepVisibility);
   manager.beginFrame(wishes, ranks);
 
   // lights
@@ -342,10 +335,7 @@ void vtkGnomonShadowPass::DrawShadows(
     {
       this->ComputeShadows(s, route.route == gnomon::Route::Image);
     }
-    if (ranks)
-    {
-      ranks->endFrame();
-    }
+    ranks.endFrame();
     reduced.reset();
     end.isDrawn = true;
     this->DrawScene(s);

@@ -56,7 +56,6 @@ namespace gnomon
 struct FrameEnd;
 struct FrameReport;
 struct FrameWishes;
-class Ranks;
 struct VisibilityImages;
 }
 
@@ -448,8 +447,8 @@ private:
   void SetNumber(const char* name, double value, double most, double& number);
   class HookMarks;
   gnomon::FrameEnd DrawFrame(const vtkRenderState* s);
-  std::optional<std::string> EnterContext(vtkRenderer* renderer, gnomon::Ranks*& ranks);
-  void DrawShadows(const vtkRenderState* s, gnomon::Ranks* ranks, gnomon::FrameEnd& end);
+  std::optional<std::string> EnterContext(vtkRenderer* renderer);
+  void DrawShadows(const vtkRenderState* s, gnomon::FrameEnd& end);
   void EndPlain(const vtkRenderState* s, const gnomon::FrameEnd& end);
   bool Moves(const vtkRenderState* s);
   bool MayRefine(const vtkRenderState* s);

@@ -8,7 +8,7 @@
 #include "plugin/pass/FrameEnd.h"
 #include "plugin/pass/OtherFrames.h"
 #include "plugin/pass/PictureTimer.h"
-#include "plugin/ranks/Ranks.h"
+#include "plugin/ranks/ManyRanks.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 #include "plugin/window/PassContext.h"
@@ -59,12 +59,13 @@ struct vtkGnomonShadowPass::Internals
   gnomon::PictureTimer pictureTimer;
   gnomon::OtherFrames otherFrames;
 
-  std::unique_ptr<gnomon::Ranks> ranks; ///< of the last controller with several processes, or null
+  std::unique_ptr<gnomon::ManyRanks> many; ///< of the last controller with several processes
+  gnomon::Ranks* ranks = &gnomon::alone(); ///< those that draw the frame
 
   gnomon::PassContext context; ///< which holds the managers' GL objects
 
   gnomon::RenderManager& managerOf(vtkRenderer* renderer);
-  gnomon::Ranks* updateRanks(vtkMultiProcessController* controller);
+  void updateRanks(vtkMultiProcessController* controller);
   void keepLastFrame();
   void tellOfOther(vtkRenderer* renderer);
   gnomon::RenderManager& manager() { return *this->renderers.front().manager; }

@@ -16,21 +16,24 @@
 namespace gnomon
 {
 
+class ReceiversOnCpu;
+
 /// The values that all stages of a frame share.
 struct Frame
 {
   FrameWishes wishes;
-  Ranks* ranks = nullptr;     ///< the processes that draw the picture; null: this one alone
-  Scene scene;                ///< what there is
-  FramePlan plan;             ///< what is decided
-  CastingLights lights;       ///< the plan's, with their techniques
-  FrameCounts counts;         ///< what the stages did
-  glm::ivec2 size{ 0 };       ///< of the picture, in pixels
-  CameraView camera;          ///< that draws it
-  ReceiverSpace space;        ///< the camera's
-  ViewValues* view = nullptr; ///< cached values of the view
-  double start = 0.0;         ///< by steadyMilliseconds()
-  double stageStart = 0.0;    ///< as start
+  Ranks* ranks = nullptr;          ///< the processes that draw the picture
+  Scene scene;                     ///< what there is
+  FramePlan plan;                  ///< what is decided
+  CastingLights lights;            ///< the plan's, with their techniques
+  FrameCounts counts;              ///< what the stages did
+  glm::ivec2 size{ 0 };            ///< of the picture, in pixels
+  CameraView camera;               ///< that draws it
+  ReceiverSpace space;             ///< the camera's
+  ViewValues* view = nullptr;      ///< cached values of the view
+  ReceiversOnCpu* onCpu = nullptr; ///< its receivers
+  double start = 0.0;              ///< by steadyMilliseconds()
+  double stageStart = 0.0;         ///< as start
 
   Route route() const { return this->plan.picture.route.route; }
   /// End the clock of a stage, or of a part of it, if stages are measured.

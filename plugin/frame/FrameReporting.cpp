@@ -119,10 +119,7 @@ FrameReport reportOf(
     report.triangles = frame.scene.props.triangles;
   }
   report.notes.insert(report.notes.end(), frame.counts.notes.begin(), frame.counts.notes.end());
-  if (frame.ranks)
-  {
-    reportProcesses(report, *frame.ranks, frame.view->receivers.shared);
-  }
+  reportProcesses(report, *frame.ranks, frame.view->receivers.shared);
   report.numbersByGeometryShaders = totals.numbersByGeometryShaders;
   report.bytesOccluders = totals.bytesOccluders;
   report.bytesBvh = totals.bytesBvh;

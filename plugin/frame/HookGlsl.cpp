@@ -1,5 +1,6 @@
 #include "plugin/frame/HookGlsl.h"
 
+#include "plugin/frame/FrameShaders.h"
 #include "plugin/frame/TriangleNumbers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
@@ -11,9 +12,6 @@
 
 namespace gnomon
 {
-
-const std::map<std::string, std::string>& hookShaders(); // generated from plugin/*.glsl
-
 namespace
 {
 
@@ -163,7 +161,7 @@ HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& l
   : variant_(variant)
   , hasLights_(!lights.empty())
   , declarations_(std::string("#define VTK_VIEW_IS_RIGID ") +
-      (variant.vtkViewIsRigid ? "1\n" : "0\n") + hookShaders().at("plugin/frame/hook.glsl"))
+      (variant.vtkViewIsRigid ? "1\n" : "0\n") + frameShaders().at("plugin/frame/hook.glsl"))
 {
   const bool asksAtPoints = std::any_of(lights.begin(), lights.end(),
     [](const ShadedLight& shaded) { return shaded.pointwise != nullptr; });
@@ -174,7 +172,7 @@ HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& l
   }
   if (variant.route != Route::Inline)
   {
-    this->declarations_ += hookShaders().at("plugin/frame/hook_receiver.glsl");
+    this->declarations_ += frameShaders().at("plugin/frame/hook_receiver.glsl");
   }
   if (variant.route == Route::Image)
   {
@@ -185,7 +183,7 @@ HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& l
     std::string position = "gnomonPoint";
     if (variant.multisampled)
     {
-      this->declarations_ += hookShaders().at("plugin/frame/hook_multisample.glsl");
+      this->declarations_ += frameShaders().at("plugin/frame/hook_multisample.glsl");
       this->uniformFlow_ +=
         "vec3 gnomonAtCentroid = gnomonInView(interpolateAtCentroid(vertexVCVSOutput).xyz);\n";
       position = "gnomonCentroid(gnomonAtCentroid, gnomonPoint, gnomonNormal)";
@@ -205,10 +203,10 @@ HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& l
 /// Add how shaders find a pixel's visibility in images.
 void HookGlsl::addImages(const std::vector<ShadedLight>& lights)
 {
-  this->declarations_ += hookShaders().at("plugin/frame/hook_image.glsl");
+  this->declarations_ += frameShaders().at("plugin/frame/hook_image.glsl");
   if (this->variant_.multisampled)
   {
-    this->declarations_ += hookShaders().at("plugin/frame/hook_pixel_multisample.glsl");
+    this->declarations_ += frameShaders().at("plugin/frame/hook_pixel_multisample.glsl");
     this->uniformFlow_ +=
       "float gnomonDepth = gl_FragCoord.z;\n"
       "vec2 gnomonDepthPerPixel = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));\n";
@@ -216,22 +214,22 @@ void HookGlsl::addImages(const std::vector<ShadedLight>& lights)
   }
   else
   {
-    this->declarations_ += hookShaders().at("plugin/frame/hook_pixel.glsl");
+    this->declarations_ += frameShaders().at("plugin/frame/hook_pixel.glsl");
   }
   const int layers = layersOf(lights);
   if (layers > mostFetchesOneByOne)
   {
     this->declarations_ += "const int gnomonMostLayers = " + std::to_string(layers) + ";\n" +
-      hookShaders().at("plugin/frame/hook_layers.glsl");
+      frameShaders().at("plugin/frame/hook_layers.glsl");
     this->multiplications_ += "  gnomonFetchLayers();\n";
   }
   else
   {
-    this->declarations_ += hookShaders().at("plugin/frame/hook_layer.glsl");
+    this->declarations_ += frameShaders().at("plugin/frame/hook_layer.glsl");
   }
   if (haveBits(lights))
   {
-    this->declarations_ += hookShaders().at("plugin/frame/hook_bits.glsl");
+    this->declarations_ += frameShaders().at("plugin/frame/hook_bits.glsl");
     this->multiplications_ += "  gnomonFetchBits();\n";
   }
 }

@@ -1,10 +1,8 @@
 #include "plugin/frame/ReceiversStage.h"
 
 #include "plugin/frame/ReceiverDrawing.h"
-#include "plugin/ranks/Ranks.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
-#include "shadowtech/base/SeenTriangle.h"
 
 #include <vtkMapper.h>
 #include <vtkOpenGLRenderWindow.h>
@@ -13,8 +11,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -22,13 +18,10 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-ReceiversStage::ReceiversStage(Frame& frame, OccluderCollector& collector,
-  const std::vector<SurfaceName>& names, SharedPatches& patches, PassPrograms& programs,
+ReceiversStage::ReceiversStage(Frame& frame, OccluderCollector& collector, PassPrograms& programs,
   ShaderManager::StageValues& values)
   : frame_(frame)
   , collector_(collector)
-  , names_(names)
-  , patches_(patches)
   , programs_(programs)
   , values_(values)
 {
@@ -63,7 +56,7 @@ ValueKey ReceiversStage::keyOf(const vtkRenderState* s)
   key.add(propsPart, this->shownProps(s));
   key.add(snapshotPart, scene.props.casters);
   key.add("what is read of receivers", this->readsPoints());
-  key.add("the processes", this->frame_.ranks ? this->frame_.ranks->serial() : 0);
+  key.add("the processes", this->frame_.ranks->serial());
   key.add("where they are drawn", std::tuple(this->frame_.route(), originOf(s)));
   return key;
 }
@@ -108,7 +101,7 @@ void ReceiversStage::update(const vtkRenderState* s, vtkObjectBase* pass)
 {
   this->findStale(s);
   const bool areDue = this->due_.has_value() || !this->frame_.view->receivers.shared.areShared();
-  if (this->frame_.ranks && this->frame_.ranks->isAny(areDue))
+  if (this->frame_.ranks->isAny(areDue))
   {
     this->frame_.view->receivers.shared.clear();
   }
@@ -209,156 +202,6 @@ void ReceiversStage::take()
     value.key = std::move(this->due_);
     value.number = ++this->numbered_;
     ++this->frame_.counts.receiversDrawn;
-  }
-}
-
-//------------------------------------------------------------------------------
-/// True if any light's technique traces on the CPU.
-bool ReceiversStage::tracesOnCpu() const
-{
-  return std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
-    [](const CastingLight& casting) { return casting.isOnCpu(); });
-}
-
-//------------------------------------------------------------------------------
-Receivers& ReceiversStage::onCpu()
-{
-  return this->frame_.ranks ? this->shared().receivers() : this->own();
-}
-
-//------------------------------------------------------------------------------
-const Occluders& ReceiversStage::surfaces()
-{
-  return this->frame_.ranks ? this->shared().surfaces() : this->collector_.occluders();
-}
-
-//------------------------------------------------------------------------------
-SharedReceivers& ReceiversStage::shared()
-{
-  ReceiversValue& value = this->frame_.view->receivers;
-  if (!value.shared.areShared())
-  {
-    Ranks& ranks = *this->frame_.ranks;
-    this->readImages();
-    std::vector<float> depths;
-    value.target.readDepths(depths);
-    this->frame_.endStage("visibility: read receivers");
-    keepNearest(ranks, depths, value.images.fragments);
-    this->frame_.endStage("visibility: nearest");
-    Receivers own(
-      value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels, true);
-    const ReceiverPixels& pixels = own.all();
-    this->frame_.endStage("visibility: own receivers");
-    this->share(pixels, value.shared);
-    this->frame_.endStage("visibility: share receivers");
-  }
-  return value.shared;
-}
-
-//------------------------------------------------------------------------------
-void ReceiversStage::share(const ReceiverPixels& own, SharedReceivers& shared)
-{
-  Ranks& ranks = *this->frame_.ranks;
-  const Occluders& occluders = this->collector_.occluders();
-  std::vector<SharedName> names;
-  for (const SurfaceName& name : this->names_)
-  {
-    names.push_back(name.shared);
-  }
-  shared.share(ranks, own, occluders);
-  if (this->patches_.update(ranks, occluders, names, own))
-  {
-    shared.shareCurves(ranks, own, occluders, this->patches_.names());
-  }
-}
-
-//------------------------------------------------------------------------------
-void ReceiversStage::shareSurfaces()
-{
-  SharedReceivers& shared = this->shared();
-  if (smoothsEdges(this->frame_.lights) && shared.surfaceOfPixel().empty())
-  {
-    ReceiversValue& value = this->frame_.view->receivers;
-    std::vector<SharedName> own;
-    for (const DrawnSurface& drawn : value.drawnSurfaces)
-    {
-      own.push_back(this->names_[drawn.blocks.front().surface].shared);
-    }
-    Ranks::Gathered<SharedName> all;
-    this->frame_.ranks->gather(own, all);
-    const std::set<SharedName> different(all.elements.begin(), all.elements.end());
-    std::vector<std::size_t> numbers;
-    for (const SharedName& name : own)
-    {
-      numbers.push_back(
-        static_cast<std::size_t>(std::distance(different.begin(), different.find(name))));
-    }
-    shared.shareSurfaces(*this->frame_.ranks, value.images.fragments, numbers);
-    this->frame_.endStage("visibility: share surfaces");
-  }
-}
-
-//------------------------------------------------------------------------------
-/// Return the receivers that this process drew, read back once.
-Receivers& ReceiversStage::own()
-{
-  ReceiversValue& value = this->frame_.view->receivers;
-  const bool findsCurves = this->tracesOnCpu(); // others do not ask for them
-  if (!value.onCpu || value.onCpu->findsCurves() != findsCurves)
-  {
-    if (value.numberOfImages != value.number)
-    {
-      value.fragmentsBefore.swap(value.images.fragments);
-      value.numberBefore = std::exchange(value.numberOfImages, value.number);
-    }
-    this->readImages();
-    value.boxes.reset();
-    value.onCpu.emplace(
-      value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels, findsCurves);
-    this->frame_.endStage("visibility: read receivers");
-  }
-  return *value.onCpu;
-}
-
-//------------------------------------------------------------------------------
-/// Read back what VTK drew.
-void ReceiversStage::readImages()
-{
-  ReceiversValue& value = this->frame_.view->receivers;
-  value.images.rays = pixelRays(this->frame_.camera.clipFromView,
-    this->frame_.space.centredFromView, this->frame_.size.x, this->frame_.size.y);
-  if (this->frame_.route() == Route::Deferred)
-  {
-    value.deferred.read(value.images);
-  }
-  else
-  {
-    value.target.read(value.images);
-  }
-}
-
-//------------------------------------------------------------------------------
-/// Storing receivers takes half as long as tracing from them. From then on an image takes a fifth
-/// less, and there are boxes by which tiles need no rays.
-void ReceiversStage::store()
-{
-  constexpr int patience = 2; // frames
-  Receivers& receivers = this->onCpu();
-  ReceiversValue& value = this->frame_.view->receivers;
-  const auto images = std::count_if(this->frame_.lights.begin(), this->frame_.lights.end(),
-    [](const CastingLight& casting)
-    {
-      const bool isDecidedByMap = casting.info().conservativeMap && casting.own->usesMap();
-      return casting.isStale && casting.isOnCpu() && !isDecidedByMap;
-    });
-  if (++value.framesTraced > patience || images > 1)
-  {
-    const ReceiverPixels& pixels = receivers.all();
-    if (!value.boxes)
-    {
-      value.boxes.emplace(pixels, this->collector_.occluders());
-    }
-    this->frame_.endStage("visibility: store receivers");
   }
 }
 

@@ -2,19 +2,14 @@
 
 #include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/Frame.h"
+#include "plugin/frame/NumberCheck.h"
 #include "plugin/frame/PassPrograms.h"
 #include "plugin/frame/ValueKey.h"
-#include "plugin/ranks/SharedPatches.h"
 #include "plugin/scene/OccluderCollector.h"
-#include "plugin/scene/SurfaceNames.h"
-#include "shadowtech/base/NumberCheck.h"
-#include "shadowtech/base/Occluders.h"
-#include "shadowtech/base/Receivers.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkObjectBase;
@@ -26,16 +21,14 @@ namespace gnomon
 {
 
 /// The receivers stage of a renderer's frames: the triangle that each pixel shows. VTK draws their
-/// numbers; this checks them, reads them back, and shares them among processes.
+/// numbers; this checks them.
 class ReceiversStage
 {
 public:
   /// @param collector of the snapshot
   /// @param values of the frame's shaders, which this completes
-  /// @param names of the snapshot's surfaces, if several processes draw the picture
-  /// @param patches of the snapshot, which this names then
-  ReceiversStage(Frame& frame, OccluderCollector& collector, const std::vector<SurfaceName>& names,
-    SharedPatches& patches, PassPrograms& programs, ShaderManager::StageValues& values);
+  ReceiversStage(Frame& frame, OccluderCollector& collector, PassPrograms& programs,
+    ShaderManager::StageValues& values);
 
   void beginFrame() { this->shownProps_.reset(); }
   /// Return a hash of the props in view, from one walk a frame.
@@ -65,33 +58,12 @@ public:
   /// Cache the receivers that were drawn, if they were due.
   void take();
 
-  /// Return the view's receivers on the CPU, and the snapshot that names their surfaces: of all
-  /// processes, if several draw the picture.
-  Receivers& onCpu();
-  const Occluders& surfaces();
-  /// Store receivers that serve several images: those of several lights, or of a light that moves
-  /// over them.
-  void store();
-  ///@{
-  /// Share the receivers of several processes, once; and the surface of each pixel, if edges of
-  /// lights are smoothed.
-  SharedReceivers& shared();
-  void shareSurfaces();
-  ///@}
-  /// Share some receivers of this process, and the curves above them.
-  void share(const ReceiverPixels& own, SharedReceivers& shared);
-
 private:
   ValueKey keyOf(const vtkRenderState* s);
   NumberCheck checkNumbers(const vtkRenderState* s);
-  bool tracesOnCpu() const;
-  Receivers& own();
-  void readImages();
 
   Frame& frame_;
   OccluderCollector& collector_;
-  const std::vector<SurfaceName>& names_;
-  SharedPatches& patches_;
   PassPrograms& programs_;
   ShaderManager::StageValues& values_;
   std::optional<std::size_t> shownProps_; ///< this frame's, once it is asked for

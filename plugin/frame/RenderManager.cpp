@@ -66,7 +66,7 @@ RenderManager::RenderManager(PassPrograms& programs)
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
+void RenderManager::beginFrame(const FrameWishes& wishes, Ranks& ranks)
 {
   Frame& frame = this->frame_;
   frame.counts = FrameCounts{};
@@ -74,8 +74,13 @@ void RenderManager::beginFrame(const FrameWishes& wishes, Ranks* ranks)
   frame.scene = Scene{};
   this->receivers_.beginFrame();
   frame.wishes = wishes;
-  frame.ranks = ranks;
-  frame.wishes.isShared = ranks != nullptr;
+  frame.ranks = &ranks;
+  frame.wishes.isShared = ranks.count() > 1;
+  frame.onCpu = &this->ownReceivers_;
+  if (frame.wishes.isShared)
+  {
+    frame.onCpu = &this->receiversOfRanks_;
+  }
   if (!wishes.keepVisibility)
   {
     this->visibility_.dropImages();
@@ -100,10 +105,7 @@ bool RenderManager::readLights(
   frame.scene.picture.drawsMaps = canDrawMaps();
   frame.scene.lights = this->lights_.read(renderer, defaults, frame.wishes);
   const LightSet& lights = frame.scene.lights.set;
-  if (frame.ranks)
-  {
-    frame.ranks->requireSame(hashOf(lights, true), "lights");
-  }
+  frame.ranks->requireSame([&] { return hashOf(lights, true); }, "lights");
   frame.endStage("lights");
   return !lights.lights.empty() || frame.wishes.keepVisibility;
 }
@@ -112,19 +114,8 @@ bool RenderManager::readLights(
 const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
-  OtherProcesses others;
-  if (Ranks* const ranks = frame.ranks)
-  {
-    others.unite = [ranks](const Bounds& own) { return ranks->united(own); };
-    others.gather = [ranks](const std::vector<GlyphCount>& own)
-    {
-      Ranks::Gathered<GlyphCount> all;
-      ranks->gather(own, all);
-      return all.elements;
-    };
-  }
   const SnapshotChange change =
-    this->collector_.collect(s->GetRenderer(), frame.wishes.smoothTerminators, others);
+    this->collector_.collect(s->GetRenderer(), frame.wishes.smoothTerminators, *frame.ranks);
   frame.counts.surfacesExtracted = change.extracted;
   frame.counts.surfacesRetransformed = change.retransformed;
   const Occluders& occluders = this->collector_.occluders();
@@ -140,10 +131,8 @@ const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s
   this->stageValues_.eyeView = shown.camera.eyeView();
   this->stageValues_.reductionFactor = frame.wishes.reductionFactor;
   hashView(frame.scene.picture.view, frame.camera, frame.size);
-  if (frame.ranks)
-  {
-    frame.ranks->requireSame(frame.scene.picture.view, "cameras or sizes of the picture");
-  }
+  frame.ranks->requireSame(
+    [&] { return frame.scene.picture.view; }, "cameras or sizes of the picture");
   frame.endStage("occluders");
   return this->collector_.leftOut();
 }
@@ -199,9 +188,8 @@ const FramePlan& RenderManager::plan(
   }
   if (plan.hasShadows)
   {
-    const bool areNamed = this->frame_.ranks || this->frame_.wishes.keepVisibility;
-    this->names_ = areNamed ? surfaceNames(s->GetRenderer(), this->collector_.records())
-                            : std::vector<SurfaceName>{};
+    this->names_ = plan.namesSurfaces ? surfaceNames(s->GetRenderer(), this->collector_.records())
+                                      : std::vector<SurfaceName>{};
     this->configureShaders(s);
   }
   this->frame_.endStage("plan");

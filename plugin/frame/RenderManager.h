@@ -5,6 +5,7 @@
 #include "plugin/frame/FramePlanner.h"
 #include "plugin/frame/FrameReporting.h"
 #include "plugin/frame/PassPrograms.h"
+#include "plugin/frame/ReceiversOnCpu.h"
 #include "plugin/frame/ReceiversStage.h"
 #include "plugin/frame/SceneReading.h"
 #include "plugin/frame/SnapshotTracer.h"
@@ -45,8 +46,8 @@ public:
   explicit RenderManager(PassPrograms& programs);
 
   /// Start a frame's counts and clock.
-  /// @param ranks the processes that draw the picture; null: this one alone
-  void beginFrame(const FrameWishes& wishes, Ranks* ranks);
+  /// @param ranks the processes that draw the picture
+  void beginFrame(const FrameWishes& wishes, Ranks& ranks);
 
   /// lights: reads which of the renderer's lights may cast.
   /// @param severalViews whether the pass draws others beside this one
@@ -82,7 +83,7 @@ public:
   /// visibility (image route): fills the layers of the lights whose visibility is another one than
   /// the view has, and keeps a copy if asked to.
   /// @throws std::runtime_error if there is no tracer
-  void computeVisibility() { this->visibility_.compute(this->names_); }
+  void computeVisibility() { this->visibility_.compute(); }
 
   /// shading and receivers (deferred route): between the two calls VTK draws its opaque props, lit
   /// and in shadow. Afterwards it is known which lights' visibility is another one than the view
@@ -127,14 +128,16 @@ private:
   Frame frame_;
   LightReading lights_;
   OccluderCollector collector_;
-  std::vector<SurfaceName> names_; ///< of the snapshot's surfaces, if they are needed
+  std::vector<SurfaceName> names_; ///< of the snapshot's surfaces, if the plan names them
   SharedPatches patches_;          ///< of the snapshot, if several processes draw the picture
   OccluderBuffers buffers_;
   PassPrograms& programs_;
   ShaderManager::StageValues stageValues_;
   SnapshotTracer tracer_{ frame_, collector_.occluders(), patches_.names() };
-  ReceiversStage receivers_{ frame_, collector_, names_, patches_, programs_, stageValues_ };
-  VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, tracer_, receivers_,
+  ReceiversStage receivers_{ frame_, collector_, programs_, stageValues_ };
+  OwnReceivers ownReceivers_{ frame_, collector_, names_ };
+  ReceiversOfRanks receiversOfRanks_{ frame_, collector_, names_, patches_ };
+  VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, tracer_,
     programs_.library };
   FramePlanner planner_{ frame_, collector_.occluders(), tracer_, programs_.library };
   RendererViews views_;

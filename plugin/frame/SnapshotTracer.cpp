@@ -1,8 +1,6 @@
 #include "plugin/frame/SnapshotTracer.h"
 
-#include <cstdint>
 #include <exception>
-#include <vector>
 
 namespace gnomon
 {
@@ -22,10 +20,7 @@ void SnapshotTracer::update()
   {
     this->tracer_.emplace();
   }
-  Ranks* const ranks = this->frame_.ranks;
-  this->tracer_->share(ranks ? [ranks](std::vector<std::uint64_t>& bits) { ranks->uniteBits(bits); }
-                             : SharedTracer::UniteBits(),
-    this->patches_);
+  this->tracer_->share(this->frame_.ranks->rayExchange(), this->patches_);
   try
   {
     const EmbreeTracer::Update update = this->tracer_->update(this->occluders_);

@@ -1,19 +1,17 @@
 #include "plugin/frame/TriangleNumbers.h"
 
+#include "plugin/frame/FrameShaders.h"
+
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
 #include <regex>
 
 namespace gnomon
 {
-
-const std::map<std::string, std::string>& hookShaders(); // generated from plugin/*.glsl
-
 namespace
 {
 
@@ -126,7 +124,7 @@ std::string numberingShader(const std::string& vertexShader, int corners)
     "layout(lines) in;\nlayout(line_strip, max_vertices = 2) out;\n",
     "layout(triangles) in;\nlayout(triangle_strip, max_vertices = 3) out;\n"
   };
-  std::string shader = hookShaders().at("plugin/frame/number.geom.glsl");
+  std::string shader = frameShaders().at("plugin/frame/number.geom.glsl");
   const auto fill = [&](const char* mark, const std::string& text)
   { vtkShaderProgram::Substitute(shader, mark, text, false); };
   fill("//GNOMON::Extensions", extensions);

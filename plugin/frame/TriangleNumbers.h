@@ -2,7 +2,7 @@
 
 #include "lights/vtkGnomonVersions.h"
 
-#include "shadowtech/base/NumberCheck.h"
+#include "plugin/frame/NumberCheck.h"
 
 #include <cstdint>
 #include <map>

@@ -5,7 +5,7 @@
 #include "plugin/frame/ValueKey.h"
 #include "plugin/ranks/SharedReceivers.h"
 
-#include "shadowtech/base/DeferredPicture.h"
+#include "plugin/frame/DeferredPicture.h"
 #include "shadowtech/base/ReceiverBoxes.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"

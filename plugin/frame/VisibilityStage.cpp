@@ -21,18 +21,6 @@ namespace gnomon
 namespace
 {
 
-/// Return the samples of an area light in this frame. With several views it has all of them: the
-/// pass's progress is that of the last view alone.
-/// @param before in the frame before; 0 where that showed something else
-int samplesOf(const CastingLight& casting, int before, bool severalViews)
-{
-  const ShadowLight& light = casting.light();
-  const bool refines = !severalViews && casting.info().has(refinementSettings()) && light.area;
-  const int named = light.refinement.movingSamples;
-  const int first = named > 0 ? named : casting.plan.firstSamples;
-  return samplesOfStep(refines ? first : 0, before, light.lightSamples);
-}
-
 /// True if no other part changed than the props and the snapshot.
 bool leavesTiles(const std::set<std::string>& changedParts)
 {
@@ -68,12 +56,11 @@ std::vector<ClassCount> countClasses(
 
 //------------------------------------------------------------------------------
 VisibilityStage::VisibilityStage(Frame& frame, const Occluders& occluders, OccluderBuffers& buffers,
-  SnapshotTracer& tracer, ReceiversStage& receivers, ShaderLibrary& shaders)
+  SnapshotTracer& tracer, ShaderLibrary& shaders)
   : frame_(frame)
   , occluders_(occluders)
   , buffers_(buffers)
   , tracer_(tracer)
-  , receivers_(receivers)
   , shaders_(shaders)
 {
 }
@@ -124,10 +111,7 @@ void VisibilityStage::findStale()
     changesOf.push_back(changes);
     ++value;
   }
-  if (this->frame_.ranks)
-  {
-    this->agreeOnStale();
-  }
+  this->agreeOnStale();
   value = values.begin();
   auto changes = changesOf.begin();
   for (CastingLight& casting : this->frame_.lights)
@@ -193,7 +177,7 @@ void VisibilityStage::judge()
 }
 
 //------------------------------------------------------------------------------
-void VisibilityStage::compute(const std::vector<SurfaceName>& names)
+void VisibilityStage::compute()
 {
   FrameCounts& counts = this->frame_.counts;
   ViewValues& view = *this->frame_.view;
@@ -203,15 +187,8 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
         [](const CastingLight& casting) { return casting.isStale && casting.isOnCpu(); }))
   {
     this->tracer_.update();
-    if (this->frame_.ranks)
-    {
-      this->receivers_.shareSurfaces();
-    }
-    else // other processes' casters would reach the tiles, too
-    {
-      this->receivers_.store();
-      this->judge();
-    }
+    this->frame_.onCpu->prepare();
+    this->judge();
   }
   this->darkBits_.clear();
   auto value = view.visibility.begin();
@@ -244,22 +221,15 @@ void VisibilityStage::compute(const std::vector<SurfaceName>& names)
   {
     this->frame_.endStage("visibility: upload");
   }
-  static const std::vector<SurfaceName> none; // other processes' surfaces have other names
-  const std::vector<SurfaceName>& kept = this->frame_.ranks ? none : names;
-  bool keeps = this->frame_.wishes.keepVisibility &&
-    (counts.visibilityComputed > 0 || this->imagesOf_ != &view ||
-      this->images_.visibility.empty() || this->imageNames_ != kept);
-  if (this->frame_.ranks)
+  ReceiversOnCpu& onCpu = *this->frame_.onCpu;
+  const bool isOther = counts.visibilityComputed > 0 || this->imagesOf_ != &view ||
+    this->images_.visibility.empty() || this->imageNames_ != onCpu.names();
+  if (this->frame_.ranks->isAny(this->frame_.wishes.keepVisibility && isOther))
   {
-    keeps = this->frame_.ranks->isAny(keeps);
-  }
-  if (keeps)
-  {
-    const ReceiverPixels& receivers = this->receivers_.onCpu().all();
-    this->images_ =
-      keepVisibility(this->frame_.lights, view, receivers, this->receivers_.surfaces(), kept);
+    this->images_ = keepVisibility(
+      this->frame_.lights, view, onCpu.receivers().all(), onCpu.surfaces(), onCpu.names());
     this->imagesOf_ = &view;
-    this->imageNames_ = kept;
+    this->imageNames_ = onCpu.names();
   }
 }
 
@@ -282,8 +252,8 @@ TracedTiles* VisibilityStage::beginTiles(
   const TechniqueInfo& info = casting.info();
   const bool isDecidedByMap = info.conservativeMap && casting.own->usesMap();
   // Of a single surface nothing stays where it was.
-  if (!info.exact || isDecidedByMap || casting.edgeSamples() > 1 || this->frame_.ranks ||
-    occluders.surfaces.size() < 2)
+  if (!info.exact || isDecidedByMap || casting.edgeSamples() > 1 ||
+    !this->frame_.plan.reusesTiles || occluders.surfaces.size() < 2)
   {
     value.dropTiles();
     return nullptr;
@@ -327,17 +297,15 @@ void VisibilityStage::fill(
   else if (auto* onGpu = casting.own->as<GpuScreenTechnique>())
   {
     this->buffers_.update(occluders);
-    namingLight(light,
-      [&]
-      {
-        onGpu->drawVisibility(
-          { light, casting.own->fitting(), this->frame_.camera, this->frame_.space, occluders,
-            this->buffers_, receivers.target, this->frame_.view->receivers.number,
-            receivers.drawnSurfaces, layers, casting.plan.layer,
-            this->frame_.scene.picture.severalViews, this->shaders_, classes != nullptr, classes,
-            value.notes, this->frame_.counts.mapBakes },
-          casting.counts);
-      });
+    LayerInput input{ light, casting.own->fitting(), this->frame_.camera, this->frame_.space,
+      occluders, this->buffers_, receivers.target, receivers.drawnSurfaces, layers, this->shaders_,
+      value.notes, this->frame_.counts.mapBakes };
+    input.layer = casting.plan.layer;
+    input.receiversShown = receivers.number;
+    input.severalViews = this->frame_.scene.picture.severalViews;
+    input.counting = value.classified;
+    input.classes = classes;
+    namingLight(light, [&] { onGpu->drawVisibility(input, casting.counts); });
     this->frame_.endStage("visibility: draw");
   }
   else
@@ -359,11 +327,10 @@ void VisibilityStage::trace(
   const std::size_t edgeSamples = casting.edgeSamples();
   std::vector<std::uint8_t> classesForEdges;
   ShadowLight traced = light;
-  traced.lightSamples = samplesOf(
-    casting, value.samples, this->frame_.scene.picture.severalViews || this->frame_.ranks);
+  traced.lightSamples = samplesOfStep(casting.plan.firstSamples, value.samples, light.lightSamples);
   value.samples = traced.lightSamples;
   casting.counts.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
-  Receivers& onCpu = this->receivers_.onCpu();
+  ReceiversOnCpu& onCpu = *this->frame_.onCpu;
   const bool hasBit = casting.plan.bit != noBit;
 
   if (verdicts)
@@ -389,16 +356,22 @@ void VisibilityStage::trace(
   {
     layers.readBit(casting.plan.bit, visibility);
   }
-  const ScreenInput input{ traced, casting.own->fitting(), this->receivers_.surfaces(), onCpu,
-    this->tracer_.get(), casting.own->usesMap(),
-    classes || edgeSamples == 1 ? classes : &classesForEdges, tiles, verdicts,
-    this->frame_.counts.mapBakes };
+  ScreenInput input{ traced, casting.own->fitting(), onCpu.surfaces(), onCpu.receivers(),
+    this->tracer_.get(), this->frame_.counts.mapBakes };
+  input.usesMap = casting.own->usesMap();
+  input.classes = classes || edgeSamples == 1 ? classes : &classesForEdges;
+  input.tiles = tiles;
+  input.verdicts = verdicts;
   namingLight(light, [&] { technique.computeVisibility(input, visibility, casting.counts); });
   this->frame_.endStage("visibility: trace");
   if (edgeSamples > 1)
   {
-    namingLight(
-      light, [&] { this->smoothEdges(technique, input, edgeSamples, visibility, casting.counts); });
+    const auto smooth = [&](const SharedPicture* several)
+    {
+      this->edges_.smooth(
+        technique, input, *input.classes, edgeSamples, visibility, several, casting.counts);
+    };
+    namingLight(light, [&] { onCpu.smoothEdges(smooth); });
     this->frame_.endStage("visibility: edges");
   }
   hasBit ? layers.fillBit(casting.plan.bit, visibility)
@@ -408,33 +381,6 @@ void VisibilityStage::trace(
     this->frame_.view->receivers.deferred.keepShadows(visibility);
   }
   this->frame_.endStage("visibility: upload");
-}
-
-//------------------------------------------------------------------------------
-void VisibilityStage::smoothEdges(CpuScreenTechnique& technique, const ScreenInput& input,
-  std::size_t edgeSamples, std::vector<float>& visibility, LightCounts& counts)
-{
-  const auto smooth = [&](const SharedPicture* several)
-  {
-    this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, several, counts);
-  };
-  Ranks* const ranks = this->frame_.ranks;
-  if (!ranks)
-  {
-    smooth(nullptr);
-    return;
-  }
-  const ReceiversValue& value = this->frame_.view->receivers;
-  const Drawn drawn(value.images, value.drawnSurfaces, this->occluders_, nullptr, true);
-  const SharedPicture several{ drawn, value.shared.surfaceOfPixel(), value.shared.pixels(),
-    [ranks](std::vector<float>& numbers) { ranks->reduceToLeast(numbers); },
-    [&](const ReceiverPixels& own) -> const ReceiverPixels&
-    {
-      this->receivers_.share(own, this->sharedSamples_);
-      return this->sharedSamples_.pixels();
-    },
-    [ranks](std::vector<std::uint64_t>& bits) { ranks->uniteBits(bits); } };
-  smooth(&several);
 }
 
 } // namespace gnomon

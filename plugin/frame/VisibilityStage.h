@@ -1,7 +1,7 @@
 #pragma once
 
 #include "plugin/frame/Frame.h"
-#include "plugin/frame/ReceiversStage.h"
+#include "plugin/frame/ReceiversOnCpu.h"
 #include "plugin/frame/SnapshotTracer.h"
 #include "plugin/frame/ValueKey.h"
 #include "plugin/scene/SurfaceNames.h"
@@ -30,16 +30,15 @@ public:
   /// @param occluders the snapshot, which lives as long as this
   /// @param buffers of the snapshot
   VisibilityStage(Frame& frame, const Occluders& occluders, OccluderBuffers& buffers,
-    SnapshotTracer& tracer, ReceiversStage& receivers, ShaderLibrary& shaders);
+    SnapshotTracer& tracer, ShaderLibrary& shaders);
 
   /// Decide for each light whether this frame computes its visibility or reuses it. The
   /// receivers are there.
   void findStale();
 
   /// Computes what is stale, and keeps a copy of all if asked to.
-  /// @param names of the snapshot's surfaces, if visibility is kept
   /// @throws std::runtime_error if there is no tracer
-  void compute(const std::vector<SurfaceName>& names);
+  void compute();
 
   ///@{
   /// The copy of the last frame that was asked for one.
@@ -48,14 +47,12 @@ public:
   ///@}
 
   /// Return the bytes of the rays at edges.
-  std::size_t bytesOfRays() const { return this->edges_.bytes() + this->sharedSamples_.bytes(); }
+  std::size_t bytesOfRays() const { return this->edges_.bytes() + this->frame_.onCpu->bytes(); }
 
 private:
   ValueKey keyOf(const CastingLight& casting) const;
   bool classifies() const;
   void agreeOnStale();
-  void smoothEdges(CpuScreenTechnique& technique, const ScreenInput& input, std::size_t edgeSamples,
-    std::vector<float>& visibility, LightCounts& counts);
   void judge();
   TracedTiles* beginTiles(
     const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value);
@@ -66,11 +63,9 @@ private:
   const Occluders& occluders_;
   OccluderBuffers& buffers_;
   SnapshotTracer& tracer_;
-  ReceiversStage& receivers_;
   ShaderLibrary& shaders_;
   EdgeSamples edges_;
-  SharedReceivers sharedSamples_; ///< of edges, if several processes draw the picture
-  std::vector<float> onCpu_;      ///< a light's; kept, as new memory costs more than old
+  std::vector<float> onCpu_; ///< a light's; kept, as new memory costs more than old
   ///@{
   /// The verdicts on this frame's tiles by light, and the bits of lights that are dark everywhere.
   std::vector<std::optional<TileVerdicts>> verdicts_;

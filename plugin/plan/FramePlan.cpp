@@ -52,6 +52,15 @@ void chooseTechniques(FramePlan& plan, const Scene& scene, const FrameWishes& wi
   }
 }
 
+/// Plan with how many samples a light's image begins. Those of several views and processes have all
+/// samples at once: the pass's progress is that of the last view alone.
+void planSamples(LightPlan& plan, bool areSeveral)
+{
+  const int named = plan.light.refinement.movingSamples;
+  const bool refines = !areSeveral && plan.info().has(refinementSettings()) && plan.light.area;
+  plan.firstSamples = !refines ? 0 : named > 0 ? named : plan.firstSamples;
+}
+
 /// Assign layers, and bits to lights with hard shadows.
 void placeVisibility(FramePlan& plan)
 {
@@ -105,8 +114,11 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
     const PicturePlan& picture = plan.picture;
     light.shadedBy = planShading(light, picture.route.route, picture.shadesTranslucent);
     planFit(light, picture.route.route, picture.shadesTranslucent, scene.lights);
+    planSamples(light, scene.picture.severalViews || wishes.isShared);
   }
   placeVisibility(plan);
+  plan.namesSurfaces = wishes.isShared || wishes.keepVisibility;
+  plan.reusesTiles = !wishes.isShared;
   return plan;
 }
 

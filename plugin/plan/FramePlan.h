@@ -27,9 +27,12 @@ struct FramePlan
   std::string choice;               ///< FrameReport::choice
   bool hasShadows = true;           ///< false: nothing casts, and no visibility is kept
   PicturePlan picture;              ///< if it has shadows
-  bool moves = false;               ///< true if the frame is one of a moving picture
-  bool isApproximate = false;       ///< true if a picture at rest may differ from it
-  AutoHistory history;              ///< for the next frame
+  bool namesSurfaces = false;       ///< true if the snapshot's surfaces need names
+  /// True if tiles of an image stay while this process's casters near them do: it has all casters.
+  bool reusesTiles = true;
+  bool moves = false;         ///< true if the frame is one of a moving picture
+  bool isApproximate = false; ///< true if a picture at rest may differ from it
+  AutoHistory history;        ///< for the next frame
 
   ///@{
   /// If either is set, the plan is not complete: it is to be made again with this evidence, or with

@@ -47,7 +47,7 @@ struct LightPlan
   RayIdentity identity;     ///< of the light
   ///@{
   /// What follows is planned last.
-  int firstSamples = 0; ///< of the first frame of an area light that may refine; 0: all
+  int firstSamples = 0; ///< of the first frame, if the light's image refines; 0: all
   int channels = 1;     ///< of its visibility, a layer each
   int layer = 0;        ///< its first layer
   int bit = noBit;      ///< or its bit in the image of bits

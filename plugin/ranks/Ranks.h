@@ -1,19 +1,13 @@
 #pragma once
 
 #include "lights/Bounds.h"
-#include "lights/vtkGnomonVersions.h"
-
-#include <vtkSmartPointer.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkMultiProcessController;
-VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {
@@ -25,7 +19,7 @@ struct RankFailure : std::runtime_error
 };
 
 /// The ranks: processes that draw one picture, each its own part of the scene (sort-last
-/// rendering).
+/// rendering). There are several (ManyRanks), or there is one, alone().
 ///
 /// All functions from beginFrame() to endFrame() are collective: every rank calls the same ones in
 /// the same order, also ranks without data. Between two calls all ranks must decide alike; isAny()
@@ -34,45 +28,47 @@ struct RankFailure : std::runtime_error
 class Ranks
 {
 public:
-  /// Count the ranks, and those on this rank's machine; collective.
-  /// @throws RankFailure if the ranks cannot reach each other
-  explicit Ranks(vtkMultiProcessController* controller);
-  ~Ranks();
+  Ranks() = default;
+  virtual ~Ranks() = default;
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
-  int count() const { return this->count_; }
-  int own() const { return this->own_; } ///< this rank's number
-  vtkMultiProcessController* controller() const;
-  /// Return a number that no other object of this process has, had, or will have.
-  std::uint64_t serial() const { return this->serial_; }
-  /// Return this rank's share of the cores of its machine.
-  std::size_t threads() const { return this->threads_; }
+  virtual int count() const = 0;
+  virtual int own() const = 0; ///< this rank's number
+  /// Return a number that no other ranks of this process have, had, or will have.
+  virtual std::uint64_t serial() const = 0;
+  /// Return this rank's share of the cores of its machine; 0: as many as there are.
+  virtual std::size_t threads() const = 0;
 
   /// Begin a frame.
   /// @param whyNot why this rank cannot draw shadows; empty if it can
-  /// @return the reason of the first rank that cannot, with its number; the frame has ended then
+  /// @return the reason of the first rank that cannot, with its number if there are several; the
+  /// frame has ended then
   /// @throws RankFailure as the functions below
-  std::string beginFrame(const std::string& whyNot);
+  virtual std::string beginFrame(const std::string& whyNot) = 0;
   /// End a frame: this rank needs no other any more.
-  void endFrame();
+  virtual void endFrame() = 0;
   /// Tell the others of an error. Not collective; has no effect after the frame's end or after a
   /// RankFailure.
-  void fail(const std::string& error) noexcept;
+  virtual void fail(const std::string& error) noexcept = 0;
 
   /// True if it is on any rank.
-  bool isAny(bool mine);
+  virtual bool isAny(bool mine) = 0;
   /// Throw on all ranks unless a number is the same on all.
+  /// @param number computes it, if there is another to compare it with
   /// @param what for the error, what differs: "lights"
-  void requireSame(std::uint64_t number, const std::string& what);
+  virtual void requireSame(
+    const std::function<std::uint64_t()>& number, const std::string& what) = 0;
   /// Return the sum over all ranks.
-  std::int64_t sum(std::int64_t mine);
+  virtual std::int64_t sum(std::int64_t mine) = 0;
   /// Return the box around those of all ranks.
-  Bounds united(const Bounds& mine);
+  virtual Bounds united(const Bounds& mine) = 0;
   /// Replace each number by the least of all ranks'.
-  void reduceToLeast(std::vector<float>& numbers);
+  virtual void reduceToLeast(std::vector<float>& numbers) = 0;
   /// Replace bits by those that any rank has set.
-  void uniteBits(std::vector<std::uint64_t>& bits);
+  virtual void uniteBits(std::vector<std::uint64_t>& bits) = 0;
+  /// Return uniteBits() for rays; null where this rank has all casters.
+  virtual std::function<void(std::vector<std::uint64_t>& bits)> rayExchange() = 0;
 
   /// The elements of all ranks, in the order of the ranks.
   template <typename Element>
@@ -92,25 +88,18 @@ public:
   }
 
   /// Return the bytes that this rank has received in the frame, its own among them.
-  std::size_t bytesShared() const { return this->bytesShared_; }
+  virtual std::size_t bytesShared() const = 0;
 
 private:
-  std::string firstFailure(const std::string& mine);
-  void agree();
-  [[noreturn]] void giveUp();
-  template <typename Number>
-  void reduce(std::vector<Number>& numbers, int operation);
-  std::vector<std::size_t> firstsOf(std::size_t mine);
-  void gatherBytes(
-    const void* mine, void* all, std::size_t elementBytes, const std::vector<std::size_t>& firsts);
-
-  vtkSmartPointer<vtkMultiProcessController> controller_;
-  int count_;
-  int own_;
-  std::uint64_t serial_;
-  std::size_t threads_ = 1;
-  bool othersWait_ = false; ///< true while other ranks may wait for this one
-  std::size_t bytesShared_ = 0;
+  /// Return the first of each rank's elements among those of all, and the number of all.
+  /// @param mine the number of this rank's
+  virtual std::vector<std::size_t> firstsOf(std::size_t mine) = 0;
+  /// @param firsts of firstsOf()
+  virtual void gatherBytes(const void* mine, void* all, std::size_t elementBytes,
+    const std::vector<std::size_t>& firsts) = 0;
 };
+
+/// Return the ranks of a process that draws its pictures alone.
+Ranks& alone();
 
 } // namespace gnomon

@@ -12,8 +12,7 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-SnapshotChange OccluderCollector::collect(
-  vtkRenderer* renderer, bool readsNormals, const OtherProcesses& others)
+SnapshotChange OccluderCollector::collect(vtkRenderer* renderer, bool readsNormals, Ranks& ranks)
 {
   DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
   this->lookup_.beginFrame(drawn.translucentReceivers, drawn.seenThrough);
@@ -25,7 +24,7 @@ SnapshotChange OccluderCollector::collect(
   {
     surface.block.normals = readsNormals ? surface.block.normals : nullptr;
   }
-  const SnapshotChange change = this->surfaces_.update(wanted, others);
+  const SnapshotChange change = this->surfaces_.update(wanted, ranks);
   if (change.any)
   {
     this->indexProps(wanted);

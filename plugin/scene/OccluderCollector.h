@@ -40,9 +40,8 @@ public:
   /// Brings the snapshot up to date with the renderer's props. Updates the mappers' inputs first,
   /// as VTK would when drawing.
   /// @param readsNormals whether surfaces get the normals that VTK shades them with
-  /// @param others what other processes hold of the scene
-  SnapshotChange collect(
-    vtkRenderer* renderer, bool readsNormals = false, const OtherProcesses& others = {});
+  /// @param ranks that share the frame
+  SnapshotChange collect(vtkRenderer* renderer, bool readsNormals = false, Ranks& ranks = alone());
 
   const Occluders& occluders() const { return this->surfaces_.occluders(); }
   /// One for each of the snapshot's surfaces.

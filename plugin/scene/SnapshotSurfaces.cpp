@@ -30,11 +30,17 @@ void takeFacets(const SurfaceRecord& record, const SceneFrame& frame, Surface& s
   surface.facetHeight = static_cast<float>(scale * frame.unitsPerWorld() * record.facetHeight);
 }
 
+/// How many instances a rank has of a glyph, in all blocks of a mapper's input.
+struct GlyphCount
+{
+  SharedName glyph;
+  std::int64_t instances;
+};
+
 } // namespace
 
 //------------------------------------------------------------------------------
-SnapshotChange SnapshotSurfaces::update(
-  std::vector<WantedSurface>& wanted, const OtherProcesses& others)
+SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted, Ranks& ranks)
 {
   SnapshotChange change;
   bool otherList = wanted.size() != this->records_.size();
@@ -58,14 +64,15 @@ SnapshotChange SnapshotSurfaces::update(
     moved = moved || isMoved;
   }
 
-  change.extracted += this->countInstances(wanted, others);
+  change.extracted += this->countInstances(wanted, ranks);
   bool positionsChanged = false;
   bool trianglesChanged = otherList;
+  const bool areOtherRanks = std::exchange(this->ranks_, ranks.serial()) != ranks.serial();
   change.any = otherList || moved || change.extracted > 0;
   bool reframed = false;
-  if (change.any || others.unite)
+  if (ranks.isAny(change.any || areOtherRanks))
   {
-    reframed = this->updateFrame(wanted, others);
+    reframed = this->updateFrame(wanted, ranks);
     change.any = change.any || reframed;
   }
   if (change.any)
@@ -101,8 +108,7 @@ SnapshotChange SnapshotSurfaces::update(
 /// Count the instances that all processes have of each glyph. Read a glyph again if its number
 /// makes another way to hold it cheaper.
 /// @return how many were read again
-int SnapshotSurfaces::countInstances(
-  std::vector<WantedSurface>& wanted, const OtherProcesses& others)
+int SnapshotSurfaces::countInstances(std::vector<WantedSurface>& wanted, Ranks& ranks)
 {
   const auto recordOf = [&](const WantedSurface& surface) -> SurfaceRecord&
   { return surface.fresh ? surface.fresh->record : this->records_[surface.old]; };
@@ -119,8 +125,10 @@ int SnapshotSurfaces::countInstances(
       own.push_back(countOf(surface));
     }
   }
+  Ranks::Gathered<GlyphCount> all;
+  ranks.gather(own, all);
   std::map<SharedName, std::size_t> instancesOf;
-  for (const GlyphCount& count : others.gather ? others.gather(own) : own)
+  for (const GlyphCount& count : all.elements)
   {
     instancesOf[count.glyph] += static_cast<std::size_t>(count.instances);
   }
@@ -147,8 +155,7 @@ int SnapshotSurfaces::countInstances(
 
 //------------------------------------------------------------------------------
 /// Set the frame to that of the present box; true if it is another one.
-bool SnapshotSurfaces::updateFrame(
-  const std::vector<WantedSurface>& wanted, const OtherProcesses& others)
+bool SnapshotSurfaces::updateFrame(const std::vector<WantedSurface>& wanted, Ranks& ranks)
 {
   Bounds boundsWorld;
   for (const WantedSurface& surface : wanted)
@@ -158,11 +165,8 @@ bool SnapshotSurfaces::updateFrame(
     const Bounds box = transformed(record.boundsModel, surface.prop->worldFromModel);
     boundsWorld.add(isWithin(box, largestOfWorld) ? box : Bounds());
   }
-  if (others.unite)
-  {
-    boundsWorld = others.unite(boundsWorld);
-  }
-  const SceneFrame old = std::exchange(this->occluders_.frame, sceneFrameOf(boundsWorld));
+  const SceneFrame old =
+    std::exchange(this->occluders_.frame, sceneFrameOf(ranks.united(boundsWorld)));
   return this->occluders_.frame != old;
 }
 

@@ -1,32 +1,15 @@
 #pragma once
 
+#include "plugin/ranks/Ranks.h"
 #include "plugin/scene/WantedSurfaces.h"
-
 #include "shadowtech/base/Occluders.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace gnomon
 {
-
-/// How many instances a process has of a glyph, in all blocks of a mapper's input.
-struct GlyphCount
-{
-  SharedName glyph;
-  std::int64_t instances;
-};
-
-/// Join what this process holds of the scene with what other processes do. Empty: there are no
-/// others.
-struct OtherProcesses
-{
-  std::function<Bounds(const Bounds&)> unite; ///< returns the box around all
-  /// Returns the counts of all.
-  std::function<std::vector<GlyphCount>(const std::vector<GlyphCount>&)> gather;
-};
 
 /// The result of one update of the snapshot.
 struct SnapshotChange
@@ -42,8 +25,8 @@ class SnapshotSurfaces
 {
 public:
   /// Make the snapshot hold these surfaces, in this order.
-  /// @param others with whom this process shares the frame, and the number of glyphs
-  SnapshotChange update(std::vector<WantedSurface>& wanted, const OtherProcesses& others);
+  /// @param ranks that share the frame, and the number of glyphs
+  SnapshotChange update(std::vector<WantedSurface>& wanted, Ranks& ranks);
 
   const Occluders& occluders() const { return this->occluders_; }
   /// Return the records, one for each of the snapshot's surfaces.
@@ -59,8 +42,8 @@ private:
     OtherTriangles ///< waits in WantedSurface::fresh
   };
 
-  int countInstances(std::vector<WantedSurface>& wanted, const OtherProcesses& others);
-  bool updateFrame(const std::vector<WantedSurface>& wanted, const OtherProcesses& others);
+  int countInstances(std::vector<WantedSurface>& wanted, Ranks& ranks);
+  bool updateFrame(const std::vector<WantedSurface>& wanted, Ranks& ranks);
   void read(WantedSurface& wanted, vtkMTimeType time);
   Outcome updateSurface(WantedSurface& wanted, bool reframed, SnapshotChange& change);
   bool transformAgain(const WantedSurface& wanted);
@@ -74,6 +57,7 @@ private:
 
   std::uint64_t lastVersion_ = 0;
   Occluders occluders_;
+  std::uint64_t ranks_ = 0; ///< serial of the ranks whose box has set the frame
   std::vector<SurfaceRecord> records_;
   std::vector<std::uint32_t> vertexOfPoint_; ///< scratch memory for triangulate()
 };

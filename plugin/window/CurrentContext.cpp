@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <mutex>
 #include <optional>
 #include <type_traits>
 
@@ -10,7 +11,7 @@ namespace gnomon
 namespace
 {
 
-/// The functions of GLX, of a thread that has a context of it.
+/// The functions of GLX.
 struct Glx
 {
   void* (*getCurrentContext)();
@@ -19,31 +20,37 @@ struct Glx
   unsigned long (*getCurrentReadDrawable)();
   int (*makeContextCurrent)(void* display, unsigned long draw, unsigned long read, void* context);
 
-  /// Return nothing if GLX is not loaded, or this thread has no context of it.
-  static std::optional<Glx> ofThread()
+  /// Return nothing if GLX is not loaded. Else it stays loaded: to look it up and to let it go takes
+  /// longer than a small frame.
+  static std::optional<Glx> load()
   {
     void* library = nullptr;
     for (const char* name : { "libGLX.so.0", "libGL.so.1" })
     {
       library = library ? library : dlopen(name, RTLD_LAZY | RTLD_NOLOAD);
     }
-    if (!library)
-    {
-      return std::nullopt;
-    }
     Glx glx{};
-    const auto load = [library](auto& function, const char* name)
+    const auto find = [library](auto& function, const char* name)
     {
       function = reinterpret_cast<std::decay_t<decltype(function)>>(dlsym(library, name));
       return function != nullptr;
     };
-    const bool hasAll = load(glx.getCurrentContext, "glXGetCurrentContext") &&
-      load(glx.getCurrentDisplay, "glXGetCurrentDisplay") &&
-      load(glx.getCurrentDrawable, "glXGetCurrentDrawable") &&
-      load(glx.getCurrentReadDrawable, "glXGetCurrentReadDrawable") &&
-      load(glx.makeContextCurrent, "glXMakeContextCurrent");
-    dlclose(library); // what has loaded it keeps it
-    return hasAll && glx.getCurrentContext() ? std::optional(glx) : std::nullopt;
+    const bool hasAll = library && find(glx.getCurrentContext, "glXGetCurrentContext") &&
+      find(glx.getCurrentDisplay, "glXGetCurrentDisplay") &&
+      find(glx.getCurrentDrawable, "glXGetCurrentDrawable") &&
+      find(glx.getCurrentReadDrawable, "glXGetCurrentReadDrawable") &&
+      find(glx.makeContextCurrent, "glXMakeContextCurrent");
+    return hasAll ? std::optional(glx) : std::nullopt;
+  }
+
+  /// Return null if GLX is not loaded, or this thread has no context of it.
+  static const Glx* ofThread()
+  {
+    static std::mutex mutex;
+    static std::optional<Glx> loaded; // maybe by a later window
+    const std::lock_guard<std::mutex> lock(mutex);
+    loaded = loaded ? loaded : load();
+    return loaded && loaded->getCurrentContext() ? &*loaded : nullptr;
   }
 };
 
@@ -52,13 +59,13 @@ struct Glx
 //------------------------------------------------------------------------------
 bool CurrentContext::isOfGlx()
 {
-  return Glx::ofThread().has_value();
+  return Glx::ofThread() != nullptr;
 }
 
 //------------------------------------------------------------------------------
 void CurrentContext::releaseGlx()
 {
-  if (const std::optional<Glx> glx = Glx::ofThread())
+  if (const Glx* const glx = Glx::ofThread())
   {
     glx->makeContextCurrent(glx->getCurrentDisplay(), 0, 0, nullptr);
   }
@@ -71,7 +78,7 @@ CurrentContext::CurrentContext()
   , read_(eglGetCurrentSurface(EGL_READ))
   , context_(eglGetCurrentContext())
 {
-  if (const std::optional<Glx> glx = Glx::ofThread())
+  if (const Glx* const glx = Glx::ofThread())
   {
     this->glxMakeCurrent_ = glx->makeContextCurrent;
     this->glxDisplay_ = glx->getCurrentDisplay();

@@ -57,6 +57,7 @@ float largestHeightOf(const std::vector<glm::vec3>& positions,
     return std::max({ triangle.x, triangle.y, triangle.z }) < positions.size();
   };
   float largest = 0.0f;
+  double curvedArea = 0.0, flatArea = 0.0; // doubled
   for (const glm::uvec3& triangle : triangles)
   {
     if (!isThere(triangle))
@@ -65,15 +66,18 @@ float largestHeightOf(const std::vector<glm::vec3>& positions,
     }
     const std::array<glm::dvec3, 3> corners{ positions[triangle.x], positions[triangle.y],
       positions[triangle.z] };
+    const glm::dvec3 areaVector = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double area = glm::length(areaVector);
     // NaN without area; then the normals are rejected.
-    const glm::dvec3 normal =
-      glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    if (const auto turned = turnedNormals(glm::dmat3(1.0), normals.data(), triangle, normal))
+    const auto turned =
+      turnedNormals(glm::dmat3(1.0), normals.data(), triangle, areaVector / area);
+    (turned ? curvedArea : flatArea) += area;
+    if (turned)
     {
       largest = std::max(largest, SmoothFacet(corners, *turned).largestHeight());
     }
   }
-  return largest;
+  return flatArea > 0.01 * curvedArea ? 0.0f : largest;
 }
 
 //------------------------------------------------------------------------------

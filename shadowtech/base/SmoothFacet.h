@@ -83,7 +83,10 @@ inline constexpr float leastCosineOfCurve = 0.74314483f;
 std::optional<std::array<glm::vec3, 3>> cornerNormals(
   const Occluders& occluders, const TriangleOfFragment& found, const glm::dvec3& normal, bool back);
 
-/// Return the largest height of some triangles; 0 if all are hollow.
+/// Return the largest height of some triangles; 0 if all are hollow. Maps know this one height of a
+/// surface, not which of its triangles are curved. So it is 0, too, if the triangles whose normals
+/// imply no curve have more than a hundredth of the others' area: a tube with caps, its normals
+/// averaged over the rims. The caps would be lit from behind.
 /// @param triangles triangles with a vertex index out of range are skipped
 /// @param normals one for each vertex, of any length
 float largestHeightOf(const std::vector<glm::vec3>& positions,

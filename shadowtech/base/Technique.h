@@ -146,20 +146,21 @@ struct LayerInput
   const CameraView& camera;
   const ReceiverSpace& space; ///< of the camera
   const Occluders& occluders;
-  const OccluderBuffers& buffers;  ///< up to date with the occluders
-  const ReceiverTarget& receivers; ///< with points
-  /// A number that changes with the receivers. They are the same while it and the occluders are.
-  std::size_t receiversShown;
+  const OccluderBuffers& buffers;                 ///< up to date with the occluders
+  const ReceiverTarget& receivers;                ///< with points
   const std::vector<DrawnSurface>& drawnSurfaces; ///< named by the receivers' fragments
   VisibilityLayers& layers;
-  int layer;         ///< this light's layer, or the first of its channels
-  bool severalViews; ///< the pass draws other views besides this one
   ShaderLibrary& shaders;
-  bool counting; ///< the report needs counts that must be read back from the GPU
-  /// If not null, to be filled with each pixel's class, an index into TechniqueInfo::classes.
-  std::vector<std::uint8_t>* classes;
   std::vector<std::string>& notes; ///< FrameCounts::notes
   int& mapBakes;                   ///< FrameCounts::mapBakes
+
+  int layer = 0; ///< this light's layer, or the first of its channels
+  /// A number that changes with the receivers. They are the same while it and the occluders are.
+  std::size_t receiversShown = 0;
+  bool severalViews = false; ///< the pass draws other views besides this one
+  bool counting = false;     ///< the report needs counts that must be read back from the GPU
+  /// If not null, to be filled with each pixel's class, an index into TechniqueInfo::classes.
+  std::vector<std::uint8_t>* classes = nullptr;
 };
 
 /// The input of a screen technique that computes one light's visibility image on the CPU.
@@ -171,15 +172,16 @@ struct ScreenInput
   const Occluders& occluders;
   Receivers& receivers;
   EmbreeTracer& tracer; ///< its structure is up to date with the occluders
-  bool usesMap;         ///< false: ignore the light's baked map (TechniqueInfo::mapIsOptional)
+  int& mapBakes;        ///< FrameCounts::mapBakes
+
+  bool usesMap = false; ///< false: ignore the light's baked map (TechniqueInfo::mapIsOptional)
   /// If not null, to be filled with each pixel's class, an index into TechniqueInfo::classes.
-  std::vector<std::uint8_t>* classes;
+  std::vector<std::uint8_t>* classes = nullptr;
   /// The tiles whose visibility and classes are reused; null: compute all. Only exact techniques
   /// without a map need to heed it.
-  TracedTiles* tiles;
+  TracedTiles* tiles = nullptr;
   /// What is known of tiles without rays; null: nothing. Only exact techniques need to heed it.
-  const TileVerdicts* verdicts;
-  int& mapBakes; ///< FrameCounts::mapBakes
+  const TileVerdicts* verdicts = nullptr;
 };
 
 /// One way to compute visibility, for one light. All kinds of technique share its functions for

@@ -170,8 +170,6 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
   EdgePixels edges =
     findEdgePixels({ images.width, images.height, several ? several->surfaces : images.fragments },
       visibility, classes);
-  TracedTiles* const noTiles = nullptr;
-  const TileVerdicts* const noVerdicts = nullptr;
   // Calls take(pixel, mean of its samples) for pixels with `count` samples each.
   const auto trace =
     [&](const std::vector<std::uint32_t>& pixels, std::size_t count, bool drops, const auto& take)
@@ -192,10 +190,11 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
       }
       Receivers samples(this->receivers_);
       LightCounts ofSamples;
-      technique.computeVisibility(
-        { input.light, input.fitting, input.occluders, samples, input.tracer, input.usesMap,
-          &this->classes_, noTiles, noVerdicts, input.mapBakes },
-        this->visibility_, ofSamples);
+      ScreenInput ofEdges{ input.light, input.fitting, input.occluders, samples, input.tracer,
+        input.mapBakes };
+      ofEdges.usesMap = input.usesMap;
+      ofEdges.classes = &this->classes_;
+      technique.computeVisibility(ofEdges, this->visibility_, ofSamples);
       counts.rays += ofSamples.rays;
       for (std::size_t i = 0; i < some.size(); ++i)
       {

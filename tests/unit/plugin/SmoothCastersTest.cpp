@@ -3,10 +3,13 @@
 
 #include "PassScene.h"
 
+#include "shadowtech/Registry.h"
+
 #include <vtkAppendPolyData.h>
 #include <vtkCleanPolyData.h>
 #include <vtkCubeSource.h>
 #include <vtkCylinderSource.h>
+#include <vtkLineSource.h>
 #include <vtkPlaneSource.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataNormals.h>
@@ -14,6 +17,7 @@
 #include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
 #include <vtkTriangleFilter.h>
+#include <vtkTubeFilter.h>
 
 #include <algorithm>
 #include <array>
@@ -387,3 +391,61 @@ INSTANTIATE_TEST_SUITE_P(Table, SmoothCastersTest,
   testing::Combine(scenes, testing::Bool(),
     testing::Values("auto", "raytraced", "silhouette", "crsm", "selective", "penumbra")),
   nameOfCell);
+
+namespace
+{
+
+/// A rod with caps, whose sides turn the sun's light into a smooth terminator.
+Mesh rod()
+{
+  vtkNew<vtkLineSource> axis;
+  axis->SetPoint1(-1.5, 0.0, 1.2);
+  axis->SetPoint2(1.5, 0.0, 1.2);
+  axis->SetResolution(6);
+  vtkNew<vtkTubeFilter> tube;
+  tube->SetInputConnection(axis->GetOutputPort());
+  tube->SetRadius(0.7);
+  tube->SetNumberOfSides(24);
+  tube->CappingOn();
+  return outputOf(tube);
+}
+
+class TurnedFacesTest
+  : public PassTest
+  , public testing::WithParamInterface<Averaged>
+{
+};
+
+} // namespace
+
+/// Facets whose averaged normals face the sun, but imply no curve, are dark.
+TEST_P(TurnedFacesTest, areDarkOnMapsInShaders)
+{
+  PassScene view(400, 300);
+  view.add(withNormals(rod(), GetParam()));
+  view.addFloor(4.0);
+  view.lookFrom({ 7.0, -4.0, 3.5 }, { 0.0, 0.0, 0.6 });
+  view.addSun({ 0.25, -0.1, -1.0 });
+  view.pass->SetTechnique("raytraced");
+  const Picture truth = view.render();
+  int techniques = 0;
+  for (const gnomon::TechniqueEntry& technique : gnomon::registry())
+  {
+    view.pass->SetTechnique(technique.name);
+    const Picture picture = view.render();
+    if (std::string(view.pass->GetReport().route) != "inline")
+    {
+      continue;
+    }
+    int lit = 0;
+    for (std::size_t i = 0; i < truth.pixels(); ++i)
+    {
+      lit += truth.rgb[3 * i] == 0 && picture.rgb[3 * i] > 20 ? 1 : 0;
+    }
+    EXPECT_LT(lit, 200) << technique.name; // at the edges of shadows
+    ++techniques;
+  }
+  EXPECT_GE(techniques, 9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Normals, TurnedFacesTest, testing::Bool());

@@ -1,4 +1,4 @@
-#include "plugin/ranks/Ranks.h"
+#include "plugin/ranks/ManyRanks.h"
 
 #include "SplitScene.h"
 
@@ -15,7 +15,7 @@ namespace
 class RanksTest : public testing::Test
 {
 protected:
-  Ranks ranks_{ controller() };
+  ManyRanks ranks_{ controller() };
 };
 
 } // namespace
@@ -62,7 +62,7 @@ TEST_F(RanksTest, ReduceAndGather)
       EXPECT_EQ(all.elements[i], glm::dvec2(rank, -rank));
     }
   }
-  this->ranks_.requireSame(42, "answers");
+  this->ranks_.requireSame([] { return 42; }, "answers");
   this->ranks_.endFrame();
 }
 
@@ -96,10 +96,28 @@ TEST_F(RanksTest, TellsAllOfAFailure)
   EXPECT_EQ(error, "process 0 of " + std::to_string(last + 1) + " failed: no OpenGL");
 
   ASSERT_EQ(this->ranks_.beginFrame(""), "");
-  EXPECT_THROW(this->ranks_.requireSame(static_cast<std::uint64_t>(this->ranks_.own()), "numbers"),
-    RankFailure);
+  const auto own = [this] { return static_cast<std::uint64_t>(this->ranks_.own()); };
+  EXPECT_THROW(this->ranks_.requireSame(own, "numbers"), RankFailure);
   ASSERT_EQ(this->ranks_.beginFrame(""), "");
   this->ranks_.endFrame();
+}
+
+//------------------------------------------------------------------------------
+TEST(RankAlone, AnswersWithWhatItIsAsked)
+{
+  EXPECT_EQ(alone().count(), 1);
+  EXPECT_EQ(alone().beginFrame(""), "");
+  EXPECT_EQ(alone().beginFrame("no OpenGL"), "no OpenGL");
+  EXPECT_TRUE(alone().isAny(true));
+  EXPECT_FALSE(alone().isAny(false));
+  EXPECT_EQ(alone().sum(-7), -7);
+  std::vector<float> numbers{ 3.0f, 1.0f };
+  alone().reduceToLeast(numbers);
+  EXPECT_EQ(numbers, (std::vector<float>{ 3.0f, 1.0f }));
+  Ranks::Gathered<float> all;
+  alone().gather(numbers, all);
+  EXPECT_EQ(all.elements, numbers);
+  EXPECT_EQ(all.firsts, (std::vector<std::size_t>{ 0, 2 }));
 }
 
 } // namespace gnomon::test

@@ -478,8 +478,10 @@ public:
     const ViewFitting fitting;
     int mapBakes = 0;
     const std::size_t classCount = classesOfChain().size();
-    const ScreenInput input{ this->picture_.light, fitting, this->picture_.occluders,
-      this->receivers_, this->tracer_, true, &classes, nullptr, nullptr, mapBakes };
+    ScreenInput input{ this->picture_.light, fitting, this->picture_.occluders, this->receivers_,
+      this->tracer_, mapBakes };
+    input.usesMap = true;
+    input.classes = &classes;
     run.traced = Chain(stages, this->maps_, nullptr, this->fans_, input).run(run.visibility);
     for (std::size_t i = 0; i < classes.size(); ++i)
     {

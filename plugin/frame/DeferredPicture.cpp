@@ -1,9 +1,10 @@
-#include "shadowtech/base/DeferredPicture.h"
+#include "plugin/frame/DeferredPicture.h"
 
+#include "plugin/frame/FrameShaders.h"
+#include "plugin/frame/ShadowedTiles.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/ShadowedTiles.h"
 #include "shadowtech/base/TextureMemory.h"
 
 #include <array>
@@ -215,9 +216,8 @@ void DeferredPicture::darken(const TextureBinding& visibility, ShaderLibrary& sh
       defines.emplace_back("BIT");
     }
     const GLuint program = shaders.program(
-      { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/shadowed_tiles.vert.glsl") },
-        { GL_FRAGMENT_SHADER,
-          ShaderLibrary::source("shadowtech/base/colour_in_shadow.frag.glsl") } },
+      { { GL_VERTEX_SHADER, frameShaders().at("plugin/frame/shadowed_tiles.vert.glsl") },
+        { GL_FRAGMENT_SHADER, frameShaders().at("plugin/frame/colour_in_shadow.frag.glsl") } },
       defines);
     glUseProgram(program);
     ShaderLibrary::setUniforms(program,

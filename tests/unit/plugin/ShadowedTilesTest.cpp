@@ -1,6 +1,6 @@
 // The tiles of a picture that hold shadows.
 
-#include "shadowtech/base/ShadowedTiles.h"
+#include "plugin/frame/ShadowedTiles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "shadowtech/base/ShadowedTiles.h"
+#include "plugin/frame/ShadowedTiles.h"
 
 #include <algorithm>
 #include <cstddef>

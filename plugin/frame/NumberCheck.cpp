@@ -1,4 +1,4 @@
-#include "shadowtech/base/NumberCheck.h"
+#include "plugin/frame/NumberCheck.h"
 
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/SeenTriangle.h"
