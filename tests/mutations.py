@@ -1,18 +1,22 @@
 #!/usr/bin/python3
 """Break one token of the library at a time and print which tests notice.
 
-    tests/mutations.py --base COMMIT --checkout DIRECTORY [--tiers all] [--only NUMBER...]
+    tests/mutations.py --base COMMIT --checkout DIRECTORY --memory FILE [--new] [--folders F...]
 
-A seed draws mutations from the lines of C++ and GLSL that COMMIT and HEAD share, so the suites of
-both can be compared. DIRECTORY is a clean checkout of either. Each mutation is made there, built,
-tested until the first failure, and reverted. Prints a line of CSV for each: number, place, before
-and after, the tier and the test that noticed it, seconds of tests. "none" means that it survived.
-Mutations that do not compile are skipped.
+A seed draws mutations from lines of C++ and GLSL. COMMIT and HEAD share them, so the suites of both
+can be compared; with --new, only HEAD has them. DIRECTORY is a clean checkout of either. Each
+mutation is made there, built, tested until the first failure, and reverted. Prints a line of CSV
+for each: number, path, line, its text, column, before and after, the tier and the test that noticed
+it, seconds of tests. "none" means that it survived. Mutations that do not compile are skipped.
+
+FILE remembers results: a run that was cut off continues once its build and tests have ended. FILE
+lies outside DIRECTORY, or git ignores it. Delete a row to repeat its mutation.
 """
 
 import argparse
 import collections
 import csv
+import fcntl
 import os
 import random
 import re
@@ -32,6 +36,9 @@ TIERS = {
 }
 SECONDS_A_TEST = 400  # a mutation may loop forever
 
+BUILD = ("cmake", "--build", "--preset", "ci")
+NOT_COMPILED = ["does not compile"]  # in place of a tier, a test and seconds
+
 OTHERS = {
     "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&",
     "+": "-", "-": "+", "*": "/", "/": "*", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*=",
@@ -44,7 +51,7 @@ TOKEN = re.compile(
     r"|\b(?:true|false|min|max|continue|break)\b|(?<![\w.])\d+(?:\.\d+)?(?![\w.])")
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 
-Mutation = collections.namedtuple("Mutation", "text start before after")
+Mutation = collections.namedtuple("Mutation", "path line text column before after")
 
 
 def output_of(*command, directory="."):
@@ -53,44 +60,48 @@ def output_of(*command, directory="."):
 
 
 def places_of_lines(commit):
-    """Map the text of each code line in a commit's sources to its (path, index of line)."""
+    """Map the text of each code line in a commit's sources to its (path, number of line)."""
     places = collections.defaultdict(list)
     for path in output_of("git", "ls-tree", "-r", "--name-only", commit).splitlines():
         if path.startswith(FOLDERS) and path.endswith(ENDINGS):
             source = output_of("git", "show", f"{commit}:{path}")
-            for index, line in enumerate(source.split("\n")):
+            for number, line in enumerate(source.split("\n"), 1):
                 text = line.strip()
                 if not text.startswith(("//", "#", "/*", "*")):
-                    places[text].append((path, index))
+                    places[text].append((path, number))
     return places
 
 
-def mutations(base, seed):
-    """Return single-token mutations of lines that occur once in both commits, in random order."""
-    ours, theirs = places_of_lines("HEAD"), places_of_lines(base)
-    shared = sorted(
-        text for text in ours if len(ours[text]) == 1 and len(theirs.get(text, ())) == 1)
+def mutations(head, base, checkout, options):
+    """Return single-token mutations of a checked out commit, in random order.
+
+    Their lines occur once in head's sources, in one of the folders, and once in base's: new ones
+    never there.
+    """
+    ours, theirs, there = map(places_of_lines, (head, base, checkout))
+    texts = sorted(
+        text for text, places in ours.items()
+        if len(places) == 1 and len(theirs.get(text, ())) == (0 if options.new else 1)
+        and any(Path(places[0][0]).is_relative_to(folder) for folder in options.folders))
     found = []
-    for text in shared:
+    for text in texts:
         code = STRING.sub(lambda string: " " * len(string[0]), text.split(" //")[0])
         for token in TOKEN.finditer(code):
             before = token[0]
             after = OTHERS.get(before)
             if after is None:
                 after = str(float(before) + 1.0) if "." in before else str(int(before) + 1)
-            found.append(Mutation(text, token.start(), before, after))
-    random.Random(seed).shuffle(found)
+            found.append(Mutation(*there[text][0], text, token.start(), before, after))
+    random.Random(options.seed).shuffle(found)
     return found
 
 
 def mutate(source, mutation):
     """Return the text of a file with a mutation in it."""
     lines = source.split("\n")
-    index = next(i for i, line in enumerate(lines) if line.strip() == mutation.text)
-    indent = len(lines[index]) - len(lines[index].lstrip())
-    start = indent + mutation.start
-    lines[index] = lines[index][:start] + mutation.after + \
-        lines[index][start + len(mutation.before):]
+    line = lines[mutation.line - 1]
+    start = line.index(mutation.text) + mutation.column
+    lines[mutation.line - 1] = line[:start] + mutation.after + line[start + len(mutation.before):]
     return "\n".join(lines)
 
 
@@ -98,7 +109,7 @@ def succeeds(directory, *command):
     environment = {**os.environ, "GTEST_FAIL_FAST": "1"}
     environment.pop("DISPLAY", None)
     done = subprocess.run(command, cwd=directory, text=True, check=False, env=environment,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, close_fds=False)
     return done.returncode == 0, done.stdout
 
 
@@ -114,40 +125,79 @@ def first_failure(tiers, checkout):
     return "none", ""
 
 
+def result_of(mutation, options):
+    """Make, build, test and revert a mutation."""
+    file = options.checkout / mutation.path
+    source = file.read_text(encoding="utf-8")
+    try:
+        file.write_text(mutate(source, mutation), encoding="utf-8")
+        if succeeds(options.checkout, *BUILD)[0]:
+            start = time.monotonic()
+            noticed = first_failure(options.tiers, options.checkout)
+            return [*noticed, round(time.monotonic() - start)]
+    finally:
+        file.write_text(source, encoding="utf-8")
+    builds, log = succeeds(options.checkout, *BUILD)
+    if not builds:
+        sys.exit(f"{options.checkout} does not build without mutations:\n{log[-2000:]}")
+    return NOT_COMPILED
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("--base", required=True, help="a commit that shares lines with HEAD")
+    parser.add_argument("--base", required=True, help="the commit to compare HEAD with")
     parser.add_argument("--checkout", required=True, type=Path, help="where to make mutations")
+    parser.add_argument("--memory", required=True, help="a CSV file of results")
+    parser.add_argument("--new", action="store_true", help="mutate lines that the base lacks")
+    parser.add_argument("--folders", nargs="+", default=FOLDERS, help="where HEAD has the lines")
     parser.add_argument("--tiers", nargs="*", default=["quick", "rest"], choices=TIERS,
                         help="one after the other")
     parser.add_argument("--seed", default=1, type=int)
     parser.add_argument("--count", default=12, type=int, help="of mutations that compile")
-    parser.add_argument("--only", nargs="*", type=int, help="numbers; all if none is named")
     options = parser.parse_args()
 
-    places = places_of_lines(output_of("git", "rev-parse", "HEAD", directory=options.checkout)[:-1])
-    rows = csv.writer(sys.stdout)
+    head, base = output_of("git", "rev-parse", "HEAD", options.base + "^{commit}").split()
+    checkout = output_of("git", "rev-parse", "HEAD", directory=options.checkout).strip()
+    if checkout != head and (options.new or checkout != base):
+        parser.error(f"{options.checkout} is at {checkout}, without the lines")
+    header = [f"HEAD {head}", f"base {base}", f"checkout {checkout}", f"seed {options.seed}",
+              "new" if options.new else "shared", *sorted(options.folders), *options.tiers]
+    found = mutations(head, base, checkout, options)
+
+    memory = open(options.memory, "a+", newline="", encoding="utf-8", buffering=1)
+    # Builds and tests inherit the lock, as they may outlive a killed run.
+    os.set_inheritable(memory.fileno(), True)
+    fcntl.flock(memory, fcntl.LOCK_EX)
+    memory.seek(0)
+    rows, writer = list(csv.reader(memory)), csv.writer(memory)
+    if not rows:
+        writer.writerow(header)
+    elif rows[0] != header:
+        parser.error(f"{options.memory} has results of\n{rows[0]}, expected\n{header}")
+    results = {tuple(row[:6]): row[6:] for row in rows[1:]}  # an empty one is under way
+
+    for mutation in found:
+        if results.get(tuple(map(str, mutation))) == []:
+            file = options.checkout / mutation.path
+            source = output_of("git", "show", f"{checkout}:{mutation.path}")
+            if file.read_text(encoding="utf-8") == mutate(source, mutation):
+                file.write_text(source, encoding="utf-8")
+    if changes := output_of("git", "status", "--porcelain", directory=options.checkout):
+        parser.error(f"{options.checkout} is not clean:\n{changes}")
+
     number = 0
-    for mutation in mutations(options.base, options.seed):
+    for mutation in found:
         if number == options.count:
             break
-        path, index = places[mutation.text][0]
-        file = options.checkout / path
-        source = file.read_text(encoding="utf-8")
-        file.write_text(mutate(source, mutation), encoding="utf-8")
-        try:
-            if not succeeds(options.checkout, "cmake", "--build", "--preset", "ci")[0]:
-                continue
+        result = results.get(tuple(map(str, mutation)))
+        if not result:
+            writer.writerow(mutation)
+            result = result_of(mutation, options)
+            writer.writerow([*mutation, *result])
+        if result != NOT_COMPILED:
             number += 1
-            if options.only and number not in options.only:
-                continue
-            start = time.monotonic()
-            noticed = first_failure(options.tiers, options.checkout)
-            rows.writerow([number, f"{path}:{index + 1}", mutation.before, mutation.after, *noticed,
-                           round(time.monotonic() - start)])
+            csv.writer(sys.stdout).writerow([number, *mutation, *result])
             sys.stdout.flush()
-        finally:
-            file.write_text(source, encoding="utf-8")
 
 
 if __name__ == "__main__":
