@@ -310,6 +310,7 @@ void addTo(PassScene& view, const Scene& scene, bool averaged)
   }
   view.lookFrom(scene.eye, scene.target);
   view.addSun(-scene.towardsSun);
+  view.pass->SmoothTerminatorsOn();
   view.pass->KeepVisibilityOn();
 }
 
@@ -426,12 +427,13 @@ TEST_P(TurnedFacesTest, areDarkOnMapsInShaders)
   view.addFloor(4.0);
   view.lookFrom({ 7.0, -4.0, 3.5 }, { 0.0, 0.0, 0.6 });
   view.addSun({ 0.25, -0.1, -1.0 });
+  view.pass->SmoothTerminatorsOn();
   view.pass->SetTechnique("raytraced");
   const Picture truth = view.render();
   int techniques = 0;
   for (const gnomon::TechniqueEntry& technique : gnomon::registry())
   {
-    view.pass->SetTechnique(technique.name);
+    view.pass->SetTechnique(technique.name.c_str());
     const Picture picture = view.render();
     if (std::string(view.pass->GetReport().route) != "inline")
     {
