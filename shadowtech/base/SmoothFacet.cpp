@@ -69,8 +69,7 @@ float largestHeightOf(const std::vector<glm::vec3>& positions,
     const glm::dvec3 areaVector = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const double area = glm::length(areaVector);
     // NaN without area; then the normals are rejected.
-    const auto turned =
-      turnedNormals(glm::dmat3(1.0), normals.data(), triangle, areaVector / area);
+    const auto turned = turnedNormals(glm::dmat3(1.0), normals.data(), triangle, areaVector / area);
     (turned ? curvedArea : flatArea) += area;
     if (turned)
     {
