@@ -299,6 +299,22 @@ class Shadows(unittest.TestCase):
             gnomon.remove_shadows(scene.renderer)
             self.assertIs(scene.renderer.GetPass(), render_pass)
 
+    def test_a_pass_that_gave_way_keeps_no_graphics(self):
+        scene = Scene()
+        edges = vtkEDLShading()
+        edges.SetDelegatePass(vtkRenderStepsPass())
+        scene.renderer.SetPass(edges)
+        scene.window.Render()
+        with self.assertWarns(UserWarning):
+            gnomon.add_shadows(scene.renderer)
+        gnomon.remove_shadows(scene.renderer)
+        scene.renderer.SetPass(None)
+        messages, previous = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
+        vtkOutputWindow.SetInstance(messages)
+        del edges
+        vtkOutputWindow.SetInstance(previous)
+        self.assertEqual(messages.GetOutput(), "")
+
     def test_passes_of_the_guide_stand_around_the_shadow_pass(self):
         for kind in (
             vtkEDLShading,

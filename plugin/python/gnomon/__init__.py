@@ -143,6 +143,8 @@ def add_shadows(
     if replaced is not None:
         chain = _name_chain(replaced)
         warnings.warn(f"The renderer's pass gave way to shadows: {chain}.", stacklevel=2)
+        if renderer.GetRenderWindow() is not None:  # it may never draw again
+            replaced.ReleaseGraphicsResources(renderer.GetRenderWindow())
     observers = [renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))]
     _before[address] = (shadows, replaced, _replace_headlight(renderer, observers), observers)
     warn_of(shadows)
