@@ -296,7 +296,7 @@ void vtkGnomonShadowPass::DrawShadows(const vtkRenderState* s, gnomon::FrameEnd&
   {
     threads.emplace(tbb::global_control::max_allowed_parallelism, ranks.threads());
   }
-  gnomon::FrameWishes wishes = this->Wishes();
+  gnomon::FrameWishes wishes = this->Wishes(renderer);
   end.measuresProcesses = wishes.measureStages = ranks.isAny(wishes.measureStages);
   wishes.keepVisibility = ranks.isAny(wishes.keepVisibility);
   manager.beginFrame(wishes, ranks);
@@ -463,7 +463,7 @@ void vtkGnomonShadowPass::BeginView(const vtkRenderState* s)
 
 //------------------------------------------------------------------------------
 /// Return the pass's settings for a frame.
-gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
+gnomon::FrameWishes vtkGnomonShadowPass::Wishes(vtkRenderer* renderer) const
 {
   gnomon::FrameWishes wishes;
   wishes.route = static_cast<gnomon::RouteWish>(this->Route);
@@ -473,7 +473,10 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
   wishes.smoothTerminators = this->SmoothTerminators;
   wishes.maximumError = this->MaximumError;
   wishes.maximumSoftError = this->MaximumSoftError;
-  wishes.timeBudget = this->TimeBudget;
+  wishes.timeBudget = std::max(this->TimeBudget, 0.0);
+  const bool isOfWindow = this->TimeBudget == GNOMON_TIME_BUDGET_OF_WINDOW &&
+    gnomon::PictureTimer::asksForSpeed(renderer->GetRenderWindow());
+  wishes.windowTime = isOfWindow ? 1000.0 * renderer->GetAllocatedRenderTime() : 0.0;
   wishes.memoryBudget = this->MemoryBudget * 1024.0 * 1024.0;
   wishes.reductionFactor = this->DelegatePass ? this->ImageReductionFactor : 1;
   wishes.factors = this->Internal->factors;

@@ -39,6 +39,9 @@
 #include "vtkOpenGLRenderPass.h"
 #include "vtkWrappingHints.h" // For VTK_EXPECTS
 
+/// vtkGnomonShadowPass::SetTimeBudget(): as much time as the window has for a frame.
+#define GNOMON_TIME_BUDGET_OF_WINDOW -1
+
 #include <memory>   // For std::unique_ptr
 #include <optional> // For std::optional
 #include <string>   // For std::string
@@ -241,8 +244,17 @@ public:
   /**
    * The most milliseconds for a frame while the picture moves. "auto" then takes rays if they fit,
    * else maps that keep MaximumError; if neither fits, the report says so. Choices then depend on
-   * measured times. 0 means no budget: "auto" takes the fastest way that keeps the errors. Negative
-   * numbers are an error and change nothing. Default 0.
+   * measured times. 0 means no budget: "auto" takes the fastest way that keeps the errors.
+   *
+   * The default, GNOMON_TIME_BUDGET_OF_WINDOW, is 0 unless the window's interactor asks for a rate
+   * (vtkRenderWindow::SetDesiredUpdateRate()), as styles do while one drags. Then a moving frame
+   * has vtkRenderer::GetAllocatedRenderTime(), but at least 1.3 times what VTK's drawing takes.
+   * "auto" first takes what keeps the errors; where that is too slow, fewer samples of area lights,
+   * then hard shadows of their centres, then maps of any error. `penumbra` and
+   * `raytraced` use fewer samples, too, unless `moving_samples` names them. Several processes have
+   * no such time.
+   *
+   * Other negative numbers are an error and change nothing.
    */
   virtual void SetTimeBudget(double milliseconds);
   vtkGetMacro(TimeBudget, double);
@@ -433,7 +445,7 @@ protected:
   int Interactive = INTERACTIVE_AUTO;
   double MaximumError = 0.005;
   double MaximumSoftError = 0.03;
-  double TimeBudget = 0.0;
+  double TimeBudget = GNOMON_TIME_BUDGET_OF_WINDOW;
   double MemoryBudget = 0.0;
   bool MeasureStages = false;
   bool KeepVisibility = false;
@@ -452,7 +464,7 @@ private:
   void EndPlain(const vtkRenderState* s, const gnomon::FrameEnd& end);
   bool Moves(const vtkRenderState* s);
   bool MayRefine(const vtkRenderState* s);
-  gnomon::FrameWishes Wishes() const;
+  gnomon::FrameWishes Wishes(vtkRenderer* renderer) const;
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
   void ComputeShadows(const vtkRenderState* s, bool onImage);

@@ -27,6 +27,12 @@ void vtkGnomonShadowPass::SetMaximumSoftError(double rootMeanSquare)
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetTimeBudget(double milliseconds)
 {
+  if (milliseconds == GNOMON_TIME_BUDGET_OF_WINDOW)
+  {
+    this->Modified();
+    this->TimeBudget = milliseconds;
+    return;
+  }
   this->SetNumber("TimeBudget", milliseconds, VTK_DOUBLE_MAX, this->TimeBudget);
 }
 

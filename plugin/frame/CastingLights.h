@@ -22,6 +22,7 @@ struct CastingLight
   bool isStale = true;       ///< true if this frame computes its visibility for all pixels
   bool mayKeepTiles = false; ///< and true if the changes may leave some tiles valid
   std::optional<double> tracedShare = {}; ///< VisibilityValue::tracedShare
+  double milliseconds = 0.0;              ///< that this frame took for its visibility
 
   const ShadowLight& light() const { return this->plan.light; }
   const TechniqueInfo& info() const { return this->plan.info(); }

@@ -1,5 +1,6 @@
 #include "plugin/frame/FramePlanner.h"
 
+#include "shadowtech/base/Clock.h"
 #include "shadowtech/base/TextureMemory.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ FramePlanner::FramePlanner(
 //------------------------------------------------------------------------------
 void FramePlanner::plan(const Bake& bake, const ReadDeferredFacts& readDeferredFacts)
 {
+  const double start = steadyMilliseconds();
   this->looked_ = false;
   Scene& scene = this->frame_.scene;
   FramePlan& plan = this->frame_.plan;
@@ -43,6 +45,7 @@ void FramePlanner::plan(const Bake& bake, const ReadDeferredFacts& readDeferredF
   }
   this->history_ = plan.history;
   this->frame_.lights.take(plan.lights);
+  this->milliseconds_ = steadyMilliseconds() - start;
 }
 
 //------------------------------------------------------------------------------
@@ -146,13 +149,28 @@ void FramePlanner::look()
 //------------------------------------------------------------------------------
 void FramePlanner::remember(double milliseconds, bool isUsual)
 {
+  MotionTimes& times = this->history_.times;
+  double rest = milliseconds - this->milliseconds_;
+  bool byRays = false;
   for (const CastingLight& casting : this->frame_.lights)
   {
-    const auto known = this->history_.lights.find(casting.light().sceneIndex);
+    const ShadowLight& light = casting.light();
+    const auto known = this->history_.lights.find(light.sceneIndex);
     if (casting.tracedShare && known != this->history_.lights.end())
     {
       known->second.tracedShare = *casting.tracedShare;
     }
+    rest -= casting.milliseconds;
+    byRays = byRays || casting.isOnCpu();
+    if (casting.isOnCpu() && casting.isStale)
+    {
+      const double samples = light.area ? casting.counts.progress * light.lightSamples : 1.0;
+      times.addImage(light.sceneIndex, samples, casting.milliseconds);
+    }
+  }
+  if (isUsual && this->frame_.plan.moves)
+  {
+    times.add(byRays, rest);
   }
   if (!isUsual)
   {

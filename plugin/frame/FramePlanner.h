@@ -51,7 +51,8 @@ private:
   ShaderLibrary& shaders_;
   AutoHistory history_;
   Probes probes_;
-  bool looked_ = false; ///< true if the probes are this frame's
+  bool looked_ = false;       ///< true if the probes are this frame's
+  double milliseconds_ = 0.0; ///< that this frame's plan took
   std::uint32_t looks_ = 0;
 };
 

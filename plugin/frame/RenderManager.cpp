@@ -49,12 +49,10 @@ std::uint64_t hashOf(const LightSet& lights, bool withSettings)
   return seed;
 }
 
-CostFactors factorsOf(const FrameWishes& wishes)
+bool drawsInSoftware()
 {
   const GLubyte* const name = glGetString(GL_RENDERER);
-  return wishes.factors
-    ? *wishes.factors
-    : defaultFactors(isSoftwareRenderer(name ? reinterpret_cast<const char*>(name) : ""));
+  return isSoftwareRenderer(name ? reinterpret_cast<const char*>(name) : "");
 }
 
 } // namespace
@@ -162,7 +160,8 @@ void RenderManager::readPicture(
   picture.mayRefine = mayRefine;
   picture.drawnPlainly =
     drawnPlainly && !renderer->GetUseSSAO() && !renderer->GetUseHiddenLineRemoval();
-  picture.factors = factorsOf(this->frame_.wishes);
+  picture.factors =
+    this->frame_.wishes.factors ? *this->frame_.wishes.factors : defaultFactors(drawsInSoftware());
 }
 
 //------------------------------------------------------------------------------
@@ -381,7 +380,9 @@ void RenderManager::endFrame(const vtkRenderState* s)
     totals.bytesImages +=
       this->views_.bytesOfImages() + this->visibility_.bytesOfRays() + this->tracer_.bytesOfRays();
   }
-  if (frame.plan.moves && frame.wishes.timeBudget > 0.0)
+  const bool isTimed =
+    frame.wishes.timeBudget > 0.0 || (frame.wishes.windowTime > 0.0 && drawsInSoftware());
+  if (frame.plan.moves && isTimed)
   {
     glFinish(); // so that the frame's time is known
   }

@@ -198,7 +198,9 @@ void VisibilityStage::compute()
     if (casting.isStale)
     {
       value->classified = this->classifies();
+      const double start = steadyMilliseconds();
       this->fill(casting, verdicts->has_value() ? &**verdicts : nullptr, *value);
+      casting.milliseconds = steadyMilliseconds() - start;
       const std::vector<PixelClass>& named = casting.info().classes;
       if (value->classified && !named.empty())
       {

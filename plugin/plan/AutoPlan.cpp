@@ -1,7 +1,7 @@
 #include "plugin/plan/AutoPlan.h"
 
 #include "lights/LightViews.h"
-#include "plugin/plan/Route.h"
+#include "plugin/plan/PicturePlan.h"
 
 #include <algorithm>
 #include <array>
@@ -299,32 +299,14 @@ std::string Planner::move(const FrameCounters& counters)
 /// may.
 std::string Planner::whyNoMaps() const
 {
-  const std::vector<LightPlan>& lights = this->lights_;
-  if (this->wishes_.route == RouteWish::Image || this->wishes_.route == RouteWish::Deferred)
+  const std::string why = whyNoInlineMaps(this->lights_, this->wishes_, this->scene_.picture);
+  if (!why.empty())
   {
-    return "the route is asked for";
-  }
-  if (this->wishes_.keepVisibility)
-  {
-    return "the visibility is kept";
+    return why;
   }
   if (WrongProbes{ mostLooks * probesOfALook, 0 }.mostShare() > this->wishes_.maximumError)
   {
     return "probes cannot show an error as small as the limit";
-  }
-  if (this->scene_.picture.severalViews)
-  {
-    return "several views are drawn and must look alike";
-  }
-  if (lights.size() > mostInlineLights)
-  {
-    return "shaders can read the maps of at most " + std::to_string(mostInlineLights) +
-      " lights, not " + std::to_string(lights.size());
-  }
-  if (std::any_of(lights.begin(), lights.end(),
-        [](const LightPlan& light) { return !light.asked && !light.info().isPointwise(); }))
-  {
-    return "another light's technique works on the whole screen";
   }
   return this->scene_.props.unseenReceiver
     ? "a surface shows shadows but casts none, or shader code moves it, so probes miss it"
@@ -439,13 +421,22 @@ void Planner::takeSamples(const LightPlan& light, AutoChoice& choice)
   {
     return;
   }
-  const int all = light.light.lightSamples;
+  const int all = samplesInTime(this->wishes_, this->history_.times, light.light.sceneIndex,
+    this->lights_.size(), light.light.lightSamples);
+  const bool mayBeHard =
+    !light.light.texture && planAsCentre(*light.asked, this->scene_.lights).estimator;
+  if (all < fewSamples.front()) // whatever the error, as nothing better fits
+  {
+    known.samples = fewSamples.front();
+    choice.way = mayBeHard ? AutoChoice::Way::Centre : AutoChoice::Way::Resting;
+    choice.lightSamples = mayBeHard ? 0 : known.samples;
+    return;
+  }
   for (;; ++known.step)
   {
     const bool isHard = known.step == 0;
     known.samples = std::min(samplesOf(std::max(known.step, 1)), all);
-    if (isHard &&
-      (light.light.texture || !planAsCentre(*light.asked, this->scene_.lights).estimator))
+    if (isHard && !mayBeHard)
     {
       continue;
     }

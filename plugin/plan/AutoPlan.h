@@ -2,6 +2,7 @@
 
 #include "plugin/plan/FrameWishes.h"
 #include "plugin/plan/LightPlans.h"
+#include "plugin/plan/MotionTimes.h"
 #include "plugin/plan/RayIdentity.h"
 #include "plugin/plan/Scene.h"
 #include "plugin/plan/Slowness.h"
@@ -85,6 +86,7 @@ struct AutoHistory
   int byMaps = 0;                                  ///< frames in a row by maps
   int patience = 0;                                ///< frames by rays until maps are tried
   Slowness slowness;
+  MotionTimes times;
 };
 
 /// The technique of one light that leaves it to the pass.
@@ -122,6 +124,10 @@ struct AutoPlan
 /// again from time to time, over several frames. It grows until its error is kept, and shrinks
 /// between motions. If no map keeps it, all lights use rays, and maps are tried again after 30
 /// frames at the earliest.
+///
+/// While the window asks for a rate (FrameWishes::windowTime), that time comes before errors: area
+/// lights have as many samples as fit, else hard shadows of the centre; if these do not fit, either,
+/// all lights have maps, however wrong.
 ///
 /// @param lights that cast, with their resting techniques
 /// @param evidence of this frame, in the order of the plan's needs

@@ -1,6 +1,7 @@
 #include "plugin/plan/FramePlan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace gnomon
@@ -26,6 +27,37 @@ void take(LightPlan& plan, const AutoChoice& choice, const SceneLights& scene)
   plan.identity = identityOf(plan.light);
 }
 
+/// Have maps for all lights, of any error, if not even one ray a pixel leaves a moving frame within
+/// the time that the window has.
+void keepTime(AutoPlan& chosen, const std::vector<LightPlan>& lights, const Scene& scene,
+  const FrameWishes& wishes)
+{
+  const bool fits = std::all_of(chosen.choices.begin(), chosen.choices.end(),
+    [&](const AutoChoice& choice)
+    {
+      return choice.way == AutoChoice::Way::Map ||
+        samplesInTime(wishes, chosen.history.times, choice.sceneIndex, lights.size(), 1) == 1;
+    });
+  if (fits || !scene.picture.moves)
+  {
+    return;
+  }
+  const std::string why = whyNoInlineMaps(lights, wishes, scene.picture);
+  if (!why.empty())
+  {
+    chosen.choice += "; the window's rate is not kept, as " + why;
+    return;
+  }
+  for (AutoChoice& choice : chosen.choices)
+  {
+    const LightPlan& light = *std::find_if(lights.begin(), lights.end(),
+      [&](const LightPlan& of) { return of.light.sceneIndex == choice.sceneIndex; });
+    choice.way = AutoChoice::Way::Map;
+    choice.mapSizeTexels = std::min(light.asked->mapSizeTexels, light.mostMapTexels);
+  }
+  chosen.choice = "the picture moves: maps of any error, as rays do not keep the window's rate";
+}
+
 /// Choose for lights that leave their technique to the pass. Over several processes all have rays.
 void chooseTechniques(FramePlan& plan, const Scene& scene, const FrameWishes& wishes,
   const std::vector<Evidence>& evidence)
@@ -41,6 +73,7 @@ void chooseTechniques(FramePlan& plan, const Scene& scene, const FrameWishes& wi
   {
     return;
   }
+  keepTime(chosen, plan.lights, scene, wishes);
   plan.history = std::move(chosen.history);
   plan.choice = std::move(chosen.choice);
   plan.isApproximate = plan.moves;
@@ -54,11 +87,20 @@ void chooseTechniques(FramePlan& plan, const Scene& scene, const FrameWishes& wi
 
 /// Plan with how many samples a light's image begins. Those of several views and processes have all
 /// samples at once: the pass's progress is that of the last view alone.
-void planSamples(LightPlan& plan, bool areSeveral)
+/// @param inTime samples that leave a moving frame within the time that the window has
+void planSamples(LightPlan& plan, bool areSeveral, int inTime)
 {
   const int named = plan.light.refinement.movingSamples;
   const bool refines = !areSeveral && plan.info().has(refinementSettings()) && plan.light.area;
-  plan.firstSamples = !refines ? 0 : named > 0 ? named : plan.firstSamples;
+  if (!refines || named > 0)
+  {
+    plan.firstSamples = refines ? named : 0;
+  }
+  else if (!plan.asked && inTime < plan.light.lightSamples)
+  {
+    const int root = std::max(static_cast<int>(std::sqrt(inTime)), 1);
+    plan.firstSamples = root * root; // a square suits all ways to sample
+  }
 }
 
 /// Assign layers, and bits to lights with hard shadows.
@@ -114,7 +156,10 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
     const PicturePlan& picture = plan.picture;
     light.shadedBy = planShading(light, picture.route.route, picture.shadesTranslucent);
     planFit(light, picture.route.route, picture.shadesTranslucent, scene.lights);
-    planSamples(light, scene.picture.severalViews || wishes.isShared);
+    planSamples(light, scene.picture.severalViews || wishes.isShared,
+      !plan.moves ? light.light.lightSamples
+                  : samplesInTime(wishes, history.times, light.light.sceneIndex, plan.lights.size(),
+                      light.light.lightSamples));
   }
   placeVisibility(plan);
   plan.namesSurfaces = wishes.isShared || wishes.keepVisibility;

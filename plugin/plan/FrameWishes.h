@@ -30,9 +30,10 @@ struct FrameWishes
   bool smoothTerminators = true; ///< true if receivers may lie on the surface that normals imply
   ///@{
   /// For lights that leave their technique to the pass.
-  double maximumError = 0.005;        ///< share of wrong pixels of hard shadows in moving frames
-  double maximumSoftError = 0.03;     ///< root mean square error of soft shadows
-  double timeBudget = 0.0;            ///< milliseconds for a moving frame; 0: none
+  double maximumError = 0.005;    ///< share of wrong pixels of hard shadows in moving frames
+  double maximumSoftError = 0.03; ///< root mean square error of soft shadows
+  double timeBudget = 0.0;        ///< milliseconds for a moving frame; 0: none
+  double windowTime = 0.0;        ///< milliseconds that the window has for a moving frame; 0: any
   std::optional<CostFactors> factors; ///< of this machine; none: the defaults
   ///@}
 };

@@ -1,5 +1,7 @@
 #include "plugin/plan/PicturePlan.h"
 
+#include <algorithm>
+
 namespace gnomon
 {
 namespace
@@ -66,6 +68,33 @@ std::string whyNotDeferred(
   }
   return scene.props.seenThrough
     ? "the receivers lack a prop that is seen through or has a framebuffer of its own"
+    : "";
+}
+
+//------------------------------------------------------------------------------
+std::string whyNoInlineMaps(
+  const std::vector<LightPlan>& lights, const FrameWishes& wishes, const ScenePicture& picture)
+{
+  if (wishes.route == RouteWish::Image || wishes.route == RouteWish::Deferred)
+  {
+    return "the route is asked for";
+  }
+  if (wishes.keepVisibility)
+  {
+    return "the visibility is kept";
+  }
+  if (picture.severalViews)
+  {
+    return "several views are drawn and must look alike";
+  }
+  if (lights.size() > mostInlineLights)
+  {
+    return "shaders can read the maps of at most " + std::to_string(mostInlineLights) +
+      " lights, not " + std::to_string(lights.size());
+  }
+  return std::any_of(lights.begin(), lights.end(),
+           [](const LightPlan& light) { return !light.asked && !light.info().isPointwise(); })
+    ? "another light's technique works on the whole screen"
     : "";
 }
 

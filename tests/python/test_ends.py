@@ -46,8 +46,8 @@ class Ends(unittest.TestCase):
         self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, note))
         alarm = signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
         self.addCleanup(signal.signal, signal.SIGALRM, alarm)
-        signal.setitimer(signal.ITIMER_REAL, 0.2)
-        self.assertEqual(hours_of_grid(200).min(), 200.0)
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        self.assertEqual(hours_of_grid(1000).min(), 1000.0)
         self.assertEqual(signals, [1])
         self.assertIs(signal.getsignal(signal.SIGINT), note)
 

@@ -252,4 +252,33 @@ TEST_F(AutoPlans, raysThatAreNearlyAsFastReplaceMaps)
   EXPECT_THAT(planned.choice, HasSubstr("nearly as little time"));
 }
 
+//------------------------------------------------------------------------------
+TEST_F(AutoPlans, theWindowsTimeLimitsSamples)
+{
+  this->addArea(1.0);
+  this->wishes.windowTime = 100.0;
+  Evidence fails;
+  fails.keepsError = false;
+  EXPECT_EQ(this->planWith(fails).choices.at(0).lightSamples, 64) << "nothing is known of times";
+  struct Row
+  {
+    double sample, rest;
+    Way way;
+    int samples;
+  };
+  for (const Row& row : { Row{ 1.0, 20.0, Way::Resting, 64 }, Row{ 2.0, 20.0, Way::Resting, 35 },
+         Row{ 5.0, 70.0, Way::Resting, 4 }, Row{ 10.0, 70.0, Way::Centre, 0 },
+         Row{ 50.0, 200.0, Way::Centre, 0 } })
+  {
+    this->history = {};
+    this->history.times.sample[this->light.sceneIndex] = row.sample;
+    this->history.times.restByRays = row.rest;
+    const AutoChoice choice = this->planWith(fails).choices.at(0);
+    EXPECT_EQ(choice.way, row.way) << row.sample;
+    EXPECT_EQ(choice.lightSamples, row.samples) << row.sample;
+  }
+  this->wishes.windowTime = 0.0;
+  EXPECT_EQ(this->planWith(fails).choices.at(0).lightSamples, 64) << "no rate is asked for";
+}
+
 } // namespace gnomon

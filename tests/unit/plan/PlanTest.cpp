@@ -495,6 +495,57 @@ TEST(FramePlans, ofMotionTakeWhatIsChosen)
 }
 
 //------------------------------------------------------------------------------
+TEST(FramePlans, takeMapsOfAnyErrorToKeepTheWindowsRate)
+{
+  Scene scene = sceneOf({ "auto" });
+  scene.picture.moves = true;
+  scene.picture.factors = defaultFactors(true);
+  FrameWishes wishes;
+  wishes.windowTime = 66.0;
+  AutoHistory history;
+  history.times.restByRays = 40.0;
+  const int light = scene.lights.set.lights.at(0).sceneIndex;
+  Evidence bad;
+  bad.probe = { { 30000, 3000 }, 8 };
+  bad.isClear = true;
+  const std::vector<Evidence> evidence(8, bad);
+  for (const auto& [sample, isKept] : { std::pair(10.0, true), std::pair(30.0, false) })
+  {
+    history.times.sample[light] = sample;
+    const FramePlan plan = planFrame(scene, wishes, history, evidence);
+    EXPECT_EQ(plan.lights.at(0).estimator, isKept ? &rays() : &compare()) << plan.choice;
+    EXPECT_EQ(plan.choice.find("maps of any error") == std::string::npos, isKept) << plan.choice;
+  }
+  wishes.keepVisibility = true;
+  EXPECT_THAT(planFrame(scene, wishes, history, evidence).choice,
+    HasSubstr("the window's rate is not kept, as the visibility is kept"));
+  wishes.keepVisibility = false;
+  scene.picture.moves = false;
+  EXPECT_EQ(planFrame(scene, wishes, history, {}).lights.at(0).estimator, &rays());
+}
+
+//------------------------------------------------------------------------------
+TEST(MotionTimes, forgetRaysThatAreNotTaken)
+{
+  FrameWishes wishes;
+  wishes.windowTime = 50.0;
+  MotionTimes times;
+  times.addImage(0, 1.0, 30.0);
+  times.add(true, 60.0);
+  EXPECT_EQ(limitOf(wishes, times), 50.0);
+  EXPECT_EQ(samplesInTime(wishes, times, 0, 1, 1), 0);
+  int frames = 0;
+  for (; samplesInTime(wishes, times, 0, 1, 1) == 0; ++frames)
+  {
+    times.add(false, 20.0);
+  }
+  EXPECT_GT(frames, 30);
+  EXPECT_LT(frames, 90);
+  times.add(false, 200.0); // VTK itself is slow
+  EXPECT_GT(limitOf(wishes, times), 80.0);
+}
+
+//------------------------------------------------------------------------------
 TEST(FramePlans, writeNumbersUntilReceiversRest)
 {
   EXPECT_TRUE(writesNumbers({ 2, false, 100000, 1 })) << "they do not rest long enough";

@@ -258,11 +258,14 @@ TEST_F(Auto, numbersOutOfRangeAreErrorsAndChangeNothing)
     this->pass->SetMaximumSoftError(wrong);
     EXPECT_THAT(this->takeErrors(), HasSubstr("MaximumSoftError was to be"));
   }
-  this->pass->SetTimeBudget(-1.0);
-  EXPECT_THAT(this->takeErrors(), HasSubstr("TimeBudget was to be"));
+  for (const double wrong : { -0.1, -2.0, std::nan("") })
+  {
+    this->pass->SetTimeBudget(wrong);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("TimeBudget was to be"));
+  }
   EXPECT_EQ(this->pass->GetMaximumError(), 0.005);
   EXPECT_EQ(this->pass->GetMaximumSoftError(), 0.03);
-  EXPECT_EQ(this->pass->GetTimeBudget(), 0.0);
+  EXPECT_EQ(this->pass->GetTimeBudget(), GNOMON_TIME_BUDGET_OF_WINDOW);
 }
 
 //------------------------------------------------------------------------------

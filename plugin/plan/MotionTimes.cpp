@@ -1,0 +1,82 @@
+#include "plugin/plan/MotionTimes.h"
+
+#include <algorithm>
+
+namespace gnomon
+{
+namespace
+{
+
+/// How much of a new time counts: a load shows within a few frames, one slow frame does not.
+constexpr double shareOfNew = 0.4;
+
+/// What rays that are not taken are thought to take, from frame to frame after so many.
+constexpr double forgetting = 0.98;
+constexpr int patience = 30;
+
+///@{
+/// What a frame draws, in times of VTK's own drawing: maps are looked up; triangle numbers and
+/// colours in shadow are drawn, too (docs/results/growth.md).
+constexpr double drawnByMaps = 1.2;
+constexpr double drawnByRays = 2.0;
+///@}
+
+/// The part of the limit that is planned for, as frames' times differ.
+constexpr double spared = 0.9;
+
+void mix(double& known, double milliseconds)
+{
+  known = known > 0.0 ? known + shareOfNew * (milliseconds - known) : milliseconds;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void MotionTimes::add(bool byRays, double rest)
+{
+  mix(byRays ? this->restByRays : this->restByMaps, rest);
+  this->framesByMaps = byRays ? 0 : this->framesByMaps + 1;
+  if (this->framesByMaps > patience)
+  {
+    this->restByRays *= forgetting;
+    for (auto& [sceneIndex, milliseconds] : this->sample)
+    {
+      milliseconds *= forgetting;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void MotionTimes::addImage(int sceneIndex, double samples, double milliseconds)
+{
+  mix(this->sample[sceneIndex], milliseconds / std::max(samples, 1.0));
+}
+
+//------------------------------------------------------------------------------
+double limitOf(const FrameWishes& wishes, const MotionTimes& times)
+{
+  if (wishes.windowTime == 0.0)
+  {
+    return 0.0;
+  }
+  const double drawing =
+    times.restByMaps > 0.0 ? times.restByMaps / drawnByMaps : times.restByRays / drawnByRays;
+  return std::max(wishes.windowTime, 1.3 * drawing);
+}
+
+//------------------------------------------------------------------------------
+int samplesInTime(
+  const FrameWishes& wishes, const MotionTimes& times, int sceneIndex, std::size_t lights, int most)
+{
+  const double limit = limitOf(wishes, times);
+  const auto sample = times.sample.find(sceneIndex);
+  if (limit == 0.0 || sample == times.sample.end())
+  {
+    return most;
+  }
+  const double share = std::max(spared * limit - times.restByRays, 0.0) /
+    static_cast<double>(std::max<std::size_t>(lights, 1));
+  return static_cast<int>(std::min<double>(most, share / sample->second));
+}
+
+} // namespace gnomon
