@@ -31,8 +31,8 @@ public:
   /// Plan this frame, and take the lights of its plan.
   void plan(const Bake& bake, const ReadDeferredFacts& readDeferredFacts);
 
-  /// Remember how much of the picture had rays and, with a time budget, the time of the frame,
-  /// which OpenGL must have finished.
+  /// Remember how much of the picture had rays, and what the frame took. Choices use times under a
+  /// time budget alone.
   /// @param isUsual false if it compiled or built what later frames reuse
   void remember(double milliseconds, bool isUsual);
 

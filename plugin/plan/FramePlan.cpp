@@ -42,7 +42,12 @@ void keepTime(AutoPlan& chosen, const std::vector<LightPlan>& lights, const Scen
   {
     return;
   }
-  const std::string why = whyNoInlineMaps(lights, wishes, scene.picture);
+  std::string why = whyNoInlineMaps(lights, wishes, scene.picture);
+  if (std::any_of(lights.begin(), lights.end(),
+        [](const LightPlan& light) { return light.mostMapTexels < fewestTexels; }))
+  {
+    why = "the memory budget has no room for maps";
+  }
   if (!why.empty())
   {
     chosen.choice += "; the window's rate is not kept, as " + why;

@@ -8,11 +8,11 @@
 namespace gnomon
 {
 
-/// What frames of a moving picture took, in milliseconds; 0 or absent: not known.
+/// What earlier frames took, in milliseconds; 0 or absent: not known.
 struct MotionTimes
 {
-  double restByRays = 0.0; ///< a frame whose lights are traced, without their images
-  double restByMaps = 0.0; ///< a frame that traces no light
+  double restByRays = 0.0; ///< a moving frame whose lights are traced, without their images
+  double restByMaps = 0.0; ///< a moving frame that traces no light
   /// One sample of an image that was traced, by the light's scene index.
   std::map<int, double> sample;
   int framesByMaps = 0; ///< in a row

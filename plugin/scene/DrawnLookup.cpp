@@ -67,13 +67,10 @@ std::size_t DrawnLookup::PlaceHash::operator()(const Place& place) const
 {
   std::size_t seed = 0;
   hashCombine(seed, place.drawer);
-  for (int column = 0; column < 4; ++column)
+  // The position tells a drawer's places apart; std::hash is equal for 0.0 and -0.0, as they are.
+  for (int row = 0; row < 3; ++row)
   {
-    for (int row = 0; row < 4; ++row)
-    {
-      // std::hash is equal for 0.0 and -0.0, which compare equal.
-      hashCombine(seed, place.worldFromModel[column][row]);
-    }
+    hashCombine(seed, place.worldFromModel[3][row]);
   }
   return seed;
 }
