@@ -1,5 +1,7 @@
 #include "plugin/plan/FramePlan.h"
 
+#include "plugin/plan/MemoryBudget.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
