@@ -240,6 +240,14 @@ public:
   vtkGetMacro(MaximumSoftError, double);
   ///@}
 
+  /**
+   * GNOMON_TIME_BUDGET_OF_WINDOW, for Python.
+   */
+  enum
+  {
+    TIME_BUDGET_OF_WINDOW = GNOMON_TIME_BUDGET_OF_WINDOW
+  };
+
   ///@{
   /**
    * The most milliseconds for a frame while the picture moves. "auto" then takes rays if they fit,

@@ -27,13 +27,15 @@ void vtkGnomonShadowPass::SetMaximumSoftError(double rootMeanSquare)
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetTimeBudget(double milliseconds)
 {
-  if (milliseconds == GNOMON_TIME_BUDGET_OF_WINDOW)
+  if (milliseconds != GNOMON_TIME_BUDGET_OF_WINDOW)
   {
-    this->Modified();
-    this->TimeBudget = milliseconds;
-    return;
+    this->SetNumber("TimeBudget", milliseconds, VTK_DOUBLE_MAX, this->TimeBudget);
   }
-  this->SetNumber("TimeBudget", milliseconds, VTK_DOUBLE_MAX, this->TimeBudget);
+  else if (this->TimeBudget != milliseconds)
+  {
+    this->TimeBudget = milliseconds;
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -266,6 +266,9 @@ TEST_F(Auto, numbersOutOfRangeAreErrorsAndChangeNothing)
   EXPECT_EQ(this->pass->GetMaximumError(), 0.005);
   EXPECT_EQ(this->pass->GetMaximumSoftError(), 0.03);
   EXPECT_EQ(this->pass->GetTimeBudget(), GNOMON_TIME_BUDGET_OF_WINDOW);
+  const vtkMTimeType time = this->pass->GetMTime();
+  this->pass->SetTimeBudget(vtkGnomonShadowPass::TIME_BUDGET_OF_WINDOW);
+  EXPECT_EQ(this->pass->GetMTime(), time);
 }
 
 //------------------------------------------------------------------------------
