@@ -425,8 +425,9 @@ void Planner::takeSamples(const LightPlan& light, AutoChoice& choice)
     this->lights_.size(), light.light.lightSamples);
   const bool mayBeHard =
     !light.light.texture && planAsCentre(*light.asked, this->scene_.lights).estimator;
-  if (all < fewSamples.front()) // whatever the error, as nothing better fits
+  if (all < fewSamples.front())
   {
+    // The time comes before the error, so nothing is proved.
     known.samples = fewSamples.front();
     choice.way = mayBeHard ? AutoChoice::Way::Centre : AutoChoice::Way::Resting;
     choice.lightSamples = mayBeHard ? 0 : known.samples;

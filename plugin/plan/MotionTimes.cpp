@@ -15,8 +15,8 @@ constexpr double forgetting = 0.98;
 constexpr int patience = 30;
 
 ///@{
-/// What a frame draws, in times of VTK's own drawing: maps are looked up; triangle numbers and
-/// colours in shadow are drawn, too (docs/results/growth.md).
+/// What a frame draws, roughly, in times of VTK's own drawing: maps are looked up; triangle numbers
+/// and colours in shadow are drawn, too.
 constexpr double drawnByMaps = 1.2;
 constexpr double drawnByRays = 2.0;
 ///@}

@@ -20,8 +20,8 @@ struct Glx
   unsigned long (*getCurrentReadDrawable)();
   int (*makeContextCurrent)(void* display, unsigned long draw, unsigned long read, void* context);
 
-  /// Return nothing if GLX is not loaded. Else it stays loaded: to look it up and let it go in each
-  /// frame takes a tenth of the frame.
+  /// Return nothing if GLX is not loaded. Else it stays loaded: to look it up and let it go takes
+  /// half a millisecond, in each frame.
   static std::optional<Glx> load()
   {
     void* library = nullptr;
