@@ -2,6 +2,11 @@
 # gnomon_quick_tests builds, and all of them. tests/main/QuickTier.h says which cases of GoogleTest
 # programs are quick; tests/slow_cases.txt names those that are slow in any case.
 
+# Launches a test with a display of its own. Without -noreset the server starts again when its last
+# client leaves, and refuses the next window of the same process meanwhile.
+find_program(GNOMON_XVFB_RUN xvfb-run REQUIRED)
+set(GNOMON_ON_X_SERVER "${GNOMON_XVFB_RUN}" -a -s "-screen 0 1280x1024x24 -noreset")
+
 # gnomon_run_test_program(<program> [NAME <name>] [SLOW] [ON_X_SERVER] [SHARDS <number>]
 #   [SLOW_SHARDS <number>] [CASES <pattern>... | BUT <pattern>...] [ENVIRONMENT <name=value>...])
 #
@@ -45,7 +50,7 @@ function(gnomon_add_shards names program name shards filter)
   set(added "")
   set(launcher "")
   if(arg_ON_X_SERVER)
-    set(launcher "${GNOMON_XVFB_RUN}" -a)
+    set(launcher ${GNOMON_ON_X_SERVER})
   endif()
   foreach(shard RANGE 1 ${shards})
     set(test ${name}.${shard})

@@ -79,7 +79,7 @@ pictures()
 {
   local name=$1
   shift
-  run "$name" xvfb-run -a timeout 600 "$@"
+  run "$name" xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" timeout 600 "$@"
   run "${name}_egl" env -u DISPLAY QT_QPA_PLATFORM=offscreen timeout 600 "$@" egl
 }
 
