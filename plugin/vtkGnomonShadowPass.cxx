@@ -552,7 +552,7 @@ bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* vtkNotUsed(mapper),
   vtkProp* vtkNotUsed(prop))
 {
-  gnomon::HookGlsl::mark(vertexShader, geometryShader, fragmentShader);
+  this->Internal->programs->shaders.glsl().mark(vertexShader, geometryShader, fragmentShader);
   return true;
 }
 

@@ -286,28 +286,29 @@ std::map<std::string, std::vector<std::string>> HookGlsl::samplers() const
 }
 
 //------------------------------------------------------------------------------
-bool passInstance(std::string& vertexShader, std::string& geometryShader)
+std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader)
 {
-  const std::string declaration = "//VTK::Glyph::Dec";
-  const std::string body = "//VTK::Glyph::Impl";
-  if (vertexShader.find(body) == std::string::npos)
+  const std::string main = "void main(";
+  const std::string body = "//VTK::PrimID::Impl"; // of VTK's geometry shaders
+  const std::size_t begin = vertexShader.rfind(main);
+  if (begin == std::string::npos ||
+    (!geometryShader.empty() && geometryShader.find(body) == std::string::npos))
   {
-    return false;
+    return "uniform int gnomonDrawn;\n#define gnomonDrawnVSOutput ivec2(gnomonDrawn, 0)\n";
   }
-  replace(vertexShader, declaration, "flat out int gnomonInstanceVSOutput;\n" + declaration);
-  replace(vertexShader, body, "gnomonInstanceVSOutput = gl_InstanceID;\n  " + body);
+  vertexShader.replace(begin, main.size(), "void gnomonMain(");
+  vertexShader += "\n" + frameShaders().at("plugin/frame/hook_drawn.vert.glsl");
   // With a geometry shader, VTK makes the fragment shader read its outputs instead.
   replace(geometryShader, "//VTK::PrimID::Dec",
-    "flat in int gnomonInstanceVSOutput[];\nflat out int gnomonInstanceGSOutput;\n"
+    "flat in ivec2 gnomonDrawnVSOutput[];\nflat out ivec2 gnomonDrawnGSOutput;\n"
     "//VTK::PrimID::Dec");
-  replace(geometryShader, "//VTK::PrimID::Impl",
-    "gnomonInstanceGSOutput = gnomonInstanceVSOutput[i];\n    //VTK::PrimID::Impl");
-  return true;
+  replace(geometryShader, body, "gnomonDrawnGSOutput = gnomonDrawnVSOutput[i];\n    " + body);
+  return "flat in ivec2 gnomonDrawnVSOutput;\n";
 }
 
 //------------------------------------------------------------------------------
 void HookGlsl::mark(
-  std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader)
+  std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const
 {
   const std::string light = "//VTK::Light::Impl";
   if (fragmentShader.find(light) == std::string::npos)
@@ -315,12 +316,9 @@ void HookGlsl::mark(
     markEndOfMain(fragmentShader);
     return;
   }
-  if (passInstance(vertexShader, geometryShader))
-  {
-    replace(fragmentShader, "//VTK::PrimID::Dec",
-      "flat in int gnomonInstanceVSOutput;\n//VTK::PrimID::Dec");
-  }
-  replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + declarationMarker);
+  const std::string drawn =
+    this->variant_.route == Route::Inline ? "" : handOnDrawn(vertexShader, geometryShader);
+  replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + drawn + declarationMarker);
   replace(
     fragmentShader, "//VTK::UniformFlow::Impl", uniformFlowMarker + "\n  //VTK::UniformFlow::Impl");
   // VTK lights, then multiplies by textures. A user's own shaders may lack the texture mark.
@@ -356,7 +354,6 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
   }
   if (this->variant_.route != Route::Inline && drawsReceivers)
   {
-    const bool instanced = has("gnomonInstanceVSOutput");
     std::string primitive = "gl_PrimitiveID";
     if (corners > 0 && receives && geometryShader.empty())
     {
@@ -367,7 +364,7 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
         declarations += "flat in int " + primitive + ";\n";
       }
     }
-    end = this->writeReceiver(receives, instanced, primitive);
+    end = this->writeReceiver(receives, primitive);
     if (this->variant_.route == Route::Image)
     {
       if (!receives)
@@ -410,13 +407,10 @@ std::string HookGlsl::lightInShadow(const std::string& fragmentShader) const
 //------------------------------------------------------------------------------
 /// Return statements that write the receiver's outputs.
 /// @param primitive the expression of the driver's number
-std::string HookGlsl::writeReceiver(
-  bool receives, bool instanced, const std::string& primitive) const
+std::string HookGlsl::writeReceiver(bool receives, const std::string& primitive) const
 {
-  const std::string instance =
-    instanced ? " + gnomonInstanceVSOutput * gnomonPrimitivesPerInstance" : "";
-  const std::string fragment =
-    "vec2(gnomonDrawnSurface(), float(" + primitive + " + PrimitiveIDOffset" + instance + "))";
+  const std::string fragment = "vec2(gnomonDrawnSurface(), float(" + primitive +
+    " + PrimitiveIDOffset + gnomonDrawnVSOutput.y))";
   if (!receives || !this->variant_.namesTriangles)
   {
     return "    gl_FragData[1] = vec4(0.0);\n"

@@ -62,8 +62,8 @@ public:
   bool operator==(const HookGlsl& other) const;
 
   /// The first half of the hook, before VTK's own replacements.
-  static void mark(
-    std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader);
+  void mark(
+    std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
   /// The second half, after them.
   /// @param drawsReceivers true if this prop's shader must be able to write receivers
   /// @param corners of the primitives that are numbered by a geometry shader; 0: by the driver
@@ -78,7 +78,7 @@ private:
   void addImages(const std::vector<ShadedLight>& lights);
   void addLights(const std::vector<ShadedLight>& lights);
   std::string lightInShadow(const std::string& fragmentShader) const;
-  std::string writeReceiver(bool receives, bool instanced, const std::string& primitive) const;
+  std::string writeReceiver(bool receives, const std::string& primitive) const;
 
   HookVariant variant_;
   bool hasLights_ = false;
@@ -89,10 +89,10 @@ private:
   std::string darkenings_;      ///< deferred route: the same for the colour in shadow
 };
 
-/// Make the shaders of VTK's glyphs hand on the instance number, as the fragment shader's `flat in
-/// int gnomonInstanceVSOutput`: gl_PrimitiveID counts within an instance. Call it before VTK's
-/// replacements.
-/// @return false if the shaders draw no instances
-bool passInstance(std::string& vertexShader, std::string& geometryShader);
+/// Make a program's shaders hand on what hook_drawn.vert.glsl says, as `gnomonDrawnVSOutput` of the
+/// fragment shader. Call it before VTK's replacements.
+/// @return the fragment shader's declarations. Where the shaders have no place for it, they read
+/// the surface's number from the uniform itself, and know no instances.
+std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader);
 
 } // namespace gnomon

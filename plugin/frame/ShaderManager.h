@@ -33,6 +33,8 @@ public:
   void configure(const HookVariant& variant, std::vector<ShadedLight> lights);
   vtkMTimeType stageTime() const { return this->stageTime_.GetMTime(); }
 
+  /// The frame's GLSL.
+  const HookGlsl& glsl() const { return this->glsl_; }
   /// HookGlsl::fill() of the frame's GLSL.
   void fillShader(const std::string& vertexShader, std::string& geometryShader,
     std::string& fragmentShader, bool drawsReceivers, int corners);

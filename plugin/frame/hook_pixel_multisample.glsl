@@ -18,7 +18,7 @@ void gnomonFindPixel(float ownDepth, vec2 depthPerPixel)
   // On the plane, depths differ by their rounding, or by the plane's rise in 1/64 pixel.
   float onPlane = 2.4e-7 + (abs(depthPerPixel.x) + abs(depthPerPixel.y)) / 64.0;
   // A surface that the snapshot does not hold is in no layer, and its plane may be an impostor's.
-  float least = gnomonDrawn < 0 ? 0.0 : 1e30;
+  float least = gnomonDrawnVSOutput.x < 0 ? 0.0 : 1e30;
   gnomonPixel = own;
   for (int i = 0; i < 5; ++i)
   {

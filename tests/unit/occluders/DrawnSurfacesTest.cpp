@@ -72,19 +72,15 @@ public:
   bool PreReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
     std::string& fragmentShader, vtkAbstractMapper*, vtkProp*) override
   {
-    const bool instanced = passInstance(vertexShader, geometryShader);
-    const std::string instance = instanced ? "gnomonInstanceVSOutput" : "0";
+    const std::string drawn = handOnDrawn(vertexShader, geometryShader);
     vtkShaderProgram::Substitute(fragmentShader, "//VTK::Color::Dec",
-      std::string(instanced ? "flat in int gnomonInstanceVSOutput;\n" : "") +
-        "uniform int drawnSurface;\nuniform int drawPrimitives;\n"
-        "uniform int primitivesPerInstance;\n//VTK::Color::Dec");
+      drawn + "uniform int drawPrimitives;\n//VTK::Color::Dec");
     vtkShaderProgram::Substitute(fragmentShader, "//VTK::DepthPeeling::Impl",
-      "int number = drawPrimitives != 0 ? gl_PrimitiveID + PrimitiveIDOffset + " + instance +
-        " * primitivesPerInstance\n"
-        "  : drawnSurface * 2 + (gl_FrontFacing ? 1 : 0);\n"
-        "gl_FragData[0] = vec4(float(number & 255), float((number >> 8) & 255),\n"
-        "  float((number >> 16) & 255), 255.0) / 255.0;\n"
-        "//VTK::DepthPeeling::Impl");
+      "int number = drawPrimitives != 0 ? gl_PrimitiveID + PrimitiveIDOffset +\n"
+      "  gnomonDrawnVSOutput.y : gnomonDrawnVSOutput.x * 2 + (gl_FrontFacing ? 1 : 0);\n"
+      "gl_FragData[0] = vec4(float(number & 255), float((number >> 8) & 255),\n"
+      "  float((number >> 16) & 255), 255.0) / 255.0;\n"
+      "//VTK::DepthPeeling::Impl");
     return true;
   }
 
@@ -93,8 +89,9 @@ public:
   {
     program->SetUniformi("drawPrimitives", this->drawPrimitives ? 1 : 0);
     const HookedSurface drawn = this->collector.drawn(mapper, prop);
-    program->SetUniformi("drawnSurface", drawn.index + 2);
-    program->SetUniformi("primitivesPerInstance", static_cast<int>(drawn.primitivesPerInstance));
+    program->SetUniformi("gnomonDrawn", drawn.index + 2);
+    program->SetUniformi(
+      "gnomonPrimitivesPerInstance", static_cast<int>(drawn.primitivesPerInstance));
     return true;
   }
 };
