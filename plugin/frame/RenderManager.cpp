@@ -2,6 +2,7 @@
 
 #include "lights/Hash.h"
 #include "plugin/frame/ReceiverDrawing.h"
+#include "plugin/scene/PlainProps.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/base/Gl.h"
@@ -112,8 +113,8 @@ bool RenderManager::readLights(
 const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
-  const SnapshotChange change =
-    this->collector_.collect(s->GetRenderer(), frame.wishes.smoothTerminators, *frame.ranks);
+  const SnapshotChange change = this->collector_.collect(s->GetRenderer(),
+    { frame.wishes.smoothTerminators, haveInputsRun(s->GetRenderer()) }, *frame.ranks);
   frame.counts.surfacesExtracted = change.extracted;
   frame.counts.surfacesRetransformed = change.retransformed;
   const Occluders& occluders = this->collector_.occluders();

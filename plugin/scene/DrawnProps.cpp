@@ -472,9 +472,9 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 }
 
 //------------------------------------------------------------------------------
-DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory)
+DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, bool inputsHaveRun)
 {
-  memory.plainProps.beginFrame();
+  memory.plainProps.beginFrame(inputsHaveRun);
   memory.stamps.beginFrame();
   memory.cutouts.beginFrame();
   memory.images.beginFrame();

@@ -80,6 +80,7 @@ struct DrawnProps
 /// as VTK does when it draws.
 ///
 /// @param memory the same for all frames of the renderer
-DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory);
+/// @param inputsHaveRun true if the inputs of plain props are up to date
+DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, bool inputsHaveRun);
 
 } // namespace gnomon

@@ -12,9 +12,10 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-SnapshotChange OccluderCollector::collect(vtkRenderer* renderer, bool readsNormals, Ranks& ranks)
+SnapshotChange OccluderCollector::collect(
+  vtkRenderer* renderer, CollectOptions options, Ranks& ranks)
 {
-  DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
+  DrawnProps drawn = findDrawnProps(renderer, this->propMemory_, options.inputsHaveRun);
   this->lookup_.beginFrame(drawn.translucentReceivers, drawn.seenThrough);
   this->notes_ = std::move(drawn.notes);
   this->leftOut_ = std::move(drawn.leftOut);
@@ -22,7 +23,7 @@ SnapshotChange OccluderCollector::collect(vtkRenderer* renderer, bool readsNorma
   std::vector<WantedSurface> wanted = wantedSurfaces(drawn, this->surfaces_.records());
   for (WantedSurface& surface : wanted)
   {
-    surface.block.normals = readsNormals ? surface.block.normals : nullptr;
+    surface.block.normals = options.readsNormals ? surface.block.normals : nullptr;
   }
   const SnapshotChange change = this->surfaces_.update(wanted, ranks);
   if (change.any)

@@ -21,6 +21,12 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
+struct CollectOptions
+{
+  bool readsNormals = false;  ///< surfaces get the normals that VTK shades them with
+  bool inputsHaveRun = false; ///< haveInputsRun()
+};
+
 /// Fills the snapshot from a renderer's visible props, in view or not, and keeps it up to date at
 /// the price of what changed.
 ///
@@ -39,9 +45,9 @@ class OccluderCollector
 public:
   /// Brings the snapshot up to date with the renderer's props. Updates the mappers' inputs first,
   /// as VTK would when drawing.
-  /// @param readsNormals whether surfaces get the normals that VTK shades them with
   /// @param ranks that share the frame
-  SnapshotChange collect(vtkRenderer* renderer, bool readsNormals = false, Ranks& ranks = alone());
+  SnapshotChange collect(
+    vtkRenderer* renderer, CollectOptions options = {}, Ranks& ranks = alone());
 
   const Occluders& occluders() const { return this->surfaces_.occluders(); }
   /// One for each of the snapshot's surfaces.

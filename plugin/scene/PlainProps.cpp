@@ -4,9 +4,12 @@
 #include "shadowtech/base/Bytes.h"
 
 #include "vtkActor.h"
+#include "vtkCuller.h"
+#include "vtkCullerCollection.h"
 #include "vtkMapper.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
+#include "vtkRenderer.h"
 #include "vtkShaderProperty.h"
 
 namespace gnomon
@@ -15,18 +18,42 @@ namespace
 {
 
 /// True if a plain prop draws the same data, after its filters have run.
-bool drawsSameData(const PlainProp& known)
+bool drawsSameData(const PlainProp& known, bool inputsHaveRun)
 {
   if (!known.isFiltered)
   {
     return known.producer->GetMTime() == known.dataTime;
   }
-  runInput(known.mapper, MapperKind::PlainPolyData);
+  if (!inputsHaveRun)
+  {
+    runInput(known.mapper, MapperKind::PlainPolyData);
+  }
   return known.mapper->GetInputDataObject(0, 0) == known.data &&
     known.data->GetMTime() == known.dataTime;
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool haveInputsRun(vtkRenderer* renderer)
+{
+  vtkCullerCollection* const cullers = renderer->GetCullers();
+  vtkCollectionSimpleIterator iterator;
+  cullers->InitTraversal(iterator);
+  vtkCuller* culler = cullers->GetNextCuller(iterator);
+  while (culler && !culler->IsA("vtkFrustumCoverageCuller"))
+  {
+    culler = cullers->GetNextCuller(iterator);
+  }
+  return culler != nullptr;
+}
+
+//------------------------------------------------------------------------------
+void PlainProps::beginFrame(bool inputsHaveRun)
+{
+  this->next_ = 0;
+  this->inputsHaveRun_ = inputsHaveRun;
+}
 
 //------------------------------------------------------------------------------
 const PlainProp* PlainProps::next(vtkProp* prop)
@@ -38,7 +65,7 @@ const PlainProp* PlainProps::next(vtkProp* prop)
   PlainProp& known = this->props_[this->next_++];
   // Checked in order of ownership: an unchanged object still holds the next one.
   const bool same = known.actor == prop && known.actor->GetMTime() == known.actorTime &&
-    known.mapper->GetMTime() == known.mapperTime && drawsSameData(known) &&
+    known.mapper->GetMTime() == known.mapperTime && drawsSameData(known, this->inputsHaveRun_) &&
     known.code->GetMTime() == known.codeTime;
   if (!same)
   {

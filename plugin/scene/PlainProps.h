@@ -13,6 +13,7 @@ class vtkAlgorithm;
 class vtkMapper;
 class vtkPolyData;
 class vtkProp;
+class vtkRenderer;
 class vtkShaderProperty;
 VTK_ABI_NAMESPACE_END
 
@@ -46,8 +47,9 @@ struct PlainProp
 class PlainProps
 {
 public:
-  /// Begin a frame. Each frame must ask for all props of a renderer, in its order.
-  void beginFrame() { this->next_ = 0; }
+  /// Begin a frame. It must ask for all props of the renderer, in its order.
+  /// @param inputsHaveRun true if the mappers' filters have run for this frame
+  void beginFrame(bool inputsHaveRun);
 
   /// Return the renderer's next prop if it is unchanged since the last frame; else null.
   const PlainProp* next(vtkProp* prop);
@@ -64,6 +66,11 @@ public:
 private:
   std::vector<PlainProp> props_; ///< in the renderer's order; empty for other props
   std::size_t next_ = 0;
+  bool inputsHaveRun_ = false;
 };
+
+/// True if a renderer that draws a frame has asked all its props for their bounds first, as its
+/// usual culler does: then their mappers have run their filters.
+bool haveInputsRun(vtkRenderer* renderer);
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 
 #include "TestData.h"
 
+#include "plugin/scene/PlainProps.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include "vtkFieldData.h"
@@ -31,6 +32,7 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 using namespace gnomon;
 using namespace gnomon::test;
@@ -164,8 +166,29 @@ std::ostream& operator<<(std::ostream& stream, const Alteration& alteration)
   return stream << alteration.name;
 }
 
-class PlainPropChange : public testing::TestWithParam<Alteration>
+/// An alteration, and whether the snapshot is filled in a frame, after the renderer's culler.
+class PlainPropChange : public testing::TestWithParam<std::tuple<Alteration, bool>>
 {
+protected:
+  void collect(OccluderCollector& collector, vtkRenderer* renderer) const
+  {
+    if (!std::get<bool>(GetParam()))
+    {
+      collector.collect(renderer);
+      return;
+    }
+    vtkCollectionSimpleIterator iterator;
+    renderer->GetViewProps()->InitTraversal(iterator);
+    while (vtkProp* const prop = renderer->GetViewProps()->GetNextProp(iterator))
+    {
+      if (prop->GetVisibility())
+      {
+        prop->GetBounds();
+      }
+    }
+    ASSERT_TRUE(haveInputsRun(renderer));
+    collector.collect(renderer, { false, true });
+  }
 };
 
 const std::vector<Alteration> alterations = {
@@ -264,8 +287,13 @@ const std::vector<Alteration> alterations = {
   { "removed", [](PlainScene& s) { s.renderer->RemoveActor(s.actor); } },
 };
 
-INSTANTIATE_TEST_SUITE_P(All, PlainPropChange, testing::ValuesIn(alterations),
-  [](const testing::TestParamInfo<Alteration>& alteration) { return alteration.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, PlainPropChange,
+  testing::Combine(testing::ValuesIn(alterations), testing::Bool()),
+  [](const auto& alteration)
+  {
+    return std::get<Alteration>(alteration.param).name +
+      std::string(std::get<bool>(alteration.param) ? "InAFrame" : "");
+  });
 
 } // namespace
 
@@ -273,17 +301,17 @@ INSTANTIATE_TEST_SUITE_P(All, PlainPropChange, testing::ValuesIn(alterations),
 TEST_P(PlainPropChange, isSeen)
 {
   PlainScene scene;
-  scene.collector.collect(scene.renderer);
-  scene.collector.collect(scene.renderer);
+  this->collect(scene.collector, scene.renderer);
+  this->collect(scene.collector, scene.renderer);
   const std::string before = stateOf(scene.collector, scene.renderer);
-  GetParam().apply(scene);
-  scene.collector.collect(scene.renderer);
+  std::get<Alteration>(GetParam()).apply(scene);
+  this->collect(scene.collector, scene.renderer);
   const std::string after = stateOf(scene.collector, scene.renderer);
   EXPECT_NE(after, before);
   OccluderCollector fresh;
-  fresh.collect(scene.renderer);
+  this->collect(fresh, scene.renderer);
   EXPECT_EQ(after, stateOf(fresh, scene.renderer));
-  scene.collector.collect(scene.renderer);
+  this->collect(scene.collector, scene.renderer);
   EXPECT_EQ(after, stateOf(scene.collector, scene.renderer)) << "once it is remembered";
 }
 
