@@ -39,12 +39,12 @@
 #include "vtkOpenGLRenderPass.h"
 #include "vtkWrappingHints.h" // For VTK_EXPECTS
 
-/// vtkGnomonShadowPass::SetTimeBudget(): as much time as the window has for a frame.
-#define GNOMON_TIME_BUDGET_OF_WINDOW -1
-
 #include <memory>   // For std::unique_ptr
 #include <optional> // For std::optional
 #include <string>   // For std::string
+
+/// vtkGnomonShadowPass::SetTimeBudget(): as much time as the window has for a frame.
+#define GNOMON_TIME_BUDGET_OF_WINDOW -1
 
 class vtkGnomonShadowSettings;
 VTK_ABI_NAMESPACE_BEGIN

@@ -172,11 +172,6 @@ void FramePlanner::remember(double milliseconds, bool isUsual)
   {
     times.add(byRays, rest);
   }
-  if (!isUsual)
-  {
-    this->history_.slowness.drop();
-  }
-  this->history_.slowness.end(milliseconds);
 }
 
 } // namespace gnomon

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace gnomon
@@ -104,6 +105,7 @@ private:
   std::string move(const FrameCounters& counters);
   std::string whyNoMaps() const;
   std::string whyRaysAreFast(double byMaps, double byRays) const;
+  double expectedByRays(double modelled) const;
   std::string tryMap(const LightPlan& light, AutoChoice& choice);
   void takeSamples(const LightPlan& light, AutoChoice& choice);
   const Evidence& evidenceFor(const EvidenceRequest& request);
@@ -286,10 +288,10 @@ std::string Planner::move(const FrameCounters& counters)
   }
   if (budget > 0.0)
   {
+    const double taken = history.times.restByMaps;
     const double expected =
-      takesMaps ? history.slowness.ofMaps() * byMaps : history.slowness.ofRays() * byRays;
+      !takesMaps ? this->expectedByRays(byRays) : taken > 0.0 ? taken : byMaps;
     text += expected > budget ? "; the time budget is not kept" : "";
-    history.slowness.begin(takesMaps, takesMaps ? byMaps : byRays);
   }
   return text;
 }
@@ -328,8 +330,24 @@ std::string Planner::whyRaysAreFast(double byMaps, double byRays) const
   const int mapFrames = this->history_.byMaps;
   const bool stay = mapFrames > 0 && mapFrames < leastPatience;
   const double least = mapFrames > 0 ? spared * budget : budget;
-  const bool fits = this->history_.slowness.ofRays() * byRays <= least || byRays <= byMaps;
+  const bool fits = this->expectedByRays(byRays) <= least || byRays <= byMaps;
   return !stay && fits ? "they keep the time budget" : "";
+}
+
+//------------------------------------------------------------------------------
+/// Return the milliseconds of a frame by rays, as earlier ones took.
+/// @param modelled if there were none
+double Planner::expectedByRays(double modelled) const
+{
+  const MotionTimes& times = this->history_.times;
+  return times.restByRays == 0.0
+    ? modelled
+    : std::accumulate(this->asked_.begin(), this->asked_.end(), times.restByRays,
+        [&](double sum, const Asked& asked)
+        {
+          const auto image = times.sample.find(asked.choice.sceneIndex);
+          return image == times.sample.end() ? sum : sum + image->second;
+        });
 }
 
 //------------------------------------------------------------------------------

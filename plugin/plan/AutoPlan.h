@@ -5,7 +5,6 @@
 #include "plugin/plan/MotionTimes.h"
 #include "plugin/plan/RayIdentity.h"
 #include "plugin/plan/Scene.h"
-#include "plugin/plan/Slowness.h"
 #include "shadowtech/probing/ProbeCounts.h"
 
 #include <algorithm>
@@ -85,7 +84,6 @@ struct AutoHistory
   std::string whyRays;                             ///< why, as a clause
   int byMaps = 0;                                  ///< frames in a row by maps
   int patience = 0;                                ///< frames by rays until maps are tried
-  Slowness slowness;
   MotionTimes times;
 };
 

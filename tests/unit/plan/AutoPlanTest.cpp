@@ -124,6 +124,35 @@ TEST_F(AutoPlans, mapsAreProvedBeforeTheyAreShown)
 }
 
 //------------------------------------------------------------------------------
+// A moving frame by rays took 30 ms, 20 of them for the light's image; by maps 15.
+TEST_F(AutoPlans, aTimeBudgetIsComparedWithWhatFramesTook)
+{
+  this->history.times.restByRays = 10.0;
+  this->history.times.restByMaps = 15.0;
+  this->history.times.sample[this->light.sceneIndex] = 20.0;
+  const AutoHistory before = this->history;
+  struct Case
+  {
+    double budget;
+    int framesByMaps;
+    Way way;
+    bool isKept;
+  };
+  for (const Case& one : { Case{ 31.0, 0, Way::Resting, true }, Case{ 29.0, 0, Way::Map, true },
+         Case{ 14.0, 0, Way::Map, false }, Case{ 40.0, 10, Way::Map, true },
+         Case{ 34.0, 40, Way::Map, true }, Case{ 40.0, 40, Way::Resting, true } })
+  {
+    this->history = before;
+    this->history.byMaps = one.framesByMaps;
+    this->wishes.timeBudget = one.budget;
+    const AutoPlan planned = this->planWith(ofMap(30000, 0));
+    EXPECT_EQ(planned.choices.at(0).way, one.way) << one.budget << " " << planned.choice;
+    EXPECT_EQ(planned.choice.find("the time budget is not kept") == std::string::npos, one.isKept)
+      << one.budget << " " << planned.choice;
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(AutoPlans, mapsGrowAndThenRaysAreTaken)
 {
   const AutoPlan planned = this->planWith(ofMap(30000, 3000));

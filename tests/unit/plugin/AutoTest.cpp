@@ -5,7 +5,6 @@
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/plan/CostModel.h"
-#include "plugin/plan/Slowness.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkObjectFactory.h>
@@ -599,39 +598,6 @@ TEST_F(Auto, laterProbesTakeOneLookAFrame)
   }
   EXPECT_GT(probed, 1);
   EXPECT_LE(probed, 14) << "eight looks every 16 frames at most";
-}
-
-//------------------------------------------------------------------------------
-TEST(Slowness, forgetsWhatIsNotTaken)
-{
-  gnomon::Slowness slowness;
-  EXPECT_EQ(slowness.ofRays(), 1.0);
-  const auto take = [&](bool byMaps, double factor, int frames)
-  {
-    for (int i = 0; i < frames; ++i)
-    {
-      slowness.begin(byMaps, 10.0);
-      slowness.end(10.0 * factor);
-    }
-  };
-  take(false, 2.0, 40);
-  EXPECT_EQ(slowness.ofRays(), 2.0);
-  EXPECT_EQ(slowness.ofMaps(), 2.0) << "nothing else is known";
-  take(false, 50.0, 1);
-  EXPECT_EQ(slowness.ofRays(), 2.0) << "one frame changes nothing";
-  take(false, 4.0, 2);
-  EXPECT_EQ(slowness.ofRays(), 4.0) << "most of the last five are slow";
-  take(false, 2.0, 5);
-  EXPECT_EQ(slowness.ofRays(), 2.0);
-  take(true, 3.0, 10);
-  EXPECT_EQ(slowness.ofMaps(), 3.0);
-  EXPECT_EQ(slowness.ofRays(), 2.0);
-  take(true, 1.0, 25);
-  EXPECT_EQ(slowness.ofRays(), 1.0) << "what is known of maps";
-  slowness.begin(true, 10.0);
-  slowness.drop();
-  slowness.end(1e9);
-  EXPECT_EQ(slowness.ofMaps(), 1.0);
 }
 
 //------------------------------------------------------------------------------
