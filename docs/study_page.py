@@ -51,7 +51,7 @@ measures which [conclusions](../results/conclusions.md) of the publications hold
 - Maps: texels decide what is wrong, not filters. `pcf`, `vsm`, `evsm` and `msm` smooth edges, and
   blur what is right as well.
 - Several lights: shaders fetch all exact hard shadows at once
-  ([growth](../results/growth.md#lights)).
+  ([growth](../results/growth.md)).
 
 ## Soft shadows
 

@@ -1,5 +1,5 @@
-// Measure how a frame's time grows with triangles, lights, pixels and movement. Each axis varies
-// one of these from a base scene. Plain VTK, vtkShadowMapPass and Gnomon's techniques draw frames
+// Measure how a frame's time grows with triangles, props, programs, lights, pixels and movement.
+// Each axis varies one of these from a base scene. Plain VTK, vtkShadowMapPass and Gnomon's techniques draw frames
 // in turn, so other load on the machine affects all alike.
 
 #include "BenchmarkMain.h"
@@ -23,6 +23,9 @@
 #include <vtkMath.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
+#include <vtkUniforms.h>
 
 #include <CLI/CLI.hpp>
 
@@ -45,13 +48,12 @@ namespace
 
 constexpr int mapSizeTexels = 1024;
 constexpr int baseTriangles = 100000;
-constexpr int propColumns = 40;
-constexpr int propRows = 25;
 constexpr int fewestFrames = 3;
 /// The most seconds that the frames of a case take, unless `fewestFrames` take longer.
 constexpr double secondsPerCase = 60.0;
 
-const std::vector<std::string> axisKeys = { "triangles", "lights", "pixels", "movement" };
+const std::vector<std::string> axisKeys = { "triangles", "props", "programs", "lights", "pixels",
+  "movement" };
 
 struct Options
 {
@@ -60,6 +62,7 @@ struct Options
   std::vector<std::string> techniques = { "nsm", "silhouette", "raytraced" };
   int frames = 25;
   int mostTriangles = 10000000;
+  int mostProps = 10000;
   int sidePixels = 1024;
 };
 
@@ -71,7 +74,9 @@ struct Case
   double x = 0.0; ///< its place on the axis; 0: the axis has no scale
   int triangles = baseTriangles;
   int lights = 1;
-  bool isCut = false; ///< the surface is cut into props
+  int columns = 1; ///< of props into which the surface is cut
+  int rows = 1;
+  int programs = 1; ///< of shaders, which the props have in turn
   PictureSize size;
   Motion motion = Motion::Camera;
   /// Move anything but the camera and lights, before each round of frames.
@@ -113,14 +118,12 @@ SceneModel makeHills(double triangles, double x, double z, double width, double 
 Scene makeScene(const Case& drawn)
 {
   Scene scene;
-  const int columns = drawn.isCut ? propColumns : 1;
-  const int rows = drawn.isCut ? propRows : 1;
-  const double width = 1.0 / columns;
-  const double depth = 1.0 / rows;
-  for (int i = 0; i < columns * rows; ++i)
+  const double width = 1.0 / drawn.columns;
+  const double depth = 1.0 / drawn.rows;
+  for (int i = 0; i < drawn.columns * drawn.rows; ++i)
   {
-    scene.models.push_back(makeHills(drawn.triangles * width * depth, i % columns * width - 0.5,
-      0.5 - i / columns * depth, width, depth));
+    scene.models.push_back(makeHills(drawn.triangles * width * depth,
+      i % drawn.columns * width - 0.5, 0.5 - i / drawn.columns * depth, width, depth));
   }
   for (int i = 0; i < drawn.lights; ++i)
   {
@@ -132,12 +135,27 @@ Scene makeScene(const Case& drawn)
   return scene;
 }
 
+/// Have a renderer's props drawn by so many programs. A uniform that nothing reads makes another
+/// program of the same cost.
+void spreadOverPrograms(vtkRenderer* renderer, int programs)
+{
+  vtkActorCollection* const actors = renderer->GetActors();
+  vtkCollectionSimpleIterator iterator;
+  actors->InitTraversal(iterator);
+  int number = 0;
+  while (vtkActor* const actor = actors->GetNextActor(iterator))
+  {
+    const std::string name = "program" + std::to_string(number++ % programs);
+    actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(name.c_str(), 0.0f);
+  }
+}
+
 void liftOneProp(const Scene& /*scene*/, const Variants& variants, int step)
 {
   for (const std::unique_ptr<FrameVariant>& variant : variants)
   {
-    vtkObject* const middle =
-      variant->renderer()->GetActors()->GetItemAsObject(propColumns * propRows / 2);
+    vtkActorCollection* const actors = variant->renderer()->GetActors();
+    vtkObject* const middle = actors->GetItemAsObject(actors->GetNumberOfItems() / 2);
     vtkActor::SafeDownCast(middle)->SetPosition(0.0, 1e-3 * step, 0.0);
   }
 }
@@ -193,6 +211,26 @@ std::vector<Axis> makeAxes(const Options& options)
       triangles.cases.back().triangles = drawn;
     }
   }
+  Axis props{ "props", {} };
+  for (const auto& [columns, rows] : { std::pair(5, 2), { 10, 10 }, { 40, 25 }, { 100, 100 } })
+  {
+    if (columns * rows <= options.mostProps)
+    {
+      props.cases.push_back(named(grouped(columns * rows), columns * rows));
+      props.cases.back().columns = columns;
+      props.cases.back().rows = rows;
+    }
+  }
+  Axis programs{ "programs", {} };
+  for (const int count : { 1, 10, 100 })
+  {
+    if (count <= options.mostProps)
+    {
+      programs.cases.push_back(named(grouped(count), count));
+      programs.cases.back().columns = programs.cases.back().rows = 10;
+      programs.cases.back().programs = count;
+    }
+  }
   Axis lights{ "lights", {} };
   for (const int count : { 1, 2, 4, 8 })
   {
@@ -213,10 +251,11 @@ std::vector<Axis> makeAxes(const Options& options)
   Axis movement{ "movement",
     { named("1,000 props at rest", 0.0), named("one of them moving", 0.0),
       named("one surface at rest", 0.0), named("all its vertices moving", 0.0) } };
-  movement.cases[0].isCut = movement.cases[1].isCut = true;
+  movement.cases[0].columns = movement.cases[1].columns = 40;
+  movement.cases[0].rows = movement.cases[1].rows = 25;
   movement.cases[1].move = liftOneProp;
   movement.cases[3].move = moveAllVertices;
-  return { triangles, lights, pixels, movement };
+  return { triangles, props, programs, lights, pixels, movement };
 }
 
 //------------------------------------------------------------------------------
@@ -256,6 +295,7 @@ public:
     {
       this->variants_.push_back(
         std::make_unique<FrameVariant>(spec, this->scene_, drawn.size.width, drawn.size.height));
+      spreadOverPrograms(this->variants_.back()->renderer(), drawn.programs);
     }
   }
 
@@ -410,12 +450,13 @@ std::string describe(const Options& options)
     << grouped(std::min(baseTriangles, options.mostTriangles)) << " triangles,\none sun, " << side
     << " x " << side << " pixels, maps of " << mapSizeTexels << " x " << mapSizeTexels
     << " texels. The camera turns by " << Mover::stepDegrees
-    << " degrees a\nframe; it rests where something else moves.\n\n"
-    << "Frames of all cases and contenders of an axis are drawn in turns. Times are medians of up "
-       "to "
+    << " degrees a\nframe; it rests where something else moves. Props are parts of the hills; "
+       "programs are shaders\nof 100 props. Frames of all cases and contenders of an axis are "
+       "drawn "
+       "in turns. Times are medians\nof up to "
     << options.frames
-    << "\nframes; in brackets, multiples of plain VTK's. Bytes are those of the triangles' copy on "
-       "the CPU and\nthe GPU, and of Embree's structure.";
+    << " frames. Bytes are those of the triangles' copy on the CPU and the GPU, and of\nEmbree's "
+       "structure.";
   return text.str();
 }
 
@@ -429,10 +470,11 @@ std::string describeMachine()
 
 int run(int argc, char** argv)
 {
-  CLI::App app{ "Measures how a frame's time grows with triangles, lights, pixels and what moves",
+  CLI::App app{ "Measures how a frame's time grows with its scene and with what moves",
     "gnomon_benchmark_growth" };
   Options options;
-  app.add_option("-o,--output", options.folder, "Folder for growth.md and growth.png")->required();
+  app.add_option("-o,--output", options.folder, "Folder for growth.md, growth.csv and growth.png")
+    ->required();
   app.add_option("--axes", options.axes, "What to vary, separated by commas")
     ->delimiter(',')
     ->check(CLI::IsMember(axisKeys))
@@ -447,6 +489,9 @@ int run(int argc, char** argv)
     ->capture_default_str();
   app.add_option("--most-triangles", options.mostTriangles, "Triangles of the largest scene")
     ->check(CLI::Range(2, 100000000))
+    ->capture_default_str();
+  app.add_option("--most-props", options.mostProps, "Props and programs of the largest scenes")
+    ->check(CLI::Range(10, 10000))
     ->capture_default_str();
   app.add_option("--size", options.sidePixels, "Side of the base picture in pixels")
     ->check(CLI::Range(16, 4096))

@@ -136,66 +136,47 @@ std::string exponentTable(const Growth& growth)
   return tableOf(rows);
 }
 
-/// Return a table with a row for each case and a column for each contender from `first` on.
-/// @param cellOf turns a contender's measurement and plain VTK's into a cell's text
-template <typename CellOf>
-std::string caseTable(
-  const Growth& growth, const GrowthAxis& axis, std::size_t first, const CellOf& cellOf)
+/// Return a table with a row for each case of axes without a scale: multiples of plain VTK's time.
+std::string ratioTable(const Growth& growth)
 {
-  std::vector<Cells> rows = { { axis.key } };
-  for (std::size_t i = first; i < growth.contenders.size(); ++i)
+  std::vector<Cells> rows = { { "" } };
+  rows[0].insert(rows[0].end(), growth.contenders.begin() + 1, growth.contenders.end());
+  for (const GrowthAxis& axis : growth.axes)
   {
-    rows[0].push_back(growth.contenders[i]);
-  }
-  for (const GrowthRow& row : axis.rows)
-  {
-    rows.push_back({ row.name });
-    for (std::size_t i = first; i < growth.contenders.size(); ++i)
+    for (const GrowthRow& row : axis.hasScale() ? std::vector<GrowthRow>() : axis.rows)
     {
-      const GrowthMeasurement& measured = row.measured[i];
-      rows.back().push_back(
-        measured.isDrawn() ? cellOf(measured, row.measured.front()) : "not drawn");
-    }
-  }
-  return tableOf(rows);
-}
-
-/// Return why contenders are not drawn, a line each.
-std::string listOfNotDrawn(const Growth& growth, const GrowthAxis& axis)
-{
-  std::string text;
-  for (const GrowthRow& row : axis.rows)
-  {
-    for (std::size_t i = 0; i < growth.contenders.size(); ++i)
-    {
-      if (!row.measured[i].isDrawn())
+      rows.push_back({ row.name });
+      for (std::size_t i = 1; i < growth.contenders.size(); ++i)
       {
-        text +=
-          "- " + growth.contenders[i] + ", " + row.name + ": " + row.measured[i].notDrawn + "\n";
+        rows.back().push_back(row.overPlain(i) ? fixed(*row.overPlain(i), 2) : "not drawn");
       }
     }
   }
-  return text.empty() ? "" : "Not drawn:\n\n" + text + "\n";
+  return rows.size() > 1 ? "\nMultiples of plain VTK's time:\n\n" + tableOf(rows) : "";
 }
 
-std::string sectionOf(const Growth& growth, const GrowthAxis& axis)
+/// Return all figures, a line each.
+std::string toCsv(const Growth& growth)
 {
-  const auto time = [](const GrowthMeasurement& measured, const GrowthMeasurement& plain)
+  std::string text =
+    "axis,case,contender,milliseconds,over plain,first milliseconds,bytes a triangle,not drawn\n";
+  for (const GrowthAxis& axis : growth.axes)
   {
-    const std::string ratio = &measured == &plain || !plain.isDrawn()
-      ? ""
-      : " (" + fixed(measured.milliseconds() / plain.milliseconds(), 2) + ")";
-    return fixed(measured.milliseconds(), 1) + " ms" + ratio;
-  };
-  const auto firstTime = [](const GrowthMeasurement& measured, const GrowthMeasurement&)
-  { return fixed(measured.firstMilliseconds, 0) + " ms"; };
-  const auto bytes = [](const GrowthMeasurement& measured, const GrowthMeasurement&)
-  { return fixed(bytesPerTriangle(measured.report), 1); };
-  return "\n## " + titleOf(axis) + "\n\n" + caseTable(growth, axis, 0, time) + "\n" +
-    listOfNotDrawn(growth, axis) + "First frame:\n\n" + caseTable(growth, axis, 0, firstTime) +
-    (axis.key == "triangles"
-        ? "\nBytes per triangle:\n\n" + caseTable(growth, axis, peerCount, bytes)
-        : "");
+    for (const GrowthRow& row : axis.rows)
+    {
+      for (std::size_t i = 0; i < growth.contenders.size(); ++i)
+      {
+        const GrowthMeasurement& measured = row.measured[i];
+        text += axis.key + ",\"" + row.name + "\"," + growth.contenders[i];
+        text += measured.isDrawn() ? "," + fixed(measured.milliseconds(), 2) : ",";
+        text += row.overPlain(i) ? "," + fixed(*row.overPlain(i), 3) : ",";
+        text += "," + fixed(measured.firstMilliseconds, 1);
+        text += i < peerCount ? "," : "," + fixed(bytesPerTriangle(measured.report), 1);
+        text += ",\"" + measured.notDrawn + "\"\n";
+      }
+    }
+  }
+  return text;
 }
 
 std::string toPage(const Growth& growth)
@@ -203,7 +184,7 @@ std::string toPage(const Growth& growth)
   const bool hasScales = std::any_of(
     growth.axes.begin(), growth.axes.end(), [](const GrowthAxis& axis) { return axis.hasScale(); });
   std::string text = "# How a frame's time grows\n\n`" + growth.command +
-    "` measures this and writes this page.\n\n";
+    "` measures this and writes this page and\n[all figures](growth.csv).\n\n";
   if (hasScales)
   {
     text +=
@@ -211,12 +192,8 @@ std::string toPage(const Growth& growth)
       "cases and, in\nbrackets, between the last two:\n\n" +
       exponentTable(growth) + "\n![Time of a frame over each axis](growth.png)\n\n";
   }
-  text += growth.scene + "\n";
-  for (const GrowthAxis& axis : growth.axes)
-  {
-    text += sectionOf(growth, axis);
-  }
-  return text + "\nMeasured on: " + growth.machine + ".\n";
+  return text + growth.scene + "\n" + ratioTable(growth) + "\nMeasured on: " + growth.machine +
+    ".\n";
 }
 
 Panel panelOf(const Growth& growth, const GrowthAxis& axis)
@@ -230,6 +207,16 @@ Panel panelOf(const Growth& growth, const GrowthAxis& axis)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+std::optional<double> GrowthRow::overPlain(std::size_t contender) const
+{
+  const GrowthMeasurement& plain = this->measured.front();
+  const GrowthMeasurement& own = this->measured[contender];
+  return plain.isDrawn() && own.isDrawn()
+    ? std::optional<double>(own.milliseconds() / plain.milliseconds())
+    : std::nullopt;
+}
 
 //------------------------------------------------------------------------------
 void writeGrowth(const Growth& growth, const std::string& folder)
@@ -246,6 +233,7 @@ void writeGrowth(const Growth& growth, const std::string& folder)
   {
     writePicture(sideBySide(panels), folder + "/growth.png");
   }
+  writeWholeFile(folder + "/growth.csv", toCsv(growth));
   writeWholeFile(folder + "/growth.md", toPage(growth));
 }
 

@@ -4,6 +4,8 @@
 
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,9 @@ struct GrowthRow
   std::string name;
   double x;                                ///< its place on the axis; 0: the axis has no scale
   std::vector<GrowthMeasurement> measured; ///< by contender
+
+  /// Return a contender's time as a multiple of plain VTK's; nothing if one of them is not drawn.
+  std::optional<double> overPlain(std::size_t contender) const;
 };
 
 struct GrowthAxis
@@ -48,7 +53,7 @@ struct Growth
   std::vector<GrowthAxis> axes;
 };
 
-/// Write growth.md into the folder, and growth.png if an axis has a scale.
+/// Write growth.md and growth.csv into the folder, and growth.png if an axis has a scale.
 /// @throws Failure if writing fails
 void writeGrowth(const Growth& growth, const std::string& folder);
 
