@@ -1,6 +1,6 @@
 // Measure how a frame's time grows with triangles, props, programs, lights, pixels and movement.
-// Each axis varies one of these from a base scene. Plain VTK, vtkShadowMapPass and Gnomon's techniques draw frames
-// in turn, so other load on the machine affects all alike.
+// Each axis varies one of these from a base scene. Plain VTK, vtkShadowMapPass and Gnomon's
+// techniques draw frames in turn, so other load on the machine affects all alike.
 
 #include "BenchmarkMain.h"
 #include "BuiltinParts.h"
