@@ -288,7 +288,7 @@ std::map<std::string, std::vector<std::string>> HookGlsl::samplers() const
 //------------------------------------------------------------------------------
 std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader)
 {
-  const std::string main = "void main(";
+  const std::string main = "\nvoid main("; // not in a comment
   const std::string body = "//VTK::PrimID::Impl"; // of VTK's geometry shaders
   const std::size_t begin = vertexShader.rfind(main);
   if (begin == std::string::npos ||
@@ -296,7 +296,7 @@ std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader)
   {
     return "uniform int gnomonDrawn;\n#define gnomonDrawnVSOutput ivec2(gnomonDrawn, 0)\n";
   }
-  vertexShader.replace(begin, main.size(), "void gnomonMain(");
+  vertexShader.replace(begin, main.size(), "\nvoid gnomonMain(");
   vertexShader += "\n" + frameShaders().at("plugin/frame/hook_drawn.vert.glsl");
   // With a geometry shader, VTK makes the fragment shader read its outputs instead.
   replace(geometryShader, "//VTK::PrimID::Dec",
