@@ -168,7 +168,10 @@ void FramePlanner::remember(double milliseconds, bool isUsual)
       times.addImage(light.sceneIndex, samples, casting.milliseconds);
     }
   }
-  if (isUsual && this->frame_.plan.moves)
+  // Frames without a limit do not wait for OpenGL, so their times are too short.
+  const FrameWishes& wishes = this->frame_.wishes;
+  const bool isLimited = wishes.timeBudget > 0.0 || wishes.windowTime > 0.0;
+  if (isUsual && isLimited && this->frame_.plan.moves)
   {
     times.add(byRays, rest);
   }

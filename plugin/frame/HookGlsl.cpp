@@ -288,7 +288,7 @@ std::map<std::string, std::vector<std::string>> HookGlsl::samplers() const
 //------------------------------------------------------------------------------
 std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader)
 {
-  const std::string main = "\nvoid main(";        // not in a comment
+  const std::string main = "\nvoid main(";        // comments begin otherwise
   const std::string body = "//VTK::PrimID::Impl"; // of VTK's geometry shaders
   const std::size_t begin = vertexShader.rfind(main);
   if (begin == std::string::npos ||

@@ -89,10 +89,11 @@ private:
   std::string darkenings_;      ///< deferred route: the same for the colour in shadow
 };
 
-/// Make a program's shaders hand on what hook_drawn.vert.glsl says, as `gnomonDrawnVSOutput` of the
-/// fragment shader. Call it before VTK's replacements.
-/// @return the fragment shader's declarations. Where the shaders have no place for it, they read
-/// the surface's number from the uniform itself, and know no instances.
+/// Make the vertex shader hand the drawn surface's number and the instance's first primitive to the
+/// fragment shader, as `gnomonDrawnVSOutput` (hook_drawn.vert.glsl). Call it before VTK's
+/// replacements.
+/// @return the fragment shader's declarations. They read the uniform, without instances, if the
+/// vertex shader's main is not found or a geometry shader lacks VTK's marks.
 std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader);
 
 } // namespace gnomon

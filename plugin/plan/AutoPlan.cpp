@@ -289,9 +289,8 @@ std::string Planner::move(const FrameCounters& counters)
   if (budget > 0.0)
   {
     const double taken = history.times.restByMaps;
-    const double expected = !takesMaps ? this->expectedByRays(byRays)
-      : taken > 0.0                    ? taken
-                                       : byMaps;
+    const double expectedByMaps = taken > 0.0 ? taken : byMaps;
+    const double expected = takesMaps ? expectedByMaps : this->expectedByRays(byRays);
     text += expected > budget ? "; the time budget is not kept" : "";
   }
   return text;

@@ -21,10 +21,11 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
+/// How a collector reads a renderer's props.
 struct CollectOptions
 {
   bool readsNormals = false;  ///< surfaces get the normals that VTK shades them with
-  bool inputsHaveRun = false; ///< haveInputsRun()
+  bool inputsHaveRun = false; ///< plain props need no update, see haveInputsRun()
 };
 
 /// Fills the snapshot from a renderer's visible props, in view or not, and keeps it up to date at

@@ -92,8 +92,8 @@ double callsOfAProp(const Drawing& drawing)
 } // namespace
 
 //------------------------------------------------------------------------------
-// At most two more than plain VTK's, and three where triangles are numbered: a uniform whose value
-// is another prop's is not set, and nothing is asked.
+// A uniform is set only where its value differs from the last prop's, and OpenGL's state is not
+// queried. Numbered triangles take one more uniform, the surface's number.
 TEST(GlCalls, ofAPropAreFewMoreThanPlainVtks)
 {
   struct Technique
