@@ -200,6 +200,10 @@ ShadowSettings readSettings(vtkLight* light, const ShadowSettings& defaults, std
   {
     own->CopySetValues(settings);
   }
+  if (!light->GetInformation()->Has(vtkGnomonLightKeys::SETTINGS()))
+  {
+    return settings; // as of most lights
+  }
   for (const Setting* setting : shadowSettings())
   {
     const char* const text = vtkGnomonLightKeys::GetSetting(light, setting->name.c_str());

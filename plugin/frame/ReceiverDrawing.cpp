@@ -211,7 +211,7 @@ ByPasses drawnByPasses(vtkProp* prop)
 bool hasPartsOfBothKinds(const vtkRenderState* s)
 {
   return std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
-    [](vtkProp* prop) { return drawnByPasses(prop) == ByPasses::Some; });
+    [](vtkProp* prop) { return isAssembly(prop) && drawnByPasses(prop) == ByPasses::Some; });
 }
 
 //------------------------------------------------------------------------------

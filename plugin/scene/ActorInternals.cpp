@@ -3,12 +3,13 @@
 #include "vtkActor.h"
 #include "vtkFollower.h"
 #include "vtkLODProp3D.h"
+#include "vtkOpenGLActor.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkRenderer.h"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
+#include <typeinfo>
 
 namespace gnomon
 {
@@ -37,7 +38,7 @@ struct LodPropAccess : vtkLODProp3D
 //------------------------------------------------------------------------------
 bool isPlainActor(const vtkProp* prop)
 {
-  return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
+  return typeid(*prop) == typeid(vtkOpenGLActor);
 }
 
 //------------------------------------------------------------------------------

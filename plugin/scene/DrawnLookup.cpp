@@ -15,6 +15,8 @@
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -90,13 +92,14 @@ void DrawnLookup::clear()
 {
   this->held_.clear();
   this->heldAt_.clear();
+  this->plain_.clear();
   this->answers_.clear();
   this->taken_.clear();
 }
 
 //------------------------------------------------------------------------------
 void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
-  const glm::dmat4& worldFromModel, std::vector<HeldSurface> held)
+  const glm::dmat4& worldFromModel, std::vector<HeldSurface> held, bool isPlain)
 {
   const std::size_t number = this->held_.size();
   this->heldAt_.emplace(Place{ actor, worldFromModel }, number);
@@ -110,16 +113,29 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   {
     std::sort(held.begin(), held.end(), isBefore);
   }
+  if (isPlain && held.size() == 1)
+  {
+    PlainDrawing& plain = this->plain_[actor];
+    plain.mapper = mapper;
+    const glm::dmat4 rows = glm::transpose(worldFromModel);
+    std::copy_n(glm::value_ptr(rows), 16, plain.worldFromModel.begin());
+  }
   this->held_.push_back(std::move(held));
 }
 
 //------------------------------------------------------------------------------
-void DrawnLookup::beginFrame(
-  const std::vector<const void*>& translucentReceivers, const std::vector<const void*>& seenThrough)
+void DrawnLookup::beginFrame()
 {
+  ++this->frame_;
   this->answers_.clear();
   this->taken_.clear();
   this->drawnSurfaces_.clear();
+}
+
+//------------------------------------------------------------------------------
+void DrawnLookup::setDrawers(
+  const std::vector<const void*>& translucentReceivers, const std::vector<const void*>& seenThrough)
+{
   this->translucentReceivers_ = { translucentReceivers.begin(), translucentReceivers.end() };
   this->seenThrough_ = { seenThrough.begin(), seenThrough.end() };
 }
@@ -135,9 +151,9 @@ bool DrawnLookup::isAmong(vtkProp* prop, const std::unordered_set<const void*>& 
 //------------------------------------------------------------------------------
 std::size_t DrawnLookup::bytes() const
 {
-  return bytesOf(this->held_) + bytesOfTable(this->heldAt_) + bytesOfTable(this->answers_) +
-    bytesOfTable(this->translucentReceivers_) + bytesOfTable(this->seenThrough_) +
-    bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_) +
+  return bytesOf(this->held_) + bytesOfTable(this->heldAt_) + bytesOfTable(this->plain_) +
+    bytesOfTable(this->answers_) + bytesOfTable(this->translucentReceivers_) +
+    bytesOfTable(this->seenThrough_) + bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_) +
     bytesOfAll(this->held_, bytesOf<HeldSurface>) +
     bytesOfAll(
       this->drawnSurfaces_, [](const DrawnSurface& drawn) { return bytesOf(drawn.blocks); });
@@ -191,6 +207,35 @@ const DrawnLookup::HeldSurface* DrawnLookup::match(
 }
 
 //------------------------------------------------------------------------------
+/// Return a plain prop's drawing, if that is about to be drawn; else null.
+DrawnLookup::PlainDrawing* DrawnLookup::plainDrawing(
+  vtkAbstractMapper* mapper, vtkProp* prop, SurfaceCells cells)
+{
+  const auto known = this->plain_.find(prop);
+  const bool is = known != this->plain_.end() && known->second.mapper == mapper &&
+    cells == SurfaceCells::Polygons;
+  // An assembly that has the actor, too, moves it while it draws.
+  return is &&
+      std::equal(known->second.worldFromModel.begin(), known->second.worldFromModel.end(),
+        prop->GetMatrix()->GetData())
+    ? &known->second
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+HookedSurface DrawnLookup::take(PlainDrawing& plain, const Occluders& occluders)
+{
+  if (plain.frame != this->frame_)
+  {
+    plain.frame = this->frame_;
+    plain.index = static_cast<int>(this->drawnSurfaces_.size());
+    this->drawnSurfaces_.push_back({ { plain.block } });
+  }
+  const Surface& surface = occluders.surfaces[plain.block.surface];
+  return { plain.index, surface.receives, false, surface.facetHeight, 0 };
+}
+
+//------------------------------------------------------------------------------
 HookedSurface DrawnLookup::find(
   vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders)
 {
@@ -205,6 +250,11 @@ HookedSurface DrawnLookup::find(
     drawn.receives = isAmong(prop, this->translucentReceivers_);
     drawn.translucent = true;
     return drawn;
+  }
+  PlainDrawing* const plain = this->plainDrawing(mapper, prop, *cells);
+  if (plain && plain->block.primitiveCount > 0)
+  {
+    return this->take(*plain, occluders);
   }
   const HeldSurfaces* held = this->heldBy(prop);
   if (!held)
@@ -240,6 +290,12 @@ HookedSurface DrawnLookup::find(
   if (!drawnSurface.blocks.empty())
   {
     drawn.index = static_cast<int>(this->drawnSurfaces_.size());
+    if (plain)
+    {
+      plain->block = drawnSurface.blocks.front();
+      plain->frame = this->frame_;
+      plain->index = drawn.index;
+    }
     this->drawnSurfaces_.push_back(std::move(drawnSurface));
   }
   return drawn;

@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -60,13 +61,15 @@ public:
   void clear();
   /// Add the opaque surfaces, at least one, that a prop draws with a mapper at a place. Glyphs are
   /// in the order in which VTK draws them.
+  /// @param isPlain true if the prop is a PlainProp
   void add(const vtkProp* actor, const vtkMapper* mapper, const glm::dmat4& worldFromModel,
-    std::vector<HeldSurface> held);
+    std::vector<HeldSurface> held, bool isPlain);
+  /// Set the actors that draw translucent receivers, and those that are seen through.
+  void setDrawers(const std::vector<const void*>& translucentReceivers,
+    const std::vector<const void*>& seenThrough);
 
   /// Clear the list of drawn surfaces.
-  /// @param translucentReceivers as in DrawnProps, as the next
-  void beginFrame(const std::vector<const void*>& translucentReceivers,
-    const std::vector<const void*>& seenThrough);
+  void beginFrame();
   /// True if the picture of receivers holds what is behind a prop.
   bool isSeenThrough(vtkProp* prop) const { return isAmong(prop, this->seenThrough_); }
   bool anySeenThrough() const { return !this->seenThrough_.empty(); }
@@ -114,12 +117,26 @@ private:
     std::size_t operator()(const Question& question) const;
   };
 
+  /// A plain prop's polygons, which its mapper draws in the same way until the next clear().
+  struct PlainDrawing
+  {
+    const vtkMapper* mapper = nullptr;
+    DrawnSurface::Block block;               ///< empty until it is drawn first
+    std::array<double, 16> worldFromModel{}; ///< row by row
+    std::size_t frame = 0;                   ///< number of the last one that has drawn it
+    int index = -1;                          ///< into that frame's drawnSurfaces()
+  };
+
   static bool isAmong(vtkProp* prop, const std::unordered_set<const void*>& drawers);
+  PlainDrawing* plainDrawing(vtkAbstractMapper* mapper, vtkProp* prop, SurfaceCells cells);
+  HookedSurface take(PlainDrawing& plain, const Occluders& occluders);
   const HeldSurfaces* heldBy(vtkProp* prop) const;
   const HeldSurface* match(const HeldSurfaces& held, vtkPolyData* data, SurfaceCells cells);
 
   std::vector<HeldSurfaces> held_;
   std::unordered_map<Place, std::size_t, PlaceHash> heldAt_; ///< indices into held_
+  std::unordered_map<const vtkProp*, PlainDrawing> plain_;
+  std::size_t frame_ = 0; ///< number of the present one
   std::unordered_map<Question, HookedSurface, QuestionHash> answers_;
   std::unordered_set<const void*> translucentReceivers_;
   std::unordered_set<const void*> seenThrough_;

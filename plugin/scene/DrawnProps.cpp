@@ -157,12 +157,12 @@ void Finder::name(NamedProps& props, vtkMapper* mapper) const
 //------------------------------------------------------------------------------
 void Finder::addViewProp(vtkProp* viewProp)
 {
-  const PlainProp* plain = this->memory_.plainProps.next(viewProp);
   if (!viewProp->GetVisibility())
   {
     return;
   }
-  if (plain)
+  const auto number = static_cast<std::size_t>(this->number_);
+  if (const PlainProp* plain = this->memory_.plainProps.unchanged(number))
   {
     this->memory_.stamps.keep(viewProp);
     this->addPlain(*plain);
@@ -223,6 +223,7 @@ DrawnProp Finder::propOf(vtkActor* actor, vtkMapper* mapper, vtkMatrix4x4* matri
 void Finder::addPlain(const PlainProp& plain)
 {
   DrawnProp prop = this->propOf(plain.actor, plain.mapper, plain.actor->GetMatrix());
+  prop.isPlain = true;
   prop.blockCount = 1;
   this->drawn_.blocks.push_back({ plain.data });
   takeNormals(plain.actor, this->drawn_.blocks.back());
@@ -406,7 +407,8 @@ void Finder::addTaken(const DrawnActor& taken)
       !isSizedInPixels(actor->GetProperty()) && this->viewProp_ == actor &&
       this->drawn_.props.size() > before)
     {
-      this->memory_.plainProps.remember(actor);
+      this->drawn_.props.back().isPlain =
+        this->memory_.plainProps.remember(static_cast<std::size_t>(this->number_), actor);
     }
   }
   if (translucent && askedToCast(this->viewProp_))
@@ -472,9 +474,8 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 }
 
 //------------------------------------------------------------------------------
-DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, bool inputsHaveRun)
+DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory)
 {
-  memory.plainProps.beginFrame(inputsHaveRun);
   memory.stamps.beginFrame();
   memory.cutouts.beginFrame();
   memory.images.beginFrame();
@@ -487,7 +488,6 @@ DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, bool inputs
   {
     finder.addViewProp(viewProp, number++);
   }
-  memory.plainProps.endFrame();
   return finder.take();
 }
 

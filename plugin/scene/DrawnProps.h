@@ -46,6 +46,7 @@ struct DrawnProp
   bool oneSided = false;
   bool isMoved = false;     ///< a user's shader code may move its vertices
   bool translucent = false; ///< listed because it was asked to cast
+  bool isPlain = false;     ///< the actor is a PlainProp
 
   std::shared_ptr<const CutoutMask> cutout; ///< a texture's holes in its blocks; null for none
   glm::mat4 textureTransform{ 1.0f };       ///< of the cut-out's coordinates (s, t, 0, 1)
@@ -79,8 +80,7 @@ struct DrawnProps
 /// asked to cast. Props out of the camera's view are included. Updates the inputs of mappers first,
 /// as VTK does when it draws.
 ///
-/// @param memory the same for all frames of the renderer
-/// @param inputsHaveRun true if the inputs of plain props are up to date
-DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, bool inputsHaveRun);
+/// @param memory the same for all frames of the renderer. Its plain props have begun the frame.
+DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory);
 
 } // namespace gnomon

@@ -15,8 +15,19 @@ namespace gnomon
 SnapshotChange OccluderCollector::collect(
   vtkRenderer* renderer, CollectOptions options, Ranks& ranks)
 {
-  DrawnProps drawn = findDrawnProps(renderer, this->propMemory_, options.inputsHaveRun);
-  this->lookup_.beginFrame(drawn.translucentReceivers, drawn.seenThrough);
+  const std::pair collected(options.readsNormals, ranks.serial());
+  const bool areSame =
+    this->propMemory_.plainProps.beginFrame(renderer->GetViewProps(), options.inputsHaveRun) &&
+    this->collected_ == collected;
+  this->lookup_.beginFrame();
+  if (!ranks.isAny(!areSame))
+  {
+    this->propMemory_.stamps.keepAll();
+    return {};
+  }
+  this->collected_.reset(); // in case of an error
+  DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
+  this->lookup_.setDrawers(drawn.translucentReceivers, drawn.seenThrough);
   this->notes_ = std::move(drawn.notes);
   this->leftOut_ = std::move(drawn.leftOut);
   this->translucentReceivers_ = drawn.translucentReceivers.size();
@@ -32,6 +43,7 @@ SnapshotChange OccluderCollector::collect(
     this->noteOnBoxes_ = this->noteOnBoxes(wanted);
   }
   this->noteWhatIsTooLarge(wanted);
+  this->collected_ = collected;
   return change;
 }
 
@@ -56,7 +68,8 @@ void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
     }
     if (!prop.translucent)
     {
-      this->lookup_.add(prop.actor, prop.mapper, prop.worldFromModel, std::move(held));
+      this->lookup_.add(
+        prop.actor, prop.mapper, prop.worldFromModel, std::move(held), prop.isPlain);
     }
   }
 }

@@ -9,7 +9,9 @@
 #include "shadowtech/base/Receivers.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -95,6 +97,8 @@ private:
   std::string noteOnBoxes(const std::vector<WantedSurface>& wanted) const;
 
   SnapshotSurfaces surfaces_;
+  /// CollectOptions::readsNormals and Ranks::serial() of the snapshot; none after an error.
+  std::optional<std::pair<bool, std::uint64_t>> collected_;
   DrawnLookup lookup_;
   PropMemory propMemory_;
   std::size_t translucentReceivers_ = 0;

@@ -1,13 +1,17 @@
 #include "plugin/scene/PlainProps.h"
 
+#include "plugin/scene/ActorInternals.h"
 #include "plugin/scene/MapperKind.h"
+#include "plugin/scene/PropStamps.h"
 #include "shadowtech/base/Bytes.h"
 
 #include "vtkActor.h"
+#include "vtkActor2D.h"
 #include "vtkCuller.h"
 #include "vtkCullerCollection.h"
 #include "vtkMapper.h"
 #include "vtkPolyData.h"
+#include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProperty.h"
@@ -32,6 +36,20 @@ bool drawsSameData(const PlainProp& known, bool inputsHaveRun)
     known.data->GetMTime() == known.dataTime;
 }
 
+/// True if a prop is a plain one and unchanged.
+bool isSame(const PlainProp& known, vtkProp* prop, bool inputsHaveRun)
+{
+  // Checked in order of ownership: an unchanged object still holds the next one.
+  return known.actor == prop && known.actor->GetMTime() == known.actorTime &&
+    known.mapper->GetMTime() == known.mapperTime && drawsSameData(known, inputsHaveRun) &&
+    known.code->GetMTime() == known.codeTime && known.keys == keysOf(prop);
+}
+
+bool hasNoSurface(vtkProp* prop)
+{
+  return !prop->GetVisibility() || (!isPlainActor(prop) && vtkActor2D::SafeDownCast(prop));
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -49,49 +67,54 @@ bool haveInputsRun(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-void PlainProps::beginFrame(bool inputsHaveRun)
+bool PlainProps::beginFrame(vtkPropCollection* props, bool inputsHaveRun)
 {
-  this->next_ = 0;
-  this->inputsHaveRun_ = inputsHaveRun;
+  const auto count = static_cast<std::size_t>(props->GetNumberOfItems());
+  bool areSame = count == this->props_.size();
+  this->props_.resize(count);
+  vtkCollectionSimpleIterator iterator;
+  props->InitTraversal(iterator);
+  for (Known& known : this->props_)
+  {
+    vtkProp* const prop = props->GetNextProp(iterator);
+    if (!prop || !isSame(known.plain, prop, inputsHaveRun))
+    {
+      vtkProp* const withoutSurface = prop && hasNoSurface(prop) ? prop : nullptr;
+      areSame = areSame && withoutSurface && withoutSurface == known.withoutSurface;
+      known = { {}, withoutSurface };
+    }
+  }
+  return areSame;
 }
 
 //------------------------------------------------------------------------------
-const PlainProp* PlainProps::next(vtkProp* prop)
+const PlainProp* PlainProps::unchanged(std::size_t number) const
 {
-  if (this->next_ == this->props_.size())
-  {
-    this->props_.emplace_back();
-  }
-  PlainProp& known = this->props_[this->next_++];
-  // Checked in order of ownership: an unchanged object still holds the next one.
-  const bool same = known.actor == prop && known.actor->GetMTime() == known.actorTime &&
-    known.mapper->GetMTime() == known.mapperTime && drawsSameData(known, this->inputsHaveRun_) &&
-    known.code->GetMTime() == known.codeTime;
-  if (!same)
-  {
-    known = {};
-  }
-  return same ? &known : nullptr;
+  const bool is = number < this->props_.size() && this->props_[number].plain.actor;
+  return is ? &this->props_[number].plain : nullptr;
 }
 
 //------------------------------------------------------------------------------
-void PlainProps::remember(vtkActor* actor)
+bool PlainProps::remember(std::size_t number, vtkActor* actor)
 {
   vtkMapper* const mapper = actor->GetMapper();
   const bool textured = actor->GetTexture() || actor->GetProperty()->GetNumberOfTextures() > 0;
-  if (textured || mapper->GetStatic() || mapper->GetNumberOfClippingPlanes() > 0)
+  if (number >= this->props_.size() || textured || mapper->GetStatic() ||
+    mapper->GetNumberOfClippingPlanes() > 0)
   {
-    return;
+    return false;
   }
-  if (auto* const data = vtkPolyData::SafeDownCast(mapper->GetInputDataObject(0, 0)))
+  auto* const data = vtkPolyData::SafeDownCast(mapper->GetInputDataObject(0, 0));
+  if (data)
   {
     vtkAlgorithm* const producer = mapper->GetInputAlgorithm();
     const bool isFiltered = !producer->IsA("vtkTrivialProducer");
     vtkShaderProperty* const code = actor->GetShaderProperty();
-    this->props_[this->next_ - 1] = { actor, mapper, producer, isFiltered, data, code,
+    this->props_[number].plain = { actor, mapper, producer, isFiltered, data, code,
       actor->GetMTime(), mapper->GetMTime(), isFiltered ? data->GetMTime() : producer->GetMTime(),
-      code->GetMTime() };
+      code->GetMTime(), keysOf(actor) };
   }
+  return data != nullptr;
 }
 
 //------------------------------------------------------------------------------

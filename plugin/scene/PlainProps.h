@@ -13,6 +13,7 @@ class vtkAlgorithm;
 class vtkMapper;
 class vtkPolyData;
 class vtkProp;
+class vtkPropCollection;
 class vtkRenderer;
 class vtkShaderProperty;
 VTK_ABI_NAMESPACE_END
@@ -40,6 +41,7 @@ struct PlainProp
   vtkMTimeType mapperTime = 0;
   vtkMTimeType dataTime = 0; ///< of the data, or of the producer that hands on its time
   vtkMTimeType codeTime = 0;
+  int keys = 0; ///< keysOf() it
 };
 
 /// Caches from frame to frame which props are plain. It dereferences a pointer only if times show
@@ -47,26 +49,30 @@ struct PlainProp
 class PlainProps
 {
 public:
-  /// Begin a frame. It must ask for all props of the renderer, in its order.
+  /// Begin a frame.
+  /// @param props all of the renderer
   /// @param inputsHaveRun true if the mappers' filters have run for this frame
-  void beginFrame(bool inputsHaveRun);
+  /// @return true if no prop has changed, and each is plain, hidden or an annotation
+  bool beginFrame(vtkPropCollection* props, bool inputsHaveRun);
 
-  /// Return the renderer's next prop if it is unchanged since the last frame; else null.
-  const PlainProp* next(vtkProp* prop);
+  /// Return a prop if it is plain and unchanged since the last frame; else null.
+  /// @param number in the renderer's order
+  const PlainProp* unchanged(std::size_t number) const;
 
-  /// Store the prop of the last call of next(), if it is a plain one. VTK has just called it
-  /// opaque, and everything is up to date.
-  void remember(vtkActor* actor);
-
-  /// End a frame: drop props beyond the last one asked for.
-  void endFrame() { this->props_.resize(this->next_); }
+  /// Store a prop if it is a plain one. VTK has just called it opaque, and everything is up to
+  /// date.
+  /// @return true if so
+  bool remember(std::size_t number, vtkActor* actor);
 
   std::size_t bytes() const;
 
 private:
-  std::vector<PlainProp> props_; ///< in the renderer's order; empty for other props
-  std::size_t next_ = 0;
-  bool inputsHaveRun_ = false;
+  struct Known
+  {
+    PlainProp plain;                   ///< without an actor for other props
+    vtkProp* withoutSurface = nullptr; ///< a hidden prop, or an annotation
+  };
+  std::vector<Known> props_; ///< in the renderer's order
 };
 
 /// True if a renderer that draws a frame has asked all its props for their bounds first, as its

@@ -54,15 +54,6 @@ namespace gnomon
 namespace
 {
 
-/// Return the keys that a prop has of its own, as bits.
-int keysOf(vtkProp* prop)
-{
-  return !prop->GetPropertyKeys()
-    ? 8
-    : (vtkGnomonPropKeys::GetCasts(prop) ? 1 : 0) + (vtkGnomonPropKeys::GetReceives(prop) ? 2 : 0) +
-      (vtkGnomonPropKeys::GetOneSided(prop) ? 4 : 0);
-}
-
 bool isOneOf(vtkObjectBase* object, std::initializer_list<const char*> classes)
 {
   return std::any_of(classes.begin(), classes.end(),
@@ -142,11 +133,9 @@ void Stamper::addKeys(vtkProp* prop)
 {
   this->add(prop);
   this->add(prop->GetVisibility());
+  this->add(keysOf(prop));
   if (vtkInformation* const keys = prop->GetPropertyKeys())
   {
-    this->add(vtkGnomonPropKeys::GetCasts(prop));
-    this->add(vtkGnomonPropKeys::GetReceives(prop));
-    this->add(vtkGnomonPropKeys::GetOneSided(prop));
     vtkInformationDoubleVectorKey* const transform = vtkProp::GeneralTextureTransform();
     this->addElements(keys->Get(transform), keys->Length(transform));
   }
@@ -377,6 +366,13 @@ void Stamper::addData(vtkAlgorithm* consumer, bool isStatic)
 } // namespace
 
 //------------------------------------------------------------------------------
+int keysOf(vtkProp* prop)
+{
+  return (vtkGnomonPropKeys::GetCasts(prop) ? 1 : 0) +
+    (vtkGnomonPropKeys::GetReceives(prop) ? 2 : 0) + (vtkGnomonPropKeys::GetOneSided(prop) ? 4 : 0);
+}
+
+//------------------------------------------------------------------------------
 PropStamp stampOf(vtkProp* prop, vtkRenderer* renderer)
 {
   Stamper stamper(renderer);
@@ -405,7 +401,7 @@ void PropStamps::keep(vtkProp* prop)
   const auto known = this->known_.find(prop);
   if (known != this->known_.end())
   {
-    known->second.asked = known->second.keys == keysOf(prop);
+    known->second.asked = true;
   }
 }
 
@@ -420,7 +416,6 @@ std::size_t PropStamps::of(vtkProp* prop, vtkRenderer* renderer)
     {
       known = { now, now.hash };
     }
-    known.keys = keysOf(prop);
     known.asked = true;
   }
   if (known.mayChangeInDrawing)

@@ -27,6 +27,9 @@ struct PropStamp
   const char* unknown = nullptr;
 };
 
+/// Return a prop's keys of vtkGnomonPropKeys, as bits.
+int keysOf(vtkProp* prop);
+
 /// Stamp a prop by the times and values of all that VTK draws it from, down to the data. Updates
 /// the pipelines first, as VTK does when it draws.
 PropStamp stampOf(vtkProp* prop, vtkRenderer* renderer);
@@ -42,9 +45,10 @@ class PropStamps
 public:
   /// Begin a frame: forget props that nothing asked for since the last call.
   void beginFrame();
+  /// Begin a frame in which no prop has changed: keep all stamps.
+  void keepAll() { this->due_.clear(); }
 
-  /// Keep the last frame's stamp of a prop in this frame, if there is one: nothing has changed but
-  /// perhaps its keys.
+  /// Keep the last frame's stamp of a prop in this frame, if there is one: it has not changed.
   void keep(vtkProp* prop);
 
   /// Return a prop's stamp before it is drawn.
@@ -63,7 +67,6 @@ private:
     std::size_t stamp = 0;          ///< the last one whose change no drawing made but the first
     bool mayChangeInDrawing = true; ///< new, or changed by the last drawing
     bool wasDrawn = false;          ///< since it is new, or last changed
-    int keys = 0;                   ///< the prop's, as bits
     bool asked = false;             ///< the stamp is this frame's
   };
   std::unordered_map<const vtkProp*, Known> known_;

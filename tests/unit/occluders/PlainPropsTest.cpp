@@ -8,6 +8,7 @@
 #include "plugin/scene/PlainProps.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
+#include "vtkActor2D.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -376,4 +377,35 @@ TEST(PlainProps, AreFoundAgainAfterOthersCameAndWent)
   expectAsFresh(0);
   scene.renderer->AddActor(scene.neighbour);
   expectAsFresh(1);
+}
+
+//------------------------------------------------------------------------------
+TEST(PlainProps, AreAllTheSameBesideHiddenPropsAndAnnotations)
+{
+  PlainScene scene;
+  vtkNew<vtkActor2D> annotation;
+  scene.renderer->AddViewProp(annotation);
+  scene.collector.collect(scene.renderer);
+  PlainProps props;
+  const auto areSame = [&] { return props.beginFrame(scene.renderer->GetViewProps(), false); };
+  EXPECT_FALSE(areSame());
+  EXPECT_FALSE(areSame()) << "nothing is remembered";
+  EXPECT_TRUE(props.remember(0, scene.actor));
+  EXPECT_TRUE(props.remember(1, scene.neighbour));
+  EXPECT_TRUE(props.remember(2, scene.filtered));
+  EXPECT_TRUE(areSame());
+  scene.neighbour->VisibilityOff();
+  EXPECT_FALSE(areSame());
+  EXPECT_TRUE(areSame()) << "it stays hidden";
+  annotation->SetPosition(3.0, 4.0);
+  EXPECT_TRUE(areSame());
+  scene.neighbour->VisibilityOn();
+  EXPECT_FALSE(areSame());
+  EXPECT_FALSE(areSame());
+  EXPECT_TRUE(props.remember(1, scene.neighbour));
+  EXPECT_TRUE(areSame());
+  vtkGnomonPropKeys::SetReceives(scene.filtered, false);
+  EXPECT_FALSE(areSame());
+  EXPECT_EQ(props.unchanged(2), nullptr);
+  EXPECT_NE(props.unchanged(1), nullptr);
 }

@@ -346,6 +346,8 @@ TEST_F(Deferred, DrawsOnceAndComputesWhatChanged)
     const gnomon::FrameReport& report = this->scene.report();
     return std::tuple(report.receiversDrawn, report.visibilityComputed, report.programCompiles);
   };
+  EXPECT_EQ(counts(), std::tuple(0, 0, 0)) << "a second frame";
+  this->scene.renderer->GetActiveCamera()->Azimuth(5.0);
   counts();
   EXPECT_EQ(counts(), std::tuple(0, 0, 0)) << "nothing changed";
   this->sun->SetPosition(-1.0, -0.6, 1.5);
