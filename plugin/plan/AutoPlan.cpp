@@ -21,6 +21,9 @@ constexpr double nearlyAsFast = 1.3;
 constexpr int leastPatience = 30;
 constexpr int mostPatience = 960;
 
+/// Frames until a map that is still baked is tried again, if rays do not keep the time budget.
+constexpr int patienceIfLate = 8;
+
 /// Frames between probes of a map, if it is reused and if each frame bakes it.
 constexpr int framesPerProbe = 16;
 constexpr int framesPerProbeOfMoved = 4;
@@ -243,7 +246,10 @@ std::string Planner::move(const FrameCounters& counters)
   const double budget = this->wishes_.timeBudget;
   std::string whyRays = this->whyNoMaps();
   const bool mayHaveMaps = whyRays.empty();
-  const bool waits = history.byRays > 0 && history.byRays < history.patience;
+  const bool triesSoon =
+    counters.movedLights == 0 && budget > 0.0 && this->expectedByRays(byRays) > budget;
+  const int patience = triesSoon ? std::min(history.patience, patienceIfLate) : history.patience;
+  const bool waits = history.byRays > 0 && history.byRays < patience;
   if (mayHaveMaps && waits && !history.whyRays.empty())
   {
     whyRays = history.whyRays;

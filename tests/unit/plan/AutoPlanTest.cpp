@@ -172,6 +172,29 @@ TEST_F(AutoPlans, mapsGrowAndThenRaysAreTaken)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(AutoPlans, mapsAreTriedSoonIfRaysAreLate)
+{
+  struct Case
+  {
+    double budget;
+    int waits; ///< frames
+  };
+  for (const Case& one : { Case{ 5.0, 8 }, Case{ 1e6, 30 } })
+  {
+    this->history = {};
+    this->wishes.timeBudget = one.budget;
+    this->history.times.add(true, 10.0 * one.budget); // so maps are tried, in vain
+    this->planWith(ofMap(30000, 3000));
+    this->history.times.restByRays = 50.0;
+    for (int frame = 1; frame < one.waits; ++frame)
+    {
+      EXPECT_FALSE(this->plan().needs) << one.budget << " " << frame;
+    }
+    EXPECT_EQ(this->plan().needs.has_value(), one.budget < 50.0) << one.budget;
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(AutoPlans, evidenceThatFailsMeansRays)
 {
   Evidence evidence;
