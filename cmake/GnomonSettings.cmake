@@ -2,7 +2,7 @@
 #
 # Makes the settings of lights' shadows from the tables in <folder>/settings.json, in the order of
 # documentation. docs/dev/add_a_setting.md describes these files. The templates *.in in the current
-# folder become, in the current binary folder:
+# folder become, in lights/ of the build:
 #   ShadowSettings.h               plain structs with defaults and comparisons
 #   SettingsTables.cpp             the tables by which text is read and written
 #   vtkGnomonShadowSettings.h/cxx  the class with typed setters
@@ -363,6 +363,6 @@ function(gnomon_settings)
   set(setting_count ${index})
   foreach(made ShadowSettings.h SettingsTables.cpp vtkGnomonShadowSettings.h
       vtkGnomonShadowSettings.cxx)
-    configure_file(${made}.in ${made} @ONLY)
+    configure_file(${made}.in "${PROJECT_BINARY_DIR}/lights/${made}" @ONLY)
   endforeach()
 endfunction()

@@ -102,7 +102,7 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   const glm::dmat4& worldFromModel, std::vector<HeldSurface> held, bool isPlain)
 {
   const std::size_t number = this->held_.size();
-  this->heldAt_.emplace(Place{ actor, worldFromModel }, number);
+  const auto place = this->heldAt_.emplace(Place{ actor, worldFromModel }, number).first;
   const bool isGlyph = held.front().isGlyph;
   if (isGlyph || !isPlainActor(actor))
   {
@@ -117,8 +117,7 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   {
     PlainDrawing& plain = this->plain_[actor];
     plain.mapper = mapper;
-    const glm::dmat4 rows = glm::transpose(worldFromModel);
-    std::copy_n(glm::value_ptr(rows), 16, plain.worldFromModel.begin());
+    plain.worldFromModel = &place->first.worldFromModel;
   }
   this->held_.push_back(std::move(held));
 }
@@ -212,14 +211,15 @@ DrawnLookup::PlainDrawing* DrawnLookup::plainDrawing(
   vtkAbstractMapper* mapper, vtkProp* prop, SurfaceCells cells)
 {
   const auto known = this->plain_.find(prop);
-  const bool is = known != this->plain_.end() && known->second.mapper == mapper &&
-    cells == SurfaceCells::Polygons;
+  if (known == this->plain_.end() || known->second.mapper != mapper ||
+    cells != SurfaceCells::Polygons)
+  {
+    return nullptr;
+  }
   // An assembly that has the actor, too, moves it while it draws.
-  return is &&
-      std::equal(known->second.worldFromModel.begin(), known->second.worldFromModel.end(),
-        prop->GetMatrix()->GetData())
-    ? &known->second
-    : nullptr;
+  const glm::dmat4 columns = glm::transpose(*known->second.worldFromModel);
+  const double* const first = glm::value_ptr(columns);
+  return std::equal(first, first + 16, prop->GetMatrix()->GetData()) ? &known->second : nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -298,7 +298,12 @@ HookedSurface DrawnLookup::find(
     }
     this->drawnSurfaces_.push_back(std::move(drawnSurface));
   }
-  return drawn;
+  const HookedSurface result = drawn;
+  if (plain && plain->block.primitiveCount > 0)
+  {
+    this->answers_.erase(answer); // take() answers from now on
+  }
+  return result;
 }
 
 } // namespace gnomon

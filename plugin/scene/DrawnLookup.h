@@ -8,7 +8,6 @@
 
 #include <glm/glm.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -121,10 +120,10 @@ private:
   struct PlainDrawing
   {
     const vtkMapper* mapper = nullptr;
-    DrawnSurface::Block block;               ///< empty until it is drawn first
-    std::array<double, 16> worldFromModel{}; ///< row by row
-    std::size_t frame = 0;                   ///< number of the last one that has drawn it
-    int index = -1;                          ///< into that frame's drawnSurfaces()
+    const glm::dmat4* worldFromModel = nullptr; ///< in heldAt_
+    DrawnSurface::Block block;                  ///< empty until it is drawn first
+    std::uint32_t frame = 0;                    ///< number of the last one that has drawn it
+    int index = -1;                             ///< into that frame's drawnSurfaces()
   };
 
   static bool isAmong(vtkProp* prop, const std::unordered_set<const void*>& drawers);
@@ -136,7 +135,7 @@ private:
   std::vector<HeldSurfaces> held_;
   std::unordered_map<Place, std::size_t, PlaceHash> heldAt_; ///< indices into held_
   std::unordered_map<const vtkProp*, PlainDrawing> plain_;
-  std::size_t frame_ = 0; ///< number of the present one
+  std::uint32_t frame_ = 0; ///< number of the present one
   std::unordered_map<Question, HookedSurface, QuestionHash> answers_;
   std::unordered_set<const void*> translucentReceivers_;
   std::unordered_set<const void*> seenThrough_;

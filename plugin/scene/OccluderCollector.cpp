@@ -4,6 +4,7 @@
 #include "vtkMapper.h"
 #include "vtkPolyData.h"
 #include "vtkProp.h"
+#include "vtkRenderer.h"
 
 #include <algorithm>
 #include <utility>

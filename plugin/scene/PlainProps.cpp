@@ -110,9 +110,9 @@ bool PlainProps::remember(std::size_t number, vtkActor* actor)
     vtkAlgorithm* const producer = mapper->GetInputAlgorithm();
     const bool isFiltered = !producer->IsA("vtkTrivialProducer");
     vtkShaderProperty* const code = actor->GetShaderProperty();
-    this->props_[number].plain = { actor, mapper, producer, isFiltered, data, code,
+    this->props_[number].plain = { actor, mapper, producer, isFiltered, keysOf(actor), data, code,
       actor->GetMTime(), mapper->GetMTime(), isFiltered ? data->GetMTime() : producer->GetMTime(),
-      code->GetMTime(), keysOf(actor) };
+      code->GetMTime() };
   }
   return data != nullptr;
 }

@@ -35,13 +35,13 @@ struct PlainProp
   vtkMapper* mapper = nullptr;
   vtkAlgorithm* producer = nullptr;
   bool isFiltered = false; ///< the producer is a filter to be run, not data that was set by hand
+  int keys = 0;            ///< keysOf() it
   vtkPolyData* data = nullptr;
   vtkShaderProperty* code = nullptr;
   vtkMTimeType actorTime = 0;
   vtkMTimeType mapperTime = 0;
   vtkMTimeType dataTime = 0; ///< of the data, or of the producer that hands on its time
   vtkMTimeType codeTime = 0;
-  int keys = 0; ///< keysOf() it
 };
 
 /// Caches from frame to frame which props are plain. It dereferences a pointer only if times show

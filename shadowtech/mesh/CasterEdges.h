@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lights/ShadowSettings.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/mesh/CasterSeams.h"
 #include "shadowtech/mesh/KeptOfCasters.h"
