@@ -223,6 +223,7 @@ DrawnLookup::PlainDrawing* DrawnLookup::plainDrawing(
 }
 
 //------------------------------------------------------------------------------
+/// Return the facts about a plain prop, which is one of the frame's drawn surfaces.
 HookedSurface DrawnLookup::take(PlainDrawing& plain, const Occluders& occluders)
 {
   if (plain.frame != this->frame_)
@@ -233,6 +234,34 @@ HookedSurface DrawnLookup::take(PlainDrawing& plain, const Occluders& occluders)
   }
   const Surface& surface = occluders.surfaces[plain.block.surface];
   return { plain.index, surface.receives, false, surface.facetHeight, 0 };
+}
+
+//------------------------------------------------------------------------------
+/// Match the blocks that a mapper is about to draw with the surfaces that are held.
+/// @return the blocks that are found, and the facts about them but the index
+std::pair<DrawnSurface, HookedSurface> DrawnLookup::matchBlocks(const HeldSurfaces& held,
+  vtkAbstractMapper* mapper, SurfaceCells cells, const Occluders& occluders)
+{
+  DrawnSurface drawn;
+  HookedSurface hooked;
+  // An unexpected level of detail receives, too. Drawing the receivers changes the times by which
+  // VTK chooses levels, so VTK may shade another level than it drew there.
+  hooked.receives = occluders.surfaces[held.front().surface].receives;
+  for (const DrawCall& call : drawCalls(mapper, cells))
+  {
+    const HeldSurface* found = this->match(held, call.data, cells);
+    if (!found)
+    {
+      continue; // a hidden or translucent block, or one without such cells
+    }
+    const Surface& surface = occluders.surfaces[found->surface];
+    const std::uint32_t drawnCount =
+      surface.drawnCount() * (surface.isInstanced() ? found->instances : 1);
+    drawn.blocks.push_back({ call.firstPrimitive, drawnCount, found->surface });
+    hooked.facetHeight = std::max(hooked.facetHeight, surface.facetHeight);
+    hooked.primitivesPerInstance = found->isGlyph ? drawnCount / found->instances : 0;
+  }
+  return { std::move(drawn), hooked };
 }
 
 //------------------------------------------------------------------------------
@@ -261,49 +290,29 @@ HookedSurface DrawnLookup::find(
   {
     return {};
   }
+  if (plain)
+  {
+    const auto [drawn, hooked] = this->matchBlocks(*held, mapper, *cells, occluders);
+    if (drawn.blocks.empty())
+    {
+      return hooked;
+    }
+    plain->block = drawn.blocks.front();
+    return this->take(*plain, occluders);
+  }
   const auto [answer, isNew] =
     this->answers_.emplace(Question{ held, mapper, *cells }, HookedSurface());
-  if (!isNew)
+  if (isNew)
   {
-    return answer->second;
-  }
-
-  HookedSurface& drawn = answer->second;
-  // An unexpected level of detail receives, too. Drawing the receivers changes the times by which
-  // VTK chooses levels, so VTK may shade another level than it drew there.
-  drawn.receives = occluders.surfaces[held->front().surface].receives;
-  DrawnSurface drawnSurface;
-  for (const DrawCall& call : drawCalls(mapper, *cells))
-  {
-    const HeldSurface* found = this->match(*held, call.data, *cells);
-    if (!found)
+    auto [drawn, hooked] = this->matchBlocks(*held, mapper, *cells, occluders);
+    if (!drawn.blocks.empty())
     {
-      continue; // a hidden or translucent block, or one without such cells
+      hooked.index = static_cast<int>(this->drawnSurfaces_.size());
+      this->drawnSurfaces_.push_back(std::move(drawn));
     }
-    const Surface& surface = occluders.surfaces[found->surface];
-    const std::uint32_t drawnCount =
-      surface.drawnCount() * (surface.isInstanced() ? found->instances : 1);
-    drawnSurface.blocks.push_back({ call.firstPrimitive, drawnCount, found->surface });
-    drawn.facetHeight = std::max(drawn.facetHeight, surface.facetHeight);
-    drawn.primitivesPerInstance = found->isGlyph ? drawnCount / found->instances : 0;
+    answer->second = hooked;
   }
-  if (!drawnSurface.blocks.empty())
-  {
-    drawn.index = static_cast<int>(this->drawnSurfaces_.size());
-    if (plain)
-    {
-      plain->block = drawnSurface.blocks.front();
-      plain->frame = this->frame_;
-      plain->index = drawn.index;
-    }
-    this->drawnSurfaces_.push_back(std::move(drawnSurface));
-  }
-  const HookedSurface result = drawn;
-  if (plain && plain->block.primitiveCount > 0)
-  {
-    this->answers_.erase(answer); // take() answers from now on
-  }
-  return result;
+  return answer->second;
 }
 
 } // namespace gnomon

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -129,6 +130,8 @@ private:
   static bool isAmong(vtkProp* prop, const std::unordered_set<const void*>& drawers);
   PlainDrawing* plainDrawing(vtkAbstractMapper* mapper, vtkProp* prop, SurfaceCells cells);
   HookedSurface take(PlainDrawing& plain, const Occluders& occluders);
+  std::pair<DrawnSurface, HookedSurface> matchBlocks(const HeldSurfaces& held,
+    vtkAbstractMapper* mapper, SurfaceCells cells, const Occluders& occluders);
   const HeldSurfaces* heldBy(vtkProp* prop) const;
   const HeldSurface* match(const HeldSurfaces& held, vtkPolyData* data, SurfaceCells cells);
 

@@ -9,6 +9,7 @@
 #include "shadowtech/base/Receivers.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
