@@ -1,5 +1,4 @@
-# Set-up on Debian 12. examples/bunny.sh, tests/run.sh, docs/comparisons.sh and docs/examples.sh
-# source it.
+# Set-up on Debian 12, for examples/bunny.sh, tests/run.sh and tests/lab/pages/common.sh.
 
 # install_packages [PACKAGE...]: installs what cmake/debian-packages.txt lists, and these packages, as far as this machine lacks
 # them; nothing when it lacks nothing.
@@ -33,19 +32,12 @@ install_packages()
     apt-get install -qq --yes --no-install-recommends -o Dpkg::Use-Pty=0 "${missing[@]}" > /dev/null
 }
 
-# build PRESET: configures and builds one of CMakePresets.json, in build/PRESET.
-build()
-{
-  cmake --preset "$1" -DGNOMON_BUILD_TESTS=ON # as build_gnomon switches them off
-  cmake --build --preset "$1"
-}
-
-# build_gnomon: builds the library and the program `gnomon` in build/release, without tests, and
-# shows how far it is: one line on a terminal, elsewhere a line for every tenth.
+# build_gnomon: builds the library and the program `gnomon` in build/release, and shows
+# how far it is: one line on a terminal, elsewhere a line for every tenth.
 build_gnomon()
 {
   mkdir -p build
-  cmake --preset release -DGNOMON_BUILD_TESTS=OFF > build/configure.log || {
+  cmake --preset release > build/configure.log || {
     cat build/configure.log >&2
     return 1
   }

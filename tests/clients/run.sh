@@ -21,7 +21,7 @@ chmod 700 "$folder/run" # Qt asks for that
 
 build_gnomon_prefix()
 {
-  cmake --preset release -DGNOMON_BUILD_TESTS=OFF &&
+  cmake --preset release &&
     cmake --build --preset release &&
     cmake --install build/release --prefix "$prefix"
 }

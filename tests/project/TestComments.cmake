@@ -8,9 +8,10 @@ include("${CMAKE_CURRENT_LIST_DIR}/BannedPhrases.cmake")
 set(folders lights examples shadowtech plugin
   plugin/python plugin/scene plugin/data plugin/window plugin/vtk_versions plugin/ranks
   plugin/frame plugin/paraview
-  tests/benchmarks tests/check tests/clients tests/drag tests/fuzz tests/hard tests/main
+  tests/check tests/clients tests/drag tests/lab/benchmarks tests/lab/fuzz
+  tests/lab/hard tests/lab/vtk_programs tests/main
   tests/unit/data tests/unit/lights tests/unit/occluders tests/unit/plugin tests/unit/ranks
-  tests/unit/truth tests/unit/window tests/paraview tests/tool tests/vtk_programs)
+  tests/unit/truth tests/unit/window tests/paraview tests/tool)
 set(endings h cpp cxx glsl py sh)
 
 string(JOIN "|" phrase ${banned_phrases})
