@@ -30,7 +30,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_
   COMPONENT documentation
   FILES_MATCHING PATTERN "*.cxx" PATTERN "*.py" PATTERN "CMakeLists.txt" PATTERN "cone_*.png"
   PATTERN gnomon EXCLUDE)
-foreach(page README.md CHANGELOG.md LICENSE cmake/debian-packages.txt)
+foreach(page README.md CHANGELOG.md CONTRIBUTING.md LICENSE cmake/debian-packages.txt)
   get_filename_component(folder "${page}" DIRECTORY)
   install(FILES "${PROJECT_SOURCE_DIR}/${page}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}"
     COMPONENT documentation)

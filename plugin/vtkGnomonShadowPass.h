@@ -219,7 +219,7 @@ public:
    * Event of an unfinished frame that no timer can finish: the interactor's Render() does not draw
    * (Qt Quick), the pass was made in another thread, or there is no interactor. The call data
    * points to an int: the milliseconds after which the program is to draw. Observers must not draw.
-   * See docs/guide/qt.md.
+   * See docs/guide/toolkits.md.
    */
   enum
   {

@@ -1,5 +1,5 @@
-# Check that each row of docs/guide/wishes.md names an existing test, and that all tests of Wishes
-# occur.
+# Check that each row of docs/guide/from_vtkShadowMapPass.md names an existing test, and that all
+# tests of Wishes occur.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -18,7 +18,7 @@ endforeach()
 set(faults "")
 set(named "")
 set(rows 0)
-file(STRINGS "${SOURCE_DIR}/docs/guide/wishes.md" lines REGEX "^\\| ")
+file(STRINGS "${SOURCE_DIR}/docs/guide/from_vtkShadowMapPass.md" lines REGEX "^\\| ")
 list(POP_FRONT lines) # the table's head
 foreach(line IN LISTS lines)
   math(EXPR rows "${rows} + 1")
@@ -40,7 +40,7 @@ foreach(test IN LISTS tests)
 endforeach()
 
 if(faults)
-  message(FATAL_ERROR "docs/guide/wishes.md:\n${faults}")
+  message(FATAL_ERROR "docs/guide/from_vtkShadowMapPass.md:\n${faults}")
 endif()
 if(rows EQUAL 0 OR NOT tests)
   message(FATAL_ERROR "No rows or no tests of Wishes found under ${SOURCE_DIR}.")

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Renders the pictures of docs/guide/gallery.md and docs/guide/what_casts.md by `auto`, in a minute.
+# Renders the pictures of docs/guide/examples.md and docs/guide/what_casts.md by `auto`, in a minute.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
 source tests/lab/pages/common.sh

@@ -1,6 +1,6 @@
-// Users' wishes for shadows (docs/guide/wishes.md). Each wish is judged twice by the same
-// criterion: Gnomon has no wrong pixel, and VTK 9.1's own vtkShadowMapPass has many. Later releases
-// of VTK fix some of it: there Gnomon alone is judged. So are wishes for which VTK has no API.
+// Users' wishes for shadows (docs/guide/from_vtkShadowMapPass.md). Each wish is judged twice by the
+// same criterion: Gnomon has no wrong pixel, and VTK 9.1's own vtkShadowMapPass has many. Later
+// releases of VTK fix some of it: there Gnomon alone is judged. So are wishes without an API in VTK.
 
 #include "LiveObjects.h"
 #include "PassScene.h"
