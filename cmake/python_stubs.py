@@ -60,7 +60,7 @@ class Stub:
         return lines
 
     def type_of_property(self, kind, value):
-        """What its getter returns, which the property's text names."""
+        """Return the type that its getter returns, which the property's text names."""
         getter = re.search(r"\bGet\w+", value.__doc__ or "")
         method = getattr(kind, getter[0], None) if getter else None
         signatures = self.signatures(getter[0], method.__doc__ or "") if method else []
@@ -118,7 +118,7 @@ class Stub:
         return f"{container}[{', '.join([of] * repeated)}]"
 
     def is_nested(self, annotation):
-        """Whether an annotation names an enumeration within one of the module's classes."""
+        """True if an annotation names an enumeration within one of the module's classes."""
         outer = annotation.value if isinstance(annotation, ast.Attribute) else None
         return isinstance(outer, ast.Name) and hasattr(self.module, outer.id)
 

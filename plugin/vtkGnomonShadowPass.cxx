@@ -443,7 +443,7 @@ vtkRenderPass* vtkGnomonShadowPass::FindDelegate(const vtkRenderState* s)
   }
   if (!this->DelegatePass && drawsIntoOuterPass(s))
   {
-    // What the renderer draws by itself copies depths between framebuffers of its own formats.
+    // The renderer's own drawing copies depths between framebuffers of its own formats.
     return this->Internal->steps;
   }
   return this->DelegatePass;

@@ -113,8 +113,8 @@ public:
 
   ///@{
   /**
-   * What lights fall back on that do not say it themselves, with types. Several passes may share
-   * them. Null: new ones with all defaults.
+   * Set the default settings for lights without their own. Several passes may share them. Null: new
+   * ones with all defaults.
    */
   virtual void SetSettings(vtkGnomonShadowSettings* settings);
   vtkGnomonShadowSettings* GetSettings();
@@ -159,8 +159,8 @@ public:
 
   ///@{
   /**
-   * Whether a surface's own shadow is asked from the curve that normals of points imply, where
-   * facets are coarse: the shadow's edge on a smooth-shaded sphere of few triangles is then smooth,
+   * Ask a surface's own shadow from the curve that normals of points imply, where facets are
+   * coarse: the shadow's edge on a smooth-shaded sphere of few triangles is then smooth,
    * too. Other casters, also those in the same polydata, cast on the triangles. It is
    * for techniques that trace from the CPU (`silhouette`, `raytraced` and the like) by Embree, and
    * for maps on the inline route, on opaque surfaces without clipping planes. Off, receivers are on
@@ -191,7 +191,7 @@ public:
   ///@}
 
   /**
-   * Whether a frame is one of a picture that moves. AUTO: a window with an interactor asks for a
+   * Say if frames belong to a picture that moves. AUTO: a window with an interactor asks for a
    * higher update rate than the interactor's StillUpdateRate (and 0.01), as interactor styles have
    * it do while their user drags, and camera, lights or props changed less than half a second ago.
    * Pictures without an interactor are at rest: off-screen ones, movies, image tests.
@@ -374,7 +374,7 @@ public:
   ///@}
 
   /**
-   * What the last frame did: lights and reasons, route, counters, times, memory
+   * Return what the last frame did: lights and reasons, route, counters, times, memory
    * (vtkGnomonFrameReport.h).
    */
   const gnomon::FrameReport& GetReport() const;

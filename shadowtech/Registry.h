@@ -50,7 +50,7 @@ std::string techniqueNames();
 /// while the picture rests, and a fast enough one while it moves (plugin/plan/AutoPlan.h).
 inline constexpr const char* automaticTechnique = "auto";
 
-/// What it chooses while the picture rests, of lights with hard and with soft shadows.
+/// Its choices while the picture rests, for lights with hard and with soft shadows.
 inline constexpr const char* restingHard = "silhouette";
 inline constexpr const char* restingSoft = "penumbra";
 inline constexpr const char* automaticSummary =

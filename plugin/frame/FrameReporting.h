@@ -9,7 +9,7 @@
 namespace gnomon
 {
 
-/// What is known of a frame at its end, beside its plan and counts.
+/// A finished frame's facts, beside its plan and counts.
 struct FrameTotals
 {
   bool numbersByGeometryShaders = false; ///< as in FrameReport, like all that follows

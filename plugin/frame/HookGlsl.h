@@ -44,7 +44,7 @@ bool haveBits(const std::vector<ShadedLight>& lights);
 /// the light has a texture.
 std::string litOf(const ShadedLight& shaded, int light);
 
-/// What the hook writes into VTK's shaders. Before VTK's light loop it puts, per casting light N,
+/// The hook's code in VTK's shaders. Before VTK's light loop it puts, per casting light N,
 ///     vec3 lightColorN = lightColorN * (visibility of light N);
 /// For a light with a texture the visibility is a colour, and the texture's mean in full light. The
 /// local variable hides VTK's uniform of the same name, so VTK's loop works with the shadowed

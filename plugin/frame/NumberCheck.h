@@ -10,7 +10,7 @@
 namespace gnomon
 {
 
-/// What a picture is compared with.
+/// The truth that a picture of triangle numbers is compared with.
 struct NumberTruth
 {
   glm::dmat4 clipFromCentred{ 1.0 }; ///< of the camera that drew the picture

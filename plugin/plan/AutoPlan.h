@@ -45,7 +45,7 @@ struct Evidence
   bool keepsError = false; ///< of samples
 };
 
-/// What one frame's choice leaves for the next frame's. A light is known by its scene index.
+/// State from one frame's choice to the next one's. A light is known by its scene index.
 struct AutoHistory
 {
   /// The request that a choice answers.

@@ -48,7 +48,7 @@ struct FramePlan
 FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history,
   const std::vector<Evidence>& evidence);
 
-/// What decides whether triangle numbers are drawn, on the deferred route.
+/// Facts that decide if triangle numbers are drawn, on the deferred route.
 struct NumberingFacts
 {
   int restingFrames = 0; ///< in a row that kept their receivers

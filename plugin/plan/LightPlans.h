@@ -15,7 +15,7 @@
 namespace gnomon
 {
 
-/// What VTK's shaders call for a light.
+/// The technique that VTK's shaders call for a light.
 enum class ShadedBy
 {
   Fetch, ///< nothing: they fetch its visibility
@@ -23,7 +23,7 @@ enum class ShadedBy
   Plain  ///< the plain technique, on translucent surfaces; they fetch what opaque ones show
 };
 
-/// What the views of a light's map are fitted to.
+/// The points that the views of a light's map are fitted to.
 enum class FitTarget
 {
   None, ///< it has no map
@@ -46,7 +46,7 @@ struct LightPlan
   std::string budgetReason; ///< LightReport::budgetReason
   RayIdentity identity;     ///< of the light
   ///@{
-  /// What follows is planned last.
+  /// Planned last, like all members below.
   int firstSamples = 0; ///< of the first frame, if the light's image refines; 0: all
   int channels = 1;     ///< of its visibility, a layer each
   int layer = 0;        ///< its first layer

@@ -10,13 +10,13 @@ namespace
 /// How much of a new time counts: a load shows within a few frames, one slow frame does not.
 constexpr double shareOfNew = 0.4;
 
-/// What rays that are not taken are thought to take, from frame to frame after so many.
+/// Factor per frame by which unused rays are expected to get cheaper, after `patience` frames.
 constexpr double forgetting = 0.98;
 constexpr int patience = 30;
 
 ///@{
-/// What a frame draws, roughly, in times of VTK's own drawing: maps are looked up; triangle numbers
-/// and colours in shadow are drawn, too.
+/// Rough cost of drawing a frame, in times of VTK's own. Maps are looked up; rays also need triangle
+/// numbers and colours in shadow.
 constexpr double drawnByMaps = 1.2;
 constexpr double drawnByRays = 2.0;
 ///@}

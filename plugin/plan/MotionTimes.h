@@ -8,7 +8,7 @@
 namespace gnomon
 {
 
-/// What earlier frames took, in milliseconds; 0 or absent: not known.
+/// Times of earlier frames, in milliseconds; 0 or absent: not known.
 struct MotionTimes
 {
   double restByRays = 0.0; ///< a moving frame whose lights are traced, without their images

@@ -5,7 +5,7 @@
 namespace gnomon
 {
 
-/// What a frame shows of the picture that its scene asks for.
+/// The share of the picture asked for that a frame shows.
 struct ShownPicture
 {
   bool moves = false;         ///< true if it is one of a moving picture (PictureSchedule::moves())

@@ -25,7 +25,7 @@ struct Composition
   std::string refusal;                       ///< why, as a clause
 };
 
-/// What an estimator makes of a light's map.
+/// Traits of a light's map that its estimator decides.
 struct MapTraits
 {
   bool isFittedToCamera = false; ///< Technique::lightOfMap() is
@@ -57,7 +57,7 @@ struct SceneProps
   bool translucent = false;    ///< translucent surfaces receive
 };
 
-/// What else the deferred route depends on. It takes a walk over the props.
+/// Further facts for the deferred route. Reading them takes a walk over the props.
 struct DeferredFacts
 {
   bool ownShaders = false;       ///< a prop may have shaders that are not VTK's
@@ -79,7 +79,7 @@ struct ScenePicture
   CostFactors factors{};
 };
 
-/// What there is: all that a frame's plan depends on, beside wishes and history.
+/// All that a frame's plan depends on, beside wishes and history.
 struct Scene
 {
   SceneLights lights;

@@ -63,8 +63,8 @@ public:
     return this->surfaces_.records()[surface].key.viewProp;
   }
 
-  /// What the last collect() left out although it may be visible and opaque (mappers that are not
-  /// served), and what it could not do for a surface, in words.
+  /// Notes of the last collect(): visible, opaque props that it left out (their mappers are not
+  /// served), and surfaces that it could not read in full.
   const std::vector<std::string>& notes() const { return this->notes_; }
   /// As in DrawnProps, of the last collect().
   const std::vector<std::string>& leftOut() const { return this->leftOut_; }

@@ -18,7 +18,7 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What a prop's picture depends on, beside the camera and the lights.
+/// A hash of all that a prop's picture depends on, beside the camera and the lights.
 struct PropStamp
 {
   std::size_t hash = 0; ///< the same number means the same picture

@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// What users call a surface of the snapshot.
+/// A surface of the snapshot by its users' names.
 struct SurfaceName
 {
   int prop = -1; ///< the number in vtkRenderer::GetViewProps()

@@ -46,7 +46,7 @@ struct Surface
   /// The largest height of the curved surface that these normals imply above its triangles, in
   /// centred coordinates. 0 without normals, or with more than `mostFacets` triangles.
   float facetHeight = 0.0f;
-  /// What its triangles' edges connect; another one once vertices move against each other.
+  /// Patches that its triangles' edges connect; new ones once vertices move against each other.
   std::shared_ptr<Patches> patches = std::make_shared<Patches>();
 
   Bounds boundsCentred; ///< box around all that VTK draws of it

@@ -180,7 +180,7 @@ struct ScreenInput
   /// The tiles whose visibility and classes are reused; null: compute all. Only exact techniques
   /// without a map need to heed it.
   TracedTiles* tiles = nullptr;
-  /// What is known of tiles without rays; null: nothing. Only exact techniques need to heed it.
+  /// Tiles that are decided without rays; null: none. Only exact techniques need to heed them.
   const TileVerdicts* verdicts = nullptr;
 };
 

@@ -30,7 +30,7 @@ struct ValueReport
   std::string changes; ///< what changed since then, "the camera, the light"; empty if reused
 };
 
-/// What it took to compute one light's visibility. If that is reused, these are the counts of the
+/// Counts of computing one light's visibility. If that is reused, these are the counts of the
 /// frame that computed it.
 struct LightCounts
 {
@@ -66,7 +66,7 @@ struct LightCounts
   std::vector<ClassCount> classes;
 };
 
-/// What the stages of one frame count and note while they work.
+/// Counts and notes of the stages of one frame.
 struct FrameCounts
 {
   ///@{

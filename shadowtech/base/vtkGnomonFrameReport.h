@@ -22,7 +22,7 @@ struct LightReport : LightCounts
   int mapSizeTexels = 0;  ///< side of its map; 0 if it needs none
   /// How the memory budget limits its map, as a clause; empty if it does not.
   std::string budgetReason;
-  /// What its views are fitted to: "off" (all casters), "frustum" (all that the camera can see) or
+  /// The target of its views' fit: "off" (all casters), "frustum" (all that the camera can see) or
   /// "receivers" (all that it does see). Empty if it needs no map.
   std::string fit;
   std::string fitReason; ///< why it is the frustum; else empty

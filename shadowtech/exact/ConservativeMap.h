@@ -20,7 +20,7 @@ namespace gnomon
 class CasterEdges;
 struct ReceiverPixels;
 
-/// What a texel decides about receivers in it, by their depth (ConservativeMap).
+/// Depths up to which a texel decides receivers in it (ConservativeMap).
 struct TexelBounds
 {
   float litUpTo;          ///< receivers of at most this depth are lit

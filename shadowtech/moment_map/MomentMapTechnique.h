@@ -42,7 +42,7 @@ struct MomentEstimator
 /// line on the map, so its mean only lies farther, which is on the lit side. The same holds for
 /// convex surfaces.
 ///
-/// What is left is rounding of positions on the map. It comes from the rasterizer, and from the
+/// The rest is rounding of positions on the map. It comes from the rasterizer, and from the
 /// texture unit's weights, which may be multiples of 1/256 texel. It moves depth in proportion to
 /// the slope, like the square root of the variance. A single texel has no variance of its own. So
 /// its depths count as spread by half of their change to the next texel (Donnelly and Lauritzen

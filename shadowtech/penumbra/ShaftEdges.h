@@ -113,7 +113,7 @@ private:
   Found take(const EdgeTree::Record& record);
   void takeEdge(const TreeEdge& edge);
 
-  /// What all starts see of a triangle.
+  /// A triangle as all starts see it.
   struct Sight
   {
     double behind; ///< EdgeTriangle::behind() of the middle of the starts

@@ -1,5 +1,5 @@
-"""What the clients in Python share: a scene, shadows as arguments say, and a line for each frame,
-for drag.py to read. client.h is the same in C++."""
+"""Parts that the clients in Python share: a scene, shadows as arguments say, and a line for each
+frame, for drag.py to read. client.h is the same in C++."""
 
 import sys
 

@@ -193,7 +193,7 @@ class Checks:
 
     @functools.cached_property
     def plain(self):
-        """What a drag does in plain VTK, and the picture after it."""
+        """Return the cameras of a drag in plain VTK, and the picture after it."""
         with self.client() as client:
             cameras, held = drag(client)
             client.settle()

@@ -1,4 +1,4 @@
-"""What the clients that take pictures share: a check of shadows, which prints lines as drag.py
+"""Parts of the clients that take pictures: a check of shadows, which prints lines as drag.py
 does. pcl_visualizer.cxx does the same in C++."""
 
 import sys

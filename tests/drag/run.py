@@ -49,7 +49,7 @@ HANG = 30.0  # seconds, on a busy machine
 
 
 class Fault(Exception):
-    """What a program did wrong."""
+    """A fault of a program."""
 
 
 class Session(contextlib.ExitStack):

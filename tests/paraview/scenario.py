@@ -1,4 +1,4 @@
-"""What the scenarios share: views with shadows, data in parts, lights, reports, checks."""
+"""Parts that the scenarios share: views with shadows, data in parts, lights, reports, checks."""
 
 import json
 import os

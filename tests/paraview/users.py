@@ -170,7 +170,7 @@ def reduced(pictures):
 
 
 def annotations(pictures):
-    """What shows no shadow by nature is noted in the report, and opens no window of warnings."""
+    """Props without shadows by nature are noted in the report, and open no window of warnings."""
 
     def draw(shadows):
         view = scenario.make_view(shadows, SIZE)
@@ -316,7 +316,7 @@ def terminators(pictures):
 
 
 def casters(pictures):
-    """What the Display panel makes of data casts: spheres, tubes, and translucent surfaces."""
+    """All looks of the Display panel cast: spheres, tubes, and translucent surfaces."""
     floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
     box = Box(XLength=2, YLength=2, ZLength=2, Center=[0, 0, 2])
     line = Line(Point1=[-3, -2, 2], Point2=[3, 2, 2], Resolution=6)

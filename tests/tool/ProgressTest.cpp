@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
-/// What work says that takes 200 ms: a busy machine may wake its thread late.
+/// Return the messages of work of 200 ms: a busy machine may wake its thread late.
 std::string said(bool isTerminal, milliseconds silence)
 {
   std::ostringstream stream;

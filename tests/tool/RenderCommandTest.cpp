@@ -66,7 +66,7 @@ int darkest(const Picture& picture)
   return *std::min_element(picture.rgb.begin(), picture.rgb.end());
 }
 
-/// Whether the background, which is white, shows in the middle of the lowest row.
+/// True if the white background shows in the middle of the lowest row.
 bool showsBackgroundBelow(const Picture& picture)
 {
   const auto pixel = picture.rgb.end() - 3 * (picture.width / 2);

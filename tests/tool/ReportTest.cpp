@@ -164,7 +164,7 @@ TEST(Report, HtmlNeedsNoOtherFileAndNoNetwork)
   EXPECT_EQ(images, 8); // the chart, two pictures for each of three variants, and one of classes
 }
 
-/// What to use when, and where it is wrong, come before all that folds out.
+/// The choices, and their worst places, come before all that folds out.
 TEST(Report, HtmlBeginsWithTheConclusion)
 {
   ComparisonResults results = syntheticResults();

@@ -161,7 +161,7 @@ TEST(ViewKeys, EachIsThereOnceAndLeavesVtksAlone)
   {
     EXPECT_TRUE(codes.insert(key.code).second) << key.name;
     EXPECT_TRUE(!key.ofVtk || key.code != saveKey);
-    // What vtkInteractorStyle::OnChar() and vtkInteractorStyleSwitch take.
+    // The keys of vtkInteractorStyle::OnChar() and vtkInteractorStyleSwitch.
     const bool vtks = std::string("mqefurwsp3ljtca").find(key.code) != std::string::npos;
     EXPECT_EQ(key.ofVtk, vtks) << key.name;
     EXPECT_THAT(helpText(unusualState()), HasSubstr(" " + key.name + " "));

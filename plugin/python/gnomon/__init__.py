@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from .figure import draw as draw
 
     class _HasRenderer(Protocol):
-        """What has a renderer, as a plotter of PyVista or vedo and a scene of Mayavi do."""
+        """An object with a renderer, as a plotter of PyVista or vedo or a scene of Mayavi."""
 
         @property
         def renderer(self) -> vtkRenderer: ...
@@ -77,8 +77,8 @@ __all__ = [
     "vtkGnomonVisibilityFilter",
 ]
 
-# What remove_shadows() puts back, by the renderer's address: Python's wrapper of a renderer goes
-# when nothing in Python names it, and the renderer stays. Entries go with the renderers.
+# State that remove_shadows() restores, by the renderer's address: Python's wrapper of a renderer
+# goes when nothing in Python names it, and the renderer stays. Entries go with the renderers.
 _before: dict[str, Any] = {}
 
 if not TYPE_CHECKING:  # for which every name would exist, and classes made by a call would not

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What the scripts of this folder share.
+# Functions that the scripts of this folder share.
 
 source cmake/debian.sh
 
@@ -38,7 +38,7 @@ flights()
   done | awk 'NR == 1 || !/^scene,/'
 }
 
-# What was measured on.
+# The machine of the measurement.
 machine()
 {
   echo "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors; OpenGL by software (llvmpipe)"

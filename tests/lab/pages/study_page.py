@@ -10,7 +10,7 @@ from collections import defaultdict
 MOTIONS = ("static", "camera_moving", "light_moving")
 ERRORS = {"hard": "wrong_share", "soft": "rms_error"}
 
-# What for, whose shadows, and which variant of the study.
+# The wish, the kind of shadows, and the variant of the study.
 CHOICES = [
     ("hard shadows, exact", "hard", "silhouette 1024"),
     ("the same without a map", "hard", "raytraced"),

@@ -7,7 +7,7 @@
 # BUILD is a build folder of this machine. `tests/vtk/run.sh RELEASE` has made each release's
 # chroot. Runs as root. Files are in out/vtk_releases.
 set -euo pipefail
-# What is mounted below is mounted in a namespace of its own, which ends with the script.
+# Mounts below are in a namespace of their own, which ends with the script.
 if [ "${GNOMON_VTK_MOUNTS:-}" != own ]; then
   export GNOMON_VTK_MOUNTS=own
   exec unshare --mount --propagation private "$(realpath "${BASH_SOURCE[0]}")" "$@"

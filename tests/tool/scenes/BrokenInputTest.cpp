@@ -22,7 +22,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// What a good run of `gnomon render` says of itself. It writes out.png and stats.json.
+/// Return the report of a good run of `gnomon render`, which writes out.png and stats.json.
 nlohmann::json statsOf(const TestFolder& folder, std::vector<std::string> arguments)
 {
   arguments.insert(arguments.begin(), "render");

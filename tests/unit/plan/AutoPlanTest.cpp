@@ -1,4 +1,4 @@
-// What `auto` chooses, as a function of facts, history and evidence.
+// The choices of `auto`, as a function of facts, history and evidence.
 
 #include "plugin/plan/AutoPlan.h"
 

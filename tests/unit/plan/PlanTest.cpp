@@ -1,4 +1,4 @@
-// What a frame does, as tables of facts and plans. Nothing here links VTK's rendering or OpenGL.
+// The work of a frame, as tables of facts and plans. Nothing here links VTK's rendering or OpenGL.
 
 #include "lights/ShadowSettings.h"
 #include "plugin/plan/FramePlan.h"

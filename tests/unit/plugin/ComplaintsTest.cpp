@@ -1,4 +1,4 @@
-// What is wrong with a frame is said once, and again after it was mended.
+// A fault of a frame is said once, and again after it was mended.
 
 #include "PassScene.h"
 

@@ -134,7 +134,7 @@ Shape ball(const glm::dvec3& centre, double radius)
   return { Shape::Ball, centre, glm::dvec3(radius) };
 }
 
-/// What receives, and what casts on it.
+/// A receiver, and its casters.
 struct Scene
 {
   Mesh ground;

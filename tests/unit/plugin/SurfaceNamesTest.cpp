@@ -56,7 +56,7 @@ vtkSmartPointer<vtkPolyData> mixedCells()
   return data;
 }
 
-/// What a frame says of pixels.
+/// The names that a frame gives to pixels.
 struct Named
 {
   vtkNew<vtkImageData> image;

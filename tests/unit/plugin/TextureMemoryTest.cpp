@@ -65,8 +65,7 @@ struct MapsOf
   const char* name;
   Way way;
   std::vector<std::pair<const char*, const char*>> settings;
-  /// What the error goes on with; anything where that depends on which of several images has no
-  /// room.
+  /// The rest of the error; anything where that depends on which of several images has no room.
   const char* asks;
 };
 std::ostream& operator<<(std::ostream& stream, const MapsOf& maps)

@@ -1,6 +1,7 @@
 // Users' wishes for shadows (docs/guide/from_vtkShadowMapPass.md). Each wish is judged twice by the
 // same criterion: Gnomon has no wrong pixel, and VTK 9.1's own vtkShadowMapPass has many. Later
-// releases of VTK fix some of it: there Gnomon alone is judged. So are wishes without an API in VTK.
+// releases of VTK fix some of it: there Gnomon alone is judged. So are wishes that VTK has no API
+// for.
 
 #include "LiveObjects.h"
 #include "PassScene.h"

@@ -67,7 +67,7 @@ protected:
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_EQ(this->output->Text, "");
   }
-  /// What VTK said so far, and forgets it, so that the rest must be silent.
+  /// Return and clear VTK's messages, so that the rest must be silent.
   std::string takeErrors() { return std::exchange(this->output->Text, std::string()); }
 
   vtkNew<CapturedOutput> output;

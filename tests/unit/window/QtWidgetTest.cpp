@@ -43,7 +43,7 @@ void processEvents()
   }
 }
 
-/// What a widget shows, three bytes per pixel, bottom row first.
+/// Read the picture of a widget, three bytes per pixel, bottom row first.
 std::vector<unsigned char> readPicture(QVTKOpenGLNativeWidget& widget)
 {
   const QImage image = widget.grabFramebuffer().convertToFormat(QImage::Format_RGB888);

@@ -31,7 +31,7 @@ public:
 
   ///@{
   /**
-   * Whether lights cast shadows. Default off.
+   * Have lights cast shadows. Default off.
    */
   vtkSetMacro(ShowShadows, bool);
   vtkGetMacro(ShowShadows, bool);
@@ -45,7 +45,7 @@ public:
 
   ///@{
   /**
-   * Whether translucent surfaces cast, as opaque ones do. Default off.
+   * Have translucent surfaces cast, as opaque ones do. Default off.
    */
   vtkSetMacro(TranslucentCasts, bool);
   vtkGetMacro(TranslucentCasts, bool);
@@ -74,7 +74,7 @@ public:
   ///@}
 
   /**
-   * Whether GetReportText() has the time of each stage.
+   * Measure the time of each stage for GetReportText().
    */
   void SetMeasureStages(bool measure);
 
@@ -85,7 +85,7 @@ public:
   void SetVisibilityFile(const char* path);
 
   /**
-   * What the last frame did, in JSON; valid until the next call. On a client, it is the report of
+   * Return what the last frame did, in JSON; valid until the next call. On a client, it comes from
    * the server's first process.
    */
   const char* GetReportText();
