@@ -47,4 +47,5 @@ announce "testing"
 env -u DISPLAY ctest --preset "$tier"
 tests_end=$SECONDS
 
-echo "Seconds: packages $packages_end, build $((build_end - packages_end)), tests $((tests_end - build_end))."
+echo "Seconds: packages $packages_end, build $((build_end - packages_end))," \
+  "tests $((tests_end - build_end))."

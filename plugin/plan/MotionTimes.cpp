@@ -15,8 +15,8 @@ constexpr double forgetting = 0.98;
 constexpr int patience = 30;
 
 ///@{
-/// Rough cost of drawing a frame, in times of VTK's own. Maps are looked up; rays also need triangle
-/// numbers and colours in shadow.
+/// Rough cost of drawing a frame, in times of VTK's own. Maps are looked up; rays also need
+/// triangle numbers and colours in shadow.
 constexpr double drawnByMaps = 1.2;
 constexpr double drawnByRays = 2.0;
 ///@}

@@ -1,5 +1,5 @@
-// Parts that the clients in C++ share: a scene, shadows as arguments say, and a line for each frame,
-// for drag.py to read. client.py is the same in Python.
+// Parts that the clients in C++ share: a scene, shadows as arguments say, and a line for each
+// frame, for drag.py to read. client.py is the same in Python.
 #pragma once
 
 #include <vtkGnomonShadowPass.h>

@@ -1,9 +1,10 @@
-# Phrases that the project's pages and comments avoid. Included by TestPages.cmake and
-# TestComments.cmake.
+# Sentences without a named subject, and phrases that the project's pages and comments avoid.
+# Included by TestPages.cmake and TestComments.cmake.
 
-# Words that hide the subject, and history.
-set(banned_phrases "not any more" "used to" "previously" "formerly" "anew" "whoever" "nobody"
-  "somebody" "that which" "all else" "that there may be" "who sets" "comes to" "had been")
-# History on a page. In code, sums grow so far and bounds are no longer than.
-set(banned_on_pages "no longer" "so far")
+# Beginnings of docstrings and of sentences on pages: nouns that name nothing. Questions may.
+set(missing_subject "(Whether|Whoever|Who|What|That which) ")
+
+set(banned_phrases "all else" "anew" "comes to" "nobody" "that there may be" "that which" "who sets"
+  "whoever")
+set(banned_on_pages "no longer") # history; in code, bounds are no longer than
 set(most_columns 100)

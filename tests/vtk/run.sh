@@ -58,9 +58,10 @@ install_inside "$root" $(debian_packages "$project") libvtk9-qt-dev \
   > "$folder/$release-packages.log" 2>&1 ||
   untested "its packages do not install ($folder/$release-packages.log)"
 # Not in all releases; what takes it is skipped without.
-inside "$root" apt-get install -qq --yes --no-install-recommends -o Dpkg::Use-Pty=0 python3-pyvista \
-  > "$folder/$release-optional.log" 2>&1 || echo "$release has no python3-pyvista"
-inside "$root" dpkg-query -W -f '${Package} ${Version}\n' g++ libvtk9-dev libembree-dev libgl1-mesa-dri
+inside "$root" apt-get install -qq --yes --no-install-recommends -o Dpkg::Use-Pty=0 \
+  python3-pyvista > "$folder/$release-optional.log" 2>&1 || echo "$release has no python3-pyvista"
+inside "$root" dpkg-query -W -f '${Package} ${Version}\n' \
+  g++ libvtk9-dev libembree-dev libgl1-mesa-dri
 
 echo "$SECONDS s: building"
 logged configure inside "$root" sh -c 'cd /src && cmake --preset ci -B /build'
