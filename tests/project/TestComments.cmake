@@ -1,6 +1,6 @@
 # Check the style of sources: lines have at most 100 columns, comments begin with a named subject
-# and avoid banned phrases. Reads C++, GLSL, Python and shell. Python's docstrings count as
-# comments.
+# and avoid banned phrases, and names of tests begin with a subject. Reads C++, GLSL, Python and
+# shell. Python's docstrings count as comments.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -78,6 +78,9 @@ foreach(folder IN LISTS folders)
         endif()
         if(length GREATER most_columns)
           string(APPEND faults "${name}:${number}: ${length} columns, at most ${most_columns}\n")
+        endif()
+        if(line MATCHES "${test_without_subject}")
+          string(APPEND faults "${name}:${number}: begins without a subject: ${line}\n")
         endif()
         find_comment()
         string(STRIP "${comment}" comment)

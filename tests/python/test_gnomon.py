@@ -104,7 +104,7 @@ class Shadows(unittest.TestCase):
         finally:
             vtkObject.GlobalWarningDisplayOn()
 
-    def test_what_a_pass_says_is_a_warning_while_those_of_vtk_are_off(self):
+    def test_a_pass_s_messages_are_warnings_while_those_of_vtk_are_off(self):
         scene = Scene()
         scene.ball.GetProperty().SetRepresentationToWireframe()
         gnomon.add_shadows(scene.renderer)
@@ -232,7 +232,7 @@ class Shadows(unittest.TestCase):
         gnomon.remove_shadows(scene.renderer)
         self.assertIsNone(scene.renderer.GetPass())
 
-    def test_what_was_there_outlives_python_s_names(self):
+    def test_the_former_state_outlives_python_s_names(self):
         window = Scene(has_sun=False).window  # keeps the renderer, whose wrapper goes
 
         def renderer():

@@ -38,7 +38,7 @@ TEST(VisibleDepths, GroundUnderTheEyeBeginsAtTheLowerBorder)
 }
 
 //------------------------------------------------------------------------------
-TEST(VisibleDepths, WhatLiesBesideThePictureDoesNotCount)
+TEST(VisibleDepths, ModelsBesideThePictureDoNotCount)
 {
   // At 45 degrees to the right of the view it begins at depth 3, at depth 1 it is out of a square
   // picture, but not of one three times as wide as high.

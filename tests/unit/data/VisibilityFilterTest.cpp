@@ -601,7 +601,7 @@ TEST_F(VisibilityFilter, BrokenGeometryIsLeftOut)
   EXPECT_THAT(this->why(), ElementsAre(Filter::OTHER));
 }
 
-TEST_F(VisibilityFilter, WhatMakesNoSenseIsAnErrorAndChangesNothing)
+TEST_F(VisibilityFilter, SenselessInputIsAnErrorAndChangesNothing)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   this->filter->SetInputData(floorOf({ 0, 0 }, { 1, 1 }, 1));

@@ -362,7 +362,7 @@ TEST(OccluderTriangles, OnlyUsedPointsBecomeVertices)
 
 // ---- props -----------------------------------------------------------------
 
-TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
+TEST(OccluderProps, PropsBesideOpaqueSurfacesAreLeftOut)
 {
   const auto translucent = makeSquare();
   vtkNew<vtkUnsignedCharArray> colours;
@@ -403,7 +403,7 @@ TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
 }
 
 /// Left-out props are named by class, if they are lit.
-TEST(OccluderProps, WhatIsNoSurfaceIsNoted)
+TEST(OccluderProps, PropsWithoutSurfacesAreNoted)
 {
   Scene scene;
   vtkProperty* const wires = scene.add(makeSquare())->GetProperty();
@@ -479,7 +479,7 @@ TEST(OccluderProps, VerticesThatShaderCodeMayMoveAreNoted)
 }
 
 /// Unsupported mappers, and actors with an unknown matrix, are left out.
-TEST(OccluderProps, WhatIsNotServedIsNoted)
+TEST(OccluderProps, UnservedPropsAreNoted)
 {
   Scene scene;
   const PlacedGlyphs glyphs(makeSquare(), makeSquare());
@@ -551,7 +551,7 @@ TEST(OccluderGlyphs, AreReadAgainOnlyWhenTheyChange)
   expectAfter(1, 0, { 12, 2, 3 });
 }
 
-TEST(OccluderGlyphs, WhatVtkDoesNotDrawIsLeftOut)
+TEST(OccluderGlyphs, UndrawnGlyphsAreLeftOut)
 {
   Scene scene;
   const PlacedGlyphs glyphs(makeSquare(), makeSquare());
@@ -831,7 +831,7 @@ TEST(OccluderChanges, EditedPointsAreNoticedHoweverTheyAreReported)
   EXPECT_EQ(scene.surface(0).triangleCount, 1u);
 }
 
-TEST(OccluderChanges, WhatLeavesTheShapeChangesNoVersion)
+TEST(OccluderChanges, ChangesThatLeaveTheShapeChangeNoVersion)
 {
   Scene scene;
   const auto square = makeSquare();

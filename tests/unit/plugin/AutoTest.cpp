@@ -698,7 +698,7 @@ TEST_F(Auto, areaLightsRefineOnceTheyRest)
 
 //------------------------------------------------------------------------------
 // The report names the choice. Lights set to that choice show the same picture.
-TEST_F(Auto, whatATimeBudgetChoseCanBeNamed)
+TEST_F(Auto, theChoiceOfATimeBudgetCanBeNamed)
 {
   this->pass->SetTimeBudget(1e-6);
   this->rest();

@@ -199,7 +199,7 @@ TEST_F(Deferred, LightsOfAllKindsAndStrengths)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Deferred, WhatIsNotOpaqueComesAfterwards)
+TEST_F(Deferred, OtherPropsThanOpaqueOnesComeAfterwards)
 {
   this->scene.renderer->GradientBackgroundOn();
   this->scene.renderer->SetBackground2(0.2, 0.4, 0.9);
@@ -220,7 +220,7 @@ TEST_F(Deferred, WhatIsNotOpaqueComesAfterwards)
 //------------------------------------------------------------------------------
 /// Annotations' parts have their own shaders, without shadows. In front of a shadow they are as
 /// bright as VTK draws them; behind other surfaces they are hidden.
-TEST_F(Deferred, WhatPassesDoNotReachIsAsVtkDrawsIt)
+TEST_F(Deferred, PropsThatPassesDoNotReachAreAsVtkDrawsThem)
 {
   vtkNew<vtkAnnotatedCubeActor> cube;
   cube->SetPosition(1.5, 0.9, 0.5); // in the sphere's shadow

@@ -257,7 +257,7 @@ TEST_F(PositionalLights, mapsHaveLayersOnlyForFacesWithCasters)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(PositionalLights, whatIsShutInStaysDarkOutside)
+TEST_F(PositionalLights, shutInLightsStayDarkOutside)
 {
   PassScene scene(200, 150);
   scene.addFloor(4.0);

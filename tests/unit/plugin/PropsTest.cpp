@@ -417,7 +417,7 @@ TEST_P(Props, imagesCastAndReceiveIfAsked)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Props, whatIsLitAndLeftOutIsWarnedOfOnce)
+TEST_P(Props, litPropsLeftOutAreWarnedOfOnce)
 {
   this->addSquare(true)->GetProperty()->SetRepresentationToWireframe();
   this->addSquare(true, 2.0)->GetProperty()->SetRepresentationToWireframe();

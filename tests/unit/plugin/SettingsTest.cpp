@@ -71,7 +71,7 @@ TEST_F(Settings, unknownTechniqueIsAnErrorAndChangesNothing)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Settings, whatASettingDoesNotTakeIsAnErrorAndChangesNothing)
+TEST_F(Settings, refusedValuesAreErrorsAndChangeNothing)
 {
   vtkNew<vtkGnomonShadowPass> pass;
   EXPECT_EQ(pass->GetSetting("kernel"), "bilinear");

@@ -581,7 +581,7 @@ TEST_F(SolidsTest, changesAreSeen)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(SolidsTest, whatIsNotServedIsListed)
+TEST_F(SolidsTest, unservedSolidsAreListed)
 {
   SolidsScene scene(9, 4);
   scene.addSun({ 0.5, 0.3, -1.0 });

@@ -125,7 +125,7 @@ TEST_F(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
   EXPECT_LT(found, 5000u);
 }
 
-TEST_F(LightViewsGlsl, WhoLooksAroundFindsNothingWhereThereAreNoCasters)
+TEST_F(LightViewsGlsl, SearchesFindNothingWhereThereAreNoCasters)
 {
   const ShadowLight light = pointLight({ 0.0, 0.0, 0.0 });
   const LightViews views = fitLightViews(light, { glm::dvec3(0.0), Bounds(), {}, { 64, 1 }, {} });

@@ -290,7 +290,7 @@ TEST_P(SolidPairs, halvesOfABondDoNotShadowEachOther)
 
 //------------------------------------------------------------------------------
 /// Parts of a bent line overlap.
-TEST(SolidBends, whatBeginsInATubeIsNotInItsShadow)
+TEST(SolidBends, raysFromInsideATubeAreNotInItsShadow)
 {
   RandomSolids random(7);
   int begun = 0;
