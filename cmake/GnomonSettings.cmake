@@ -1,7 +1,7 @@
 # gnomon_settings(<folder>/<table>...)
 #
 # Makes the settings of lights' shadows from the tables in <folder>/settings.json, in the order of
-# documentation. docs/dev/add_a_setting.md describes these files. The templates *.in in the current
+# documentation. docs/dev/extend.md describes these files. The templates *.in in the current
 # folder become, in lights/ of the build:
 #   ShadowSettings.h               plain structs with defaults and comparisons
 #   SettingsTables.cpp             the tables by which text is read and written
