@@ -1,6 +1,6 @@
 # Check the style of pages: they stay short, lines have at most 100 columns (tables, headings and
-# links apart), and banned phrases do not occur. Relative links of all pages lead to files, and to
-# headings in them.
+# links apart), sentences begin with a named subject, and banned phrases do not occur. Relative links
+# of all pages lead to files, and to headings in them.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -16,6 +16,7 @@ set(most_words_of_README.md 500)
 set(most_words_of_CHANGELOG.md 350)
 set(most_words_of_CONTRIBUTING.md 300)
 set(most_words_of_guide 7600)
+set(most_words_of_all 33000)
 
 # Read a page's text, without characters that CMake's lists interpret.
 function(read_page path result)
@@ -83,6 +84,15 @@ foreach(page IN LISTS styled)
   if(name STREQUAL "docs/dev/decisions.md") # is history
     continue()
   endif()
+  string(REGEX REPLACE "`[^`\n]*`|LINK[^)]*[)]" "CODE" sentences "${text}")
+  string(REGEX REPLACE "\n[ \n]*([-*]|[0-9]+[.]) " ". " sentences ". ${sentences}")
+  string(REGEX REPLACE "[ \n]+" " " sentences "${sentences}")
+  string(REGEX MATCHALL "[.:!?] ${missing_subject}[^.!?]*[.!?]" sentences "${sentences}")
+  foreach(sentence IN LISTS sentences)
+    if(NOT sentence MATCHES "[?]$")
+      string(APPEND faults "${name}: begins without a subject: ${sentence}\n")
+    endif()
+  endforeach()
   string(TOLOWER "${text}" text)
   string(REGEX REPLACE "[ \n]+" " " text "${text}")
   foreach(phrase IN LISTS banned_phrases banned_on_pages)
@@ -99,10 +109,13 @@ foreach(folder cmake docs examples lights plugin shadowtech tests)
 endforeach()
 
 set(links 0)
+set(words_of_all 0)
 foreach(page IN LISTS pages)
   get_filename_component(folder "${page}" DIRECTORY)
   file(RELATIVE_PATH name "${SOURCE_DIR}" "${page}")
   read_page("${page}" text)
+  check_words("${name}" "${text}" ${most_words_of_all})
+  math(EXPR words_of_all "${words_of_all} + ${count}")
   string(REGEX REPLACE "```[^`]*```" "" text "${text}")
   string(REGEX REPLACE "`[^`\n]*`" "" text "${text}")
   string(REGEX MATCHALL "LINK\\([^) \n]+" targets "${text}")
@@ -128,6 +141,11 @@ foreach(page IN LISTS pages)
     endif()
   endforeach()
 endforeach()
+
+message(STATUS "${words_of_all} words")
+if(words_of_all GREATER most_words_of_all)
+  string(APPEND faults "${words_of_all} words in all pages, expected at most ${most_words_of_all}\n")
+endif()
 
 if(faults)
   message(FATAL_ERROR "${faults}")
