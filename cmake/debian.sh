@@ -1,4 +1,4 @@
-# Set-up on Debian 12, for examples/bunny.sh, tests/run.sh and tests/lab/pages/common.sh.
+# Set-up on Debian 12, for examples/bunny.sh, tests/run.sh and tests/lab/pages.
 
 # install_packages [PACKAGE...]: installs what cmake/debian-packages.txt lists, and these packages,
 # as far as this machine lacks them; nothing when it lacks nothing.

@@ -1,6 +1,6 @@
-"""Measure frames with shadows beside plain ParaView's, and write a page of them.
+"""Measure frames with shadows beside plain ParaView's, and write a table of them.
 
-    mpirun -np 3 pvbatch measure.py PAGE
+    mpirun -np 3 pvbatch measure.py TABLE
 """
 
 import math
@@ -69,39 +69,14 @@ class Case:
         return {name: statistics.median(times[1:] or times) for name, times in stages.items()}
 
 
-def page(cases, triangles):
-    rows = [
-        "# Shadows over ParaView's processes",
-        "",
-        f"Three processes draw {triangles / 1e6:.2f} million triangles at {SIZE[0]} x {SIZE[1]},",
-        "each its part of contours of a wavelet. The camera moves; the data rest. Frames of a view",
-        "with shadows and of a plain one take turns; times are medians.",
-        "`tests/paraview/run.sh --measure` measures this.",
-        "",
-        "| lights | plain ParaView | with shadows | ratio | bytes shared a pixel |",
-        "|---|---|---|---|---|",
-    ]
-    for case in cases:
-        rows.append(
-            f"| {case.name} | {case.plain:.0f} ms | {case.shadows:.0f} ms | {case.ratio:.2f} | "
-            f"{case.bytes_shared:.1f} |"
-        )
-    names = []
-    for case in cases:
-        names += [name for name in case.stages if name not in names]
-    rows += [
-        "",
-        "The bytes are those that the first process receives. Its stages, each until OpenGL has",
-        "ended it:",
-        "",
-        "| stage | " + " | ".join(case.name for case in cases) + " |",
-        "|---|" + "---|" * len(cases),
-    ]
-    for name in names:
-        times = [f"{case.stages[name]:.1f} ms" if name in case.stages else "" for case in cases]
-        if any(case.stages.get(name, 0) >= 0.05 for case in cases):
-            rows.append(f"| {name} | " + " | ".join(times) + " |")
-    return "\n".join(rows) + "\n"
+def rows_of(case):
+    yield "plain_ms", f"{case.plain:.0f}"
+    yield "shadows_ms", f"{case.shadows:.0f}"
+    yield "over_plain", f"{case.ratio:.2f}"
+    yield "bytes_a_pixel", f"{case.bytes_shared:.1f}"
+    for name, milliseconds in case.stages.items():
+        if milliseconds >= 0.05:
+            yield f"{name} ms", f"{milliseconds:.1f}"
 
 
 def main():
@@ -116,7 +91,6 @@ def main():
         scenario.add_light(view, "sun", (60, -80, 200))
         scenario.add_light(view, "sun", (-150, 30, 160))
         scenario.add_light(view, "point", (60, -160, 170))
-    triangles = contour.GetDataInformation().GetNumberOfCells()
     view, plain = views
     view.LightSamples = 16
     cases = [
@@ -125,7 +99,8 @@ def main():
         Case("three lights", view, plain, 3, 0.0),
         Case("an area light of 16 samples", view, plain, 1, 1.0),
     ]
-    text = page(cases, triangles)
+    rows = [f"{case.name!r},{what},{figure}" for case in cases for what, figure in rows_of(case)]
+    text = "\n".join(["lights,what,figure", *rows]).replace("'", '"') + "\n"
     pathlib.Path(sys.argv[1]).write_text(text, encoding="utf-8")
     print(text)
     for case in cases:

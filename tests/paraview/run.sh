@@ -7,7 +7,7 @@
 # It prints a table of what users draw, and writes it to docs/results/paraview.csv; --users draws
 # nothing else.
 # The chroot stays in the temporary folder (TMPDIR) for the next run; --fresh makes a new one.
-# --measure measures times instead, and writes docs/results/paraview.md.
+# --measure measures times instead, and writes docs/results/paraview_times.csv.
 set -euo pipefail
 script=$(realpath "${BASH_SOURCE[0]}")
 project=$(realpath "$(dirname "$script")/../..")
@@ -162,12 +162,9 @@ inside "$root" mkdir -p "$data"
 
 if [ "$measure" = yes ]; then
   limit=1800
-  scenario measure batch 3 measure.py "$work/paraview.md"
-  if [ -e "$root$work/paraview.md" ]; then
-    cat "$root$work/paraview.md" - > "$project/docs/results/paraview.md" << PAGE
-
-Measured on: $(machine).
-PAGE
+  scenario measure batch 3 measure.py "$work/paraview_times.csv"
+  if [ -e "$root$work/paraview_times.csv" ]; then
+    mv "$root$work/paraview_times.csv" "$project/docs/results/"
   fi
   exit "$failures"
 fi

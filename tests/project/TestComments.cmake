@@ -57,9 +57,6 @@ foreach(folder IN LISTS folders)
     file(GLOB_RECURSE sources "${SOURCE_DIR}/${folder}/*.${ending}")
     foreach(source IN LISTS sources)
       file(RELATIVE_PATH name "${SOURCE_DIR}" "${source}")
-      if(name MATCHES "^tests/lab/pages/") # they hold tables of pages
-        continue()
-      endif()
       file(READ "${source}" text)
       # Each line becomes an item of a list: replace the characters that lists interpret.
       string(REPLACE ";" "," text "${text}")

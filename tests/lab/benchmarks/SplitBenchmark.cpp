@@ -4,7 +4,6 @@
 #include "BenchmarkMain.h"
 #include "Errors.h"
 #include "Files.h"
-#include "Machine.h"
 #include "Progress.h"
 #include "Scene.h"
 #include "SplitMargin.h"
@@ -58,7 +57,7 @@ struct Options
     "flowers-side" };
   std::uint64_t rays = 10000000;
   unsigned int seed = 1;
-  std::string markdown;
+  std::string table;
 };
 
 /// Rays of one kind, and those that the whole and its parts answer differently.
@@ -247,32 +246,9 @@ private:
 };
 
 //------------------------------------------------------------------------------
-// The page
+// The table
 
-/// Return a number with separators: "1,000,000".
-std::string grouped(std::uint64_t number)
-{
-  std::string text = std::to_string(number);
-  for (int end = static_cast<int>(text.size()) - 3; end > 0; end -= 3)
-  {
-    text.insert(static_cast<std::size_t>(end), ",");
-  }
-  return text;
-}
-
-/// Return the cells of one kind of rays: their number, the different ones, their largest margin.
-std::string cellsOf(const Comparison& comparison)
-{
-  std::ostringstream text;
-  text << " " << grouped(comparison.rays) << " | " << grouped(comparison.different) << " | ";
-  if (comparison.different > 0)
-  {
-    text << std::fixed << std::setprecision(2) << comparison.mostRoundings;
-  }
-  return text.str() + " |";
-}
-
-/// Return the numbers that are not on the page.
+/// Return the numbers that are not in the table.
 std::string textOf(const Comparison& comparison)
 {
   return std::to_string(comparison.blocked) + " blocked, " + std::to_string(comparison.faults) +
@@ -280,11 +256,22 @@ std::string textOf(const Comparison& comparison)
     std::to_string(comparison.wrong) + " wrong)";
 }
 
-std::string rowOf(const SceneResult& result)
+/// Return a line of CSV for each kind of rays.
+std::string rowsOf(const SceneResult& result)
 {
-  return "| " + result.name + " | " +
-    (result.triangles > 0 ? grouped(result.triangles) : std::string()) + " | " +
-    grouped(result.splits) + " |" + cellsOf(result.shadowRays) + cellsOf(result.aimedRays) + "\n";
+  std::ostringstream rows;
+  for (const auto& [kind, of] :
+    { std::pair("shadow", result.shadowRays), std::pair("aimed", result.aimedRays) })
+  {
+    rows << result.name << "," << result.triangles << "," << result.splits << "," << kind << ","
+         << of.rays << "," << of.different << ",";
+    if (of.different > 0)
+    {
+      rows << std::fixed << std::setprecision(2) << of.mostRoundings;
+    }
+    rows << "\n";
+  }
+  return rows.str();
 }
 
 SceneResult sumOf(const std::vector<SceneResult>& results)
@@ -306,57 +293,13 @@ std::string faultOf(const SceneResult& sum)
   const std::uint64_t faults = sum.shadowRays.faults + sum.aimedRays.faults;
   if (faults > 0)
   {
-    return grouped(faults) + " rays differ or are wrong that do not pass an edge within rounding";
+    return std::to_string(faults) +
+      " rays differ or are wrong that do not pass an edge within rounding";
   }
   return sum.shadowRays.different > sum.shadowRays.rays / raysPerDifference
-    ? grouped(sum.shadowRays.different) + " of " + grouped(sum.shadowRays.rays) +
-      " shadow rays differ, more than 1 in " + grouped(raysPerDifference)
+    ? std::to_string(sum.shadowRays.different) + " of " + std::to_string(sum.shadowRays.rays) +
+      " shadow rays differ, more than 1 in " + std::to_string(raysPerDifference)
     : std::string();
-}
-
-std::string pageOf(const std::vector<SceneResult>& results, const std::string& command)
-{
-  const SceneResult sum = sumOf(results);
-  const Comparison& aimed = sum.aimedRays;
-  const std::string fault = faultOf(sum);
-  std::ostringstream page;
-  page << "# Shadow rays against a split scene\n\n"
-       << (fault.empty()
-              ? std::string("A scene may be split between tracers: its parts together block the "
-                            "rays that the whole blocks,\nexcept for rays that pass an edge "
-                            "within rounding.\n")
-              : "A scene may not be split between tracers: " + fault + ".\n")
-       << "Of " << grouped(sum.shadowRays.rays) << " shadow rays, "
-       << grouped(sum.shadowRays.different) << " have different answers.\n\n`" << command
-       << "`\nmeasures this and writes this page.\n\n"
-       << "| scene | triangles | splits | shadow rays | different | roundings | aimed rays | "
-          "different | roundings |\n|---|---|---|---|---|---|---|---|---|\n";
-  for (const SceneResult& result : results)
-  {
-    page << rowOf(result);
-  }
-  page
-    << rowOf(sum) << "\n"
-    << "- **Splits** have " << leastParts << " to " << mostParts
-    << " parts, each with an Embree scene of its own. Triangles go to parts at\n  random, in runs "
-       "of their order, or in slabs. All parts have the whole's vertices, bit for bit.\n"
-    << "- **Shadow rays** start at random points of random triangles, as receivers do. They go "
-       "to suns,\n  point lights and points of area lights.\n"
-    << "- **Aimed rays** go to corners, to middles of edges and to random points of edges. They "
-       "end just\n  behind these points. One in four goes along an axis.\n"
-    << "- **Roundings** is the largest distance of a different ray from an edge that may decide "
-       "it. The unit\n  is 2^-24 of the lengths that the edge's test multiplies. Rounding may "
-       "decide up to "
-    << mostRoundings << " of them\n  (`tests/lab/benchmarks/SplitMargin.h`).\n\n"
-    << "Of the different aimed rays, " << grouped(aimed.onlyWhole)
-    << " are blocked by the whole alone and " << grouped(aimed.different - aimed.onlyWhole)
-    << " by parts alone.\n"
-    << grouped(aimed.exact) << " of them meet an edge exactly.\n\n"
-    << "The test `SplitBenchmarkRuns` repeats this with fewer rays. It fails if a ray differs "
-       "elsewhere, or\nif more than one shadow ray in "
-    << grouped(raysPerDifference) << " differs.\n\nMeasured on: " << tool::processorName()
-    << "; Embree " << RTC_VERSION_STRING << ".\n";
-  return page.str();
 }
 
 //------------------------------------------------------------------------------
@@ -388,11 +331,11 @@ int run(int argc, char** argv)
     ->delimiter(',')
     ->capture_default_str();
   app.add_option("--seed", options.seed, "Of splits and rays")->capture_default_str();
-  app.add_option("--markdown", options.markdown, "Page to write");
+  app.add_option("-o,--output", options.table, "A table to write");
   CLI11_PARSE(app, argc, argv);
-  if (!options.markdown.empty())
+  if (!options.table.empty())
   {
-    tool::requireWritableFile(options.markdown, "--markdown", { ".md" });
+    tool::requireWritableFile(options.table, "--output", { ".csv" });
   }
 
   const tool::VtkMessages messages;
@@ -403,12 +346,17 @@ int run(int argc, char** argv)
     results.push_back(
       study(options.scenes[i], options, options.rays * (i + 1) / count - options.rays * i / count));
     const SceneResult& last = results.back();
-    std::cout << rowOf(last) << "  shadow rays: " << textOf(last.shadowRays)
+    std::cout << rowsOf(last) << "  shadow rays: " << textOf(last.shadowRays)
               << "\n  aimed rays: " << textOf(last.aimedRays) << std::endl;
   }
-  if (!options.markdown.empty())
+  if (!options.table.empty())
   {
-    tool::writeWholeFile(options.markdown, pageOf(results, tool::commandOf(argc, argv)));
+    std::string table = "scene,triangles,splits,rays_are,rays,different,roundings\n";
+    for (const SceneResult& result : results)
+    {
+      table += rowsOf(result);
+    }
+    tool::writeWholeFile(options.table, table);
   }
   const std::string fault = faultOf(sumOf(results));
   if (!fault.empty())

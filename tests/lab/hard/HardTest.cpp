@@ -2,7 +2,7 @@
 
 #include "Judge.h"
 #include "Matrix.h"
-#include "MatrixPage.h"
+#include "MatrixTable.h"
 
 #include "Errors.h"
 #include "TestFiles.h"

@@ -1,7 +1,7 @@
 // Draw the hard cases with all techniques and judge them by the bounds of Bounds.h.
 
 #include "Matrix.h"
-#include "MatrixPage.h"
+#include "MatrixTable.h"
 
 #include "BenchmarkMain.h"
 #include "Errors.h"
@@ -90,7 +90,7 @@ int run(int argc, char** argv)
       "A table of cells that are known to be broken: any other broken cell is an error, and so is "
       "one of these that is fixed")
     ->check(CLI::ExistingFile);
-  app.add_option("-o", options.folder, "Where hard_cases.csv, .svg and .md are written");
+  app.add_option("-o", options.folder, "The folder for hard_cases.csv");
   CLI::Option* const tenth =
     app.add_option("--tenth", options.tenth, "Draw a tenth of the cells, chosen by this seed");
   app.add_option("--part", options.part, "Of --parts, draw rows of this number, from 0");
@@ -136,7 +136,7 @@ int run(int argc, char** argv)
   }
   if (!options.folder.empty())
   {
-    writePage(options.folder, cells, known);
+    writeTable(options.folder, cells);
   }
   const std::vector<std::string> surprises = surprisesIn(cells, known);
   for (const std::string& surprise : surprises)

@@ -1,65 +1,11 @@
-#!/usr/bin/python3
-"""Writes the table and the page of tests/lab/pages/conclusions.sh from what it measured: the table to a file,
-the page to the standard output."""
+"""The publications' conclusions, and which of them docs/results/conclusions.csv bears out."""
 
 import csv
 import math
-import re
-import sys
 from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
-PAGE = """# What the publications conclude, measured here
-
-Each row is a conclusion of a publication, its own figure, and the same measured here. A conclusion
-holds if it does in every case, or on the mean where the condition says so. `tests/lab/pages/conclusions.sh`
-measures this and computes the verdicts from [the table](conclusions.csv).
-
-| conclusion | source | there: mean (least to most) | here | holds if | verdict |
-|---|---|---|---|---|---|
-{rows}
-
-## What was measured
-
-Cases are scenes and map sizes. Variants take turns frame by frame. Times are medians with a moving
-light: of whole frames, of hybrids their maps and rays. A figure without a unit is a ratio: of what
-the row names first to what it names second. The publications' figures come from other scenes and
-machines.
-
-| | scenes | pixels | maps | |
-|---|---|---|---|---|
-| hybrids, the chain | `bench-with`, `trees-side`, `flowers-against`, `atrium` | 1024 x 1024 | 1024, 2048 | maps baked in every frame; the chain's fitted, contour of 4 pixels |
-| filters | `bunny`, `posts`, `plates`, `terrain`; for the metric `room`, `office` | 1024 x 1024 | 1024 | |
-| soft shadows | `soft-stack`, `soft-panels`, `soft-plates`, `soft-long-cube` | 256 x 256 | 1024 | |
-| reduction, second depths | `gnomon_benchmark_fitting` | 2048 x 2048 pixels or texels | | processor time; the CPU's without the choice of receivers |
-| depth layers | `bunny` under a sun of 5 degrees, `soft-long-cube` | 384 x 288 | 512, 1024 | |
-
-Master's theses: D. L. Moderno, *Shadow Mapping and Ray-Tracing*, Universidade do Minho. F. Morais,
-*Rasterization + Ray Tracing: Rendering of Hard Shadows*, Universidade do Minho, 2016. A. Moschig,
-*Apelles*, TU Graz, 2012. R. J. Rzeczkowski, *Selected techniques of rendering shadow models in
-interactive computer graphics*, Silesian University of Technology, 2024. A. Curtis, *Real-time Soft
-Shadows on the GPU via Monte Carlo Sampling*, UMBC, 2009.
-
-Measured on: {machine}.
-"""
-
-# Columns of the table, and of which one each is the sum in results.csv.
-COLUMNS = {
-    "facing": r"facing_pixels",
-    "wrong": r"wrong_pixels",
-    "false_shadow": r"false_shadow_pixels",
-    "traced": r"traced_pixels",
-    "hinted": r"class hinted .*",
-    "left": r"class (traced, .*|left lit)_pixels",
-    "contour": r"class (hinted|confirmed|corrected|traced,|left lit).*",
-    "rms": r"rms_error",
-    "mean_error": r"mean_absolute_error",
-    "maps_ms": r"light_moving_maps_ms",
-    "resolve_ms": r"light_moving_visibility: .*",
-    "frame_ms": r"light_moving_ms",
-}
 PCF = "pcf kernel=box kernel_size={0}"
 DISC = "adaptive disc_grid={0} early_out=ring kernel_size={0}"
 VSM, EUCLIDEAN = "vsm kernel_size=23", PCF.format(11) + " metric=euclidean"
@@ -89,7 +35,9 @@ class Cases:
         self.cases = defaultdict(dict)
         for row in rows:
             self.cases[row["scene"], row["map_size"]][row["variant"]] = {
-                name: float(row[name] or 0) for name in COLUMNS
+                name: float(value or 0)
+                for name, value in row.items()
+                if name not in ("run", "scene", "map_size", "variant")
             }
         for scene in {scene for scene, _ in self.cases}:
             without = self.cases.pop((scene, ""), {})
@@ -135,28 +83,24 @@ class Conclusion:
     why: str = ""
 
     def number(self, value):
-        return f"{100 * value:.3g} %" if self.percent else f"{value:.2f}".rstrip("0").rstrip(".")
+        return f"{100 * value:.3g}" if self.percent else f"{value:.2f}".rstrip("0").rstrip(".")
 
     def row(self, runs):
+        """Return the cells: text, source, figure there, figure here, verdict."""
         if not self.values:
-            return [self.text, self.source, self.there, "", "", f"not measured: {self.why}"]
+            return [self.text, self.source, self.there, "", f"not measured: {self.why}"]
         values = self.values(runs[self.run])
         mean = sum(values) / len(values)
         judged = [mean] if self.on_mean else values
         held = sum(self.least <= value <= self.most for value in judged)
-        bounds = [f"at least {self.number(self.least)}"] if self.least > -math.inf else []
-        bounds += [f"at most {self.number(self.most)}"] if self.most < math.inf else []
         verdict = "holds" if held == len(judged) else "holds not"
         if 0 < held < len(judged):
             verdict += f" in {held} of {len(judged)}"
         if held < len(judged) and self.why:
             verdict += f": {self.why}"
-        span = f" ({self.number(min(values))} to {self.number(max(values))})"
-        return [
-            self.text, self.source, self.there,
-            self.number(mean) + (span if len(values) > 1 else ""),
-            ("mean " if self.on_mean else "") + ", ".join(bounds), verdict,
-        ]
+        span = f" ({self.number(min(values))}–{self.number(max(values))})"
+        here = self.number(mean) + (span if len(values) > 1 else "")
+        return [self.text, self.source, self.there, here + " %" * self.percent, verdict]
 
 
 CONCLUSIONS = [
@@ -312,53 +256,11 @@ CONCLUSIONS = [
 ]
 
 
-def rows_of(folder):
-    """The rows of the table, from the folder that tests/lab/pages/conclusions.sh fills."""
-    for results in sorted(folder.glob("*/results.csv")):
-        run, scene = results.parent.name.split(".")
-        with open(results, newline="", encoding="utf-8") as file:
-            for row in csv.DictReader(file):
-                if row["variant"].startswith(("plain VTK", "vtkShadowMapPass")):
-                    continue
-                variant = re.sub(r"( \d+)?( inline| image)?$", "", row["variant"])
-                values = {
-                    name: sum(float(row[of] or 0) for of in row if re.fullmatch(pattern, of))
-                    for name, pattern in COLUMNS.items()
-                }
-                names = {"run": run, "scene": scene, "map_size": row["map_size"]}
-                yield names | {"variant": variant} | values
-    for task in re.findall(r"^(\S.*?) +[\d.]+ +[\d.]+ +([\d.]+) +[\d.]+$",
-                           (folder / "fitting.txt").read_text(), re.MULTILINE):
-        yield {"run": "fitting", "scene": "bunny", "variant": task[0], "maps_ms": task[1]}
-    tests = (folder / "md5.txt").read_text()
-    failed = re.findall(r"^\[  FAILED  \] \S+ \(", tests, re.MULTILINE)
-    yield {"run": "md5", "variant": "ReducedMd5", "wrong": len(failed),
-           "facing": tests.count("[       OK ]")}
-
-
-def main():
-    folder, table, machine = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
-    with open(table, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, ["run", "scene", "map_size", "variant", *COLUMNS],
-                                restval="", lineterminator="\n")
-        writer.writeheader()
-        for row in rows_of(folder):
-            writer.writerow({name: f"{value:.6g}" if isinstance(value, float) else value
-                             for name, value in row.items()})
-    rows = defaultdict(list)
+def rows(table):
+    """Return the cells of each conclusion."""
+    runs = defaultdict(list)
     with open(table, newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
-            rows[row["run"]].append(row)
-    runs = {run: Cases(of) for run, of in rows.items()}
-    lines = [each.row(runs) for each in CONCLUSIONS]
-    print(
-        PAGE.format(
-            rows="\n".join(f"| {' | '.join(line)} |" for line in lines),
-            machine=machine,
-        ),
-        end="",
-    )
-
-
-if __name__ == "__main__":
-    main()
+            runs[row["run"]].append(row)
+    cases = {run: Cases(of) for run, of in runs.items()}
+    return [each.row(cases) for each in CONCLUSIONS]

@@ -24,8 +24,8 @@ KnownCells readKnownCells(const std::string& path);
 /// not broken.
 std::vector<std::string> surprisesIn(const std::vector<Cell>& cells, const KnownCells& known);
 
-/// Write hard_cases.csv, hard_cases.svg and hard_cases.md into a folder.
+/// Write hard_cases.csv into a folder.
 /// @throws tool::Failure
-void writePage(const std::string& folder, const std::vector<Cell>& cells, const KnownCells& known);
+void writeTable(const std::string& folder, const std::vector<Cell>& cells);
 
 } // namespace gnomon::hard

@@ -1,0 +1,78 @@
+#!/bin/bash
+# Draw pictures of pages into docs/figures.
+#
+#   tests/lab/pages/draw.sh gallery      scenes by `auto`
+#   tests/lab/pages/draw.sh techniques   how pixels are decided, and what goes wrong
+#   tests/lab/pages/draw.sh examples     by the programs of examples/
+#   tests/lab/pages/draw.sh viewer       the viewer, and the table of its keys in viewer.md
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
+source cmake/debian.sh
+programs=build/lab/bin
+figures=docs/figures
+
+gallery()
+{
+  local scene
+  for scene in terrain atrium bench-side office soft-window cups; do
+    $programs/gnomon render "$scene" -o "$figures/$scene.png" --size 400x300
+  done
+  $programs/gnomon render props -o $figures/props.png --size 900x560 --camera "fov=32"
+}
+
+techniques()
+{
+  # render SCENE PICTURE OPTION...
+  render() {
+    $programs/gnomon render "$1" --size 480x480 -o "$2" "${@:3}"
+  }
+  render bunny out/picture.png --technique silhouette --classes $figures/exact.png
+  render bunny out/picture.png --technique selective --classes $figures/selective.png
+  render soft-stack out/picture.png --technique penumbra --classes $figures/penumbra_classes.png
+  render cups $figures/published.png --technique crsm --as-published on
+  render soft-stack $figures/sampled.png --technique sampled --light-samples 16
+}
+
+examples()
+{
+  local example out=$figures/examples
+  mkdir -p $out
+  for example in assembly atrium ct_area_light shader_waves; do
+    $programs/$example $out/$example.png 640 480
+  done
+  $programs/molecule $out/molecule.png 600 450 # at most 150 KB each
+  $programs/headless_figure out/headless_figure.png 640 480 # the EXR that goes with it stays there
+  mv out/headless_figure.png $out/
+  export PYTHONPATH=$PWD/build/lab/lib/python3/dist-packages
+  for example in molecule_surface streamtubes technique_table; do
+    /usr/bin/python3 examples/$example.py $out/$example.png 640 480
+  done
+  /usr/bin/python3 examples/terrain_sun_hours.py $out/terrain_sun_hours.png 500 375
+  /usr/bin/python3 examples/moving_light.py $out/moving_light.png 640 480 1
+  GNOMON_REFRESH_BASELINES=1 /usr/bin/python3 examples/image_test.py
+  xvfb-run -a $programs/qt_shadows $out/qt_shadows.png
+}
+
+viewer()
+{
+  local page=docs/guide/viewer.md
+  xvfb-run -a $programs/gnomon view bunny --size 720x480 --techniques nsm --map-size 256 \
+    --press "  gq" -o out/viewer
+  mv out/viewer-1.png $figures/viewer.png
+  {
+    sed '/^| key /,$d' "$page"
+    $programs/gnomon view --keys
+  } > out/viewer.md
+  mv out/viewer.md "$page"
+}
+
+if [ $# -ne 1 ] || ! grep -q "draw.sh $1 " "${BASH_SOURCE[0]}"; then
+  sed -n '2,/^set/{s/^# \{0,1\}//;/^set/d;p}' "${BASH_SOURCE[0]}" >&2
+  exit 1
+fi
+install_packages libvtk9-qt-dev
+mkdir -p build out
+cmake --preset lab > build/configure.log
+cmake --build --preset lab
+unset DISPLAY
+"$1"
