@@ -1,8 +1,6 @@
 #include "shadowtech/Registry.h"
 
 #include "lights/LightViews.h"
-#include "shadowtech/adaptive/Adaptive.h"
-#include "shadowtech/depth_map/Compare.h"
 #include "shadowtech/depth_map/Pcf.h"
 #include "shadowtech/exact/ExactTechniques.h"
 #include "shadowtech/moment_map/MomentEstimators.h"
@@ -27,10 +25,6 @@ namespace gnomon
 namespace
 {
 
-///@{
-/// The exact techniques of lights at rest that leave their technique to the pass.
-///@}
-
 template <typename Estimator>
 constexpr Evaluation evaluationOf()
 {
@@ -52,6 +46,11 @@ EstimatorEntry entry()
 {
   return makeEntry<Estimator>(Estimator::info());
 }
+EstimatorEntry entryOf(Pcf::Kernel kernel)
+{
+  return makeEntry<Pcf>(Pcf::info(kernel), kernel);
+}
+
 
 EstimatorEntry entryOf(const MomentEstimator& estimator)
 {
@@ -90,9 +89,9 @@ std::vector<std::string> namesOf(const std::vector<Entry>& entries)
 std::vector<EstimatorEntry> makeEstimators()
 {
   std::vector<EstimatorEntry> entries = {
-    entry<Adaptive>(),
+    entryOf(Pcf::Kernel::JitteredDisc),
     entry<Compare>(),
-    entry<Pcf>(),
+    entryOf(Pcf::Kernel::Chosen),
     entry<Pcss>(),
     entry<PublishedPcss>(),
     entryOf(singleExponential()),

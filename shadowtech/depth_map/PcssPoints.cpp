@@ -4,7 +4,7 @@
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/depth_map/PoissonSquare.h"
+#include "shadowtech/depth_map/KernelPoints.h"
 
 #include <array>
 

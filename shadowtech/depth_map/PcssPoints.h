@@ -26,7 +26,7 @@ PcssCounts pcssCounts(PcssSamples samples);
 std::string pcssCountsDefines(PcssSamples samples);
 
 /// Return the points of both steps, one after the other, on the shape of radius or half side 1:
-/// Poisson sets (PoissonSquare.h), mapped to disks by the concentric map.
+/// Poisson sets (poissonSquare()), mapped to disks by the concentric map.
 std::vector<glm::vec2> pcssPoints(PcssSamples samples, LightArea::Shape shape);
 
 /// The points of pcssPoints() on the GPU: one row of a texture, the shaders' `lightPoints_LIGHT`.
