@@ -14,7 +14,7 @@ namespace
 /// Number of peeled surfaces that face the light, and of those that face away.
 constexpr int peeledSurfaces = 4;
 
-/// The cleared value of layers, behind all depths.
+/// The cleared value of layers and slabs (slabs.glsl), behind all depths.
 constexpr GLfloat noSurface[4] = { 2.0f, 2.0f, 2.0f, 2.0f };
 
 /// Return the shader that renders casters into a view's layer.
@@ -34,12 +34,12 @@ int pagesOf(const ShadowLight& light)
   return isPeeled(light) ? 2 : 1;
 }
 
-/// Return the bytes per texel of all views' slabs, and of the layers that one view's slabs are made
-/// from.
+/// Return the bytes per texel of all views' slabs, and of the layers and the depth buffer that one
+/// view's slabs are peeled with.
 std::size_t bytesOfTexel(int views, int pages)
 {
-  const int layers = pages > 1 ? 2 * peeledSurfaces : 1;
-  return static_cast<std::size_t>(4 * views * pages + 2 * layers + 1) * sizeof(float);
+  const int peeling = pages > 1 ? 4 * peeledSurfaces + 1 : 0;
+  return static_cast<std::size_t>(4 * views * pages + peeling) * sizeof(float);
 }
 
 } // namespace
@@ -53,11 +53,15 @@ void DepthLayers::allocate(const ShadowLight& light, int views)
     return;
   }
   this->sizeTexels_ = 0; // stays 0 if memory runs out
-  const int layers = isPeeled(light) ? 2 * peeledSurfaces : 1;
   allocateMap(this->slabs_, { GL_RGBA32F, GL_RGBA, 4 }, light.mapSizeTexels, views * pages);
-  allocateMap(this->layers_, { GL_RG32F, GL_RG, 2 }, light.mapSizeTexels, layers);
-  allocateMap(
-    this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, light.mapSizeTexels, 1);
+  this->layers_.reset();
+  this->depth_.reset();
+  if (isPeeled(light))
+  {
+    allocateMap(this->layers_, { GL_RG32F, GL_RG, 2 }, light.mapSizeTexels, 2 * peeledSurfaces);
+    allocateMap(
+      this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, light.mapSizeTexels, 1);
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->depth_.name(), 0, 0);
   this->sizeTexels_ = light.mapSizeTexels;
@@ -78,20 +82,25 @@ void DepthLayers::draw(const MapInput& input, double nearest)
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     isPeeled(input.light) ? this->drawPeeled(input, view, nearest)
                           : this->drawHull(input, view, nearest);
-    this->makeSlabs(input, view);
   }
 }
 
 //------------------------------------------------------------------------------
 void DepthLayers::drawHull(const MapInput& input, std::size_t view, double nearest)
 {
-  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->layers_.name(), 0, 0);
+  glFramebufferTextureLayer(
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->slabs_.name(), 0, static_cast<int>(view));
   glClearBufferfv(GL_COLOR, 0, noSurface);
   glDisable(GL_DEPTH_TEST);
   glEnablei(GL_BLEND, 0);
   glBlendEquation(GL_MIN);
-  drawCasters(view, input,
-    layerShader("shadowtech/montecarlo/layer_hull.frag.glsl", input.views.views[view], nearest));
+  CasterShader shader =
+    layerShader("shadowtech/montecarlo/layer_hull.frag.glsl", input.views.views[view], nearest);
+  if (input.light.monteCarlo.layers == RayLayers::Near)
+  {
+    shader.defines.emplace_back("ENDLESS");
+  }
+  drawCasters(view, input, std::move(shader));
   glDisablei(GL_BLEND, 0);
 }
 
@@ -113,20 +122,9 @@ void DepthLayers::drawPeeled(const MapInput& input, std::size_t view, double nea
     shader.uniforms.push_back({ "fronts", layer < peeledSurfaces ? 1 : 0 });
     drawCasters(view, input, std::move(shader));
   }
-}
-
-//------------------------------------------------------------------------------
-void DepthLayers::makeSlabs(const MapInput& input, std::size_t view)
-{
-  std::vector<std::string> defines = { "PEELED " + std::to_string(peeledSurfaces) };
-  if (input.light.monteCarlo.layers == RayLayers::Near)
-  {
-    defines.emplace_back("ENDLESS");
-  }
   const GLuint program = ScreenPass::use(input.shaders,
-    ShaderLibrary::source(isPeeled(input.light) ? "shadowtech/montecarlo/slabs_of_peeled.frag.glsl"
-                                                : "shadowtech/montecarlo/slabs_of_hull.frag.glsl"),
-    defines);
+    ShaderLibrary::source("shadowtech/montecarlo/slabs_of_peeled.frag.glsl"),
+    { "PEELED " + std::to_string(peeledSurfaces) });
   ShaderLibrary::setUniforms(
     program, { { "layers", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->layers_.name() } } }, 0, 0);
   std::vector<ScreenPass::Image> pages;

@@ -21,8 +21,8 @@ public:
   /// @param nearest the z at which p is -1, for positional lights
   void draw(const MapInput& input, double nearest);
 
-  /// Return an array of RGBA textures. A page holds two slabs (begin, end, begin, end); the pages
-  /// of all views follow each other.
+  /// Return an array of RGBA textures. A page holds two slabs (slabs.glsl); the pages of all views
+  /// follow each other.
   GLuint slabs() const { return this->slabs_.name(); }
   int pages() const { return this->pages_; }
   std::size_t bytes() const;
@@ -32,11 +32,13 @@ private:
   void allocate(const ShadowLight& light, int views);
   void drawHull(const MapInput& input, std::size_t view, double nearest);
   void drawPeeled(const MapInput& input, std::size_t view, double nearest);
-  void makeSlabs(const MapInput& input, std::size_t view);
 
   GlTexture slabs_;
-  GlTexture layers_; ///< of the view being baked
+  ///@{
+  /// Of the view being peeled.
+  GlTexture layers_;
   GlTexture depth_;
+  ///@}
   GlFramebuffer framebuffer_;
   ScreenPass screenPass_;
   int sizeTexels_ = 0;

@@ -105,7 +105,7 @@ void MonteCarlo::bake(const MapInput& input)
   this->layers_.draw(
     { input.light, this->views_, input.occluders, input.buffers, input.shaders }, this->nearest_);
   this->bounds_.build(this->layers_.slabs(), this->layers_.pages(), input.light.mapSizeTexels,
-    static_cast<int>(this->views_.views.size()), input.light.monteCarlo.pyramid, input.shaders);
+    static_cast<int>(this->views_.views.size()), input.shaders);
 }
 
 //------------------------------------------------------------------------------
@@ -232,7 +232,6 @@ void MonteCarlo::followRays(const LayerInput& input)
   const bool decides =
     light.monteCarlo.classify != RayClasses::Off && viewLayout(light) == ViewLayout::Single;
   defineWhere(textured, "TEXTURED");
-  defineWhere(light.monteCarlo.pyramid == SlabHierarchy::NBuffer, "NBUFFER");
   defineWhere(light.monteCarlo.search == RaySearch::Linear, "LINEAR_SEARCH");
   defineWhere(light.monteCarlo.layers == RayLayers::Eye, "EYE_LAYER");
   defineWhere(decides, "CLASSIFY_PIXELS");
