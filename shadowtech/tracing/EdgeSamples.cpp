@@ -294,10 +294,7 @@ void EdgeSamples::dropHidden(const ReceiverImages& images, const EmbreeTracer& h
           {
             continue;
           }
-          const glm::vec3 normal(samples.normalX[i], samples.normalY[i], samples.normalZ[i]);
-          const glm::vec3 from =
-            glm::vec3(samples.positionX[i], samples.positionY[i], samples.positionZ[i]) +
-            samples.offset[i] * normal;
+          const glm::vec3 from = samples.position(i) + samples.offset[i] * samples.normal(i);
           const glm::vec3 way =
             glm::vec3(images.rays.origin(centre.x + places[n].x, centre.y + places[n].y)) - from;
           fromX[count] = from.x;

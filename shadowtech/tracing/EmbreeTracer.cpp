@@ -96,10 +96,9 @@ bool isTurnedBlocked(const EmbreeCasters& casters, const TracedPicture& picture,
   const auto& [pixel, i] = turned;
   const ReceiverPixels& receivers = *tile.receivers;
   const ReceiverPixels::Curve& curve = receivers.curves[i];
-  const glm::vec3 origin(tile.originX[pixel], tile.originY[pixel], tile.originZ[pixel]);
-  const glm::vec3 direction(tile.directionX[pixel], tile.directionY[pixel], tile.directionZ[pixel]);
-  const LiftedRay lifted = liftedRay(picture.light(),
-    { receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] }, origin, direction,
+  const glm::vec3 origin = tile.origin(pixel);
+  const glm::vec3 direction = tile.direction(pixel);
+  const LiftedRay lifted = liftedRay(picture.light(), receivers.position(i), origin, direction,
     curve.normal, curve.height + receivers.offset[i]);
   own.until = lifted.leaves;
   // True if a ray meets the own surface, on either side.
