@@ -4,7 +4,6 @@
 #include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/depth_map/KernelPoints.h"
 
 namespace gnomon
@@ -122,12 +121,12 @@ void Pcf::bake(const MapInput& input)
 //------------------------------------------------------------------------------
 void Pcf::bakeDiscs(const AdaptiveSettings& settings)
 {
-  if (this->discsBaked_ == settings)
+  const int sets = settings.discSets;
+  const int points = settings.discGrid * settings.discGrid;
+  if (!this->discs_.allocate({ GL_RG32F, GL_RG, 2 }, sets, sets, points, "a table of discs"))
   {
     return;
   }
-  const int sets = settings.discSets;
-  const int points = settings.discGrid * settings.discGrid;
   const int discs = sets * sets;
   const std::vector<glm::vec2> byDisc = jitteredDiscs(settings.discGrid, discs);
   std::vector<glm::vec2> byPoint;
@@ -139,22 +138,16 @@ void Pcf::bakeDiscs(const AdaptiveSettings& settings)
       byPoint.push_back(byDisc[static_cast<std::size_t>(disc * points + point)]);
     }
   }
-  this->discsBaked_ = { 0, 0 }; // in case the allocation fails
-  allocateTexture(this->discs_, { GL_RG32F, GL_RG, 2 }, sets, sets, points, "a table of discs");
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTexSubImage3D(
     GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, sets, sets, points, GL_RG, GL_FLOAT, byPoint.data());
-  this->discsBaked_ = settings;
 }
 
 //------------------------------------------------------------------------------
 std::size_t Pcf::bytesOfMaps() const
 {
-  const auto points = static_cast<std::size_t>(this->discsBaked_.discGrid);
-  const auto discs = static_cast<std::size_t>(this->discsBaked_.discSets);
-  return this->DepthMapTechnique::bytesOfMaps() + this->bounds_.bytes() +
-    points * points * discs * discs * sizeof(glm::vec2);
+  return this->DepthMapTechnique::bytesOfMaps() + this->bounds_.bytes() + this->discs_.bytes();
 }
 
 //------------------------------------------------------------------------------

@@ -64,8 +64,7 @@ private:
   bool isDisc_;
   ///@{
   /// Empty unless the kernel is the disc.
-  GlTexture discs_; ///< a layer for each point of the disc, a texel for each disc
-  AdaptiveSettings discsBaked_{ 0, 0 };
+  SizedTexture discs_; ///< a layer for each point of the disc, a texel for each disc
   DepthBounds bounds_; ///< empty also unless `early_out` is exact
   ///@}
 };

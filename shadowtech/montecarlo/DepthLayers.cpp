@@ -2,7 +2,6 @@
 
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 
 #include <utility>
 
@@ -34,39 +33,26 @@ int pagesOf(const ShadowLight& light)
   return isPeeled(light) ? 2 : 1;
 }
 
-/// Return the bytes per texel of all views' slabs, and of the layers and the depth buffer that one
-/// view's slabs are peeled with.
-std::size_t bytesOfTexel(int views, int pages)
-{
-  const int peeling = pages > 1 ? 4 * peeledSurfaces + 1 : 0;
-  return static_cast<std::size_t>(4 * views * pages + peeling) * sizeof(float);
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
 void DepthLayers::allocate(const ShadowLight& light, int views)
 {
-  const int pages = pagesOf(light);
-  if (this->sizeTexels_ == light.mapSizeTexels && this->views_ == views && this->pages_ == pages)
-  {
-    return;
-  }
-  this->sizeTexels_ = 0; // stays 0 if memory runs out
-  allocateMap(this->slabs_, { GL_RGBA32F, GL_RGBA, 4 }, light.mapSizeTexels, views * pages);
-  this->layers_.reset();
-  this->depth_.reset();
+  this->pages_ = pagesOf(light);
+  const int side = light.mapSizeTexels;
+  this->slabs_.allocateMap({ GL_RGBA32F, GL_RGBA, 4 }, side, views * this->pages_);
   if (isPeeled(light))
   {
-    allocateMap(this->layers_, { GL_RG32F, GL_RG, 2 }, light.mapSizeTexels, 2 * peeledSurfaces);
-    allocateMap(
-      this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, light.mapSizeTexels, 1);
+    this->layers_.allocateMap({ GL_RG32F, GL_RG, 2 }, side, 2 * peeledSurfaces);
+    this->depth_.allocateMap({ GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, side, 1);
+  }
+  else
+  {
+    this->layers_.reset();
+    this->depth_.reset();
   }
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->depth_.name(), 0, 0);
-  this->sizeTexels_ = light.mapSizeTexels;
-  this->views_ = views;
-  this->pages_ = pages;
 }
 
 //------------------------------------------------------------------------------
@@ -76,7 +62,7 @@ void DepthLayers::draw(const MapInput& input, double nearest)
   this->allocate(input.light, std::max(static_cast<int>(views.size()), 1));
   for (std::size_t view = 0; view < views.size(); ++view)
   {
-    beginCasters(this->framebuffer_.name(), this->sizeTexels_);
+    beginCasters(this->framebuffer_.name(), this->slabs_.width());
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisablei(GL_BLEND, 0);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -132,20 +118,21 @@ void DepthLayers::drawPeeled(const MapInput& input, std::size_t view, double nea
   {
     pages.push_back({ this->slabs_.name(), static_cast<int>(view) * this->pages_ + page });
   }
-  this->screenPass_.fill(pages, this->sizeTexels_, this->sizeTexels_);
+  this->screenPass_.fill(pages, this->slabs_.width(), this->slabs_.width());
 }
 
 //------------------------------------------------------------------------------
 std::size_t DepthLayers::bytes() const
 {
-  const auto side = static_cast<std::size_t>(this->sizeTexels_);
-  return side * side * bytesOfTexel(this->views_, this->pages_);
+  return this->slabs_.bytes() + this->layers_.bytes() + this->depth_.bytes();
 }
 
 //------------------------------------------------------------------------------
 double DepthLayers::bytesPerTexel(const ShadowLight& light)
 {
-  return static_cast<double>(bytesOfTexel(mostViews(light), pagesOf(light)));
+  // All views' slabs, and the layers and the depth buffer that one view's slabs are peeled with.
+  const int peeling = isPeeled(light) ? 4 * peeledSurfaces + 1 : 0;
+  return sizeof(float) * (4.0 * mostViews(light) * pagesOf(light) + peeling);
 }
 
 } // namespace gnomon

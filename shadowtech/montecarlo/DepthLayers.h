@@ -3,6 +3,7 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <cstddef>
 
@@ -33,16 +34,14 @@ private:
   void drawHull(const MapInput& input, std::size_t view, double nearest);
   void drawPeeled(const MapInput& input, std::size_t view, double nearest);
 
-  GlTexture slabs_;
+  SizedTexture slabs_;
   ///@{
   /// Of the view being peeled.
-  GlTexture layers_;
-  GlTexture depth_;
+  SizedTexture layers_;
+  SizedTexture depth_;
   ///@}
   GlFramebuffer framebuffer_;
   ScreenPass screenPass_;
-  int sizeTexels_ = 0;
-  int views_ = 0;
   int pages_ = 0;
 };
 

@@ -2,7 +2,6 @@
 
 #include "lights/LightViews.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 
 #include <algorithm>
 
@@ -10,30 +9,19 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-void SlabBounds::allocate(int sizeTexels, int views)
+void SlabBounds::build(GLuint slabs, int pages, int sizeTexels, int views, ShaderLibrary& shaders)
 {
-  if (this->sizeTexels_ == sizeTexels && this->views_ == views)
-  {
-    return;
-  }
-  this->sizeTexels_ = 0; // stays 0 if memory runs out
+  constexpr int texelsOfGroup = 8; // as in slab_bounds.comp.glsl
   this->topLevel_ = 0;
   while (1 << this->topLevel_ < sizeTexels)
   {
     ++this->topLevel_;
   }
-  allocateMap(
-    this->texture_, { GL_RGBA32F, GL_RGBA, 4 }, 1 << this->topLevel_, views, this->topLevel_ + 1);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
-  this->sizeTexels_ = sizeTexels;
-  this->views_ = views;
-}
-
-//------------------------------------------------------------------------------
-void SlabBounds::build(GLuint slabs, int pages, int sizeTexels, int views, ShaderLibrary& shaders)
-{
-  constexpr int texelsOfGroup = 8; // as in slab_bounds.comp.glsl
-  this->allocate(sizeTexels, std::max(views, 1));
+  if (this->texture_.allocateMap(
+        { GL_RGBA32F, GL_RGBA, 4 }, 1 << this->topLevel_, std::max(views, 1), this->topLevel_ + 1))
+  {
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+  }
   const std::string source = ShaderLibrary::source("shadowtech/montecarlo/slab_bounds.comp.glsl");
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   for (int level = 0; level <= this->topLevel_; ++level)
@@ -58,18 +46,6 @@ void SlabBounds::build(GLuint slabs, int pages, int sizeTexels, int views, Shade
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
   glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-}
-
-//------------------------------------------------------------------------------
-std::size_t SlabBounds::bytes() const
-{
-  std::size_t texels = 0;
-  for (std::size_t side = this->sizeTexels_ ? std::size_t(1) << this->topLevel_ : 0; side > 0;
-       side /= 2)
-  {
-    texels += side * side;
-  }
-  return texels * static_cast<std::size_t>(this->views_) * 4 * sizeof(float);
 }
 
 //------------------------------------------------------------------------------

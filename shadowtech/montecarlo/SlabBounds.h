@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lights/ShadowLight.h"
-#include "shadowtech/base/Gl.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <cstddef>
 
@@ -27,18 +27,14 @@ public:
   /// Return an array of RGBA textures with levels, one for each view.
   GLuint texture() const { return this->texture_.name(); }
   int topLevel() const { return this->topLevel_; }
-  std::size_t bytes() const;
+  std::size_t bytes() const { return this->texture_.bytes(); }
   /// Return an upper bound of the bytes per texel of a light's map, whose side may be rounded up to
   /// the next power of two.
   static double bytesPerTexel(const ShadowLight& light);
 
 private:
-  void allocate(int sizeTexels, int views);
-
-  GlTexture texture_;
+  SizedTexture texture_;
   int topLevel_ = 0;
-  int sizeTexels_ = 0;
-  int views_ = 0;
 };
 
 } // namespace gnomon

@@ -12,7 +12,6 @@
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/SeenTriangle.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/base/VisibilityLayers.h"
 
 #include <tbb/blocked_range.h>
@@ -155,8 +154,9 @@ void Planar::drawVisibility(const LayerInput& input, LightCounts& counts)
   const std::size_t samples = sight.samples.size();
   counts.lightSamples = static_cast<int>(samples);
   this->allocate(input.receivers.width(), input.receivers.height());
-  samples > samplesPerBatch ? this->lit_.begin(this->width_, this->height_, "the samples' shadows")
-                            : this->lit_.clear();
+  samples > samplesPerBatch
+    ? this->lit_.begin(this->shadows_.width(), this->shadows_.height(), "the samples' shadows")
+    : this->lit_.clear();
   const std::int64_t pixelsOffPlanes = this->findPlanesOfPixels(input);
   for (std::size_t first = 0; first < samples; first += samplesPerBatch)
   {
@@ -173,20 +173,13 @@ void Planar::drawVisibility(const LayerInput& input, LightCounts& counts)
 //------------------------------------------------------------------------------
 void Planar::allocate(int width, int height)
 {
-  if (this->width_ == width && this->height_ == height)
-  {
-    return;
-  }
-  this->width_ = 0; // stays 0 if memory runs out
   glActiveTexture(GL_TEXTURE0);
   const TexelFormat integers{ GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT };
-  allocateTexture(this->planesOfPixels_, integers, width, height, 0, "the pixels' planes");
-  allocateTexture(this->shadows_, integers, width, height, 0, "the planes' shadows");
+  this->planesOfPixels_.allocate(integers, width, height, 0, "the pixels' planes");
+  this->shadows_.allocate(integers, width, height, 0, "the planes' shadows");
   glBindFramebuffer(GL_FRAMEBUFFER, this->shadowFramebuffer_.create());
   glFramebufferTexture2D(
     GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->shadows_.name(), 0);
-  this->width_ = width;
-  this->height_ = height;
 }
 
 //------------------------------------------------------------------------------
@@ -220,8 +213,8 @@ std::int64_t Planar::findPlanesOfPixels(const LayerInput& input)
   glBindTexture(GL_TEXTURE_2D, this->planesOfPixels_.name());
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, this->width_, this->height_, GL_RED_INTEGER,
-    GL_UNSIGNED_INT, planes.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, this->shadows_.width(), this->shadows_.height(),
+    GL_RED_INTEGER, GL_UNSIGNED_INT, planes.data());
   return std::count(planes.begin(), planes.end(), offPlanes);
 }
 
@@ -231,7 +224,7 @@ void Planar::drawShadows(const LayerInput& input, const Sight& sight, const Batc
   const std::string fragmentGlsl =
     ShaderLibrary::source("shadowtech/planar/planar_shadow.frag.glsl");
   const glm::dmat4 clipFromCentred = input.camera.clipFromCentred();
-  beginShadows(this->shadowFramebuffer_.name(), this->width_, this->height_);
+  beginShadows(this->shadowFramebuffer_.name(), this->shadows_.width(), this->shadows_.height());
   for (std::size_t i = 0; i < this->planes_.planes().size(); ++i)
   {
     const ReceiverPlane& receiver = this->planes_.planes()[i];
@@ -320,9 +313,7 @@ void Planar::noteWhatIsLeftOut(const LayerInput& input) const
 //------------------------------------------------------------------------------
 std::size_t Planar::bytesOfMaps() const
 {
-  const auto pixels =
-    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
-  return 2 * pixels * sizeof(float) + this->lit_.bytes();
+  return this->planesOfPixels_.bytes() + this->shadows_.bytes() + this->lit_.bytes();
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/RunningSum.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/planar/ReceiverPlanes.h"
 
 #include <cstddef>
@@ -32,12 +33,10 @@ private:
   void noteWhatIsLeftOut(const LayerInput& input) const;
 
   ReceiverPlanes planes_;
-  GlTexture planesOfPixels_;
-  GlTexture shadows_;
+  SizedTexture planesOfPixels_;
+  SizedTexture shadows_;
   RunningSum lit_; ///< number of samples that are seen, summed over batches
   GlFramebuffer shadowFramebuffer_;
-  int width_ = 0;
-  int height_ = 0;
 };
 
 } // namespace gnomon
