@@ -1,10 +1,8 @@
 #include "shadowtech/Registry.h"
 
 #include "lights/LightViews.h"
-#include "shadowtech/adaptive/Adaptive.h"
-#include "shadowtech/depth_map/Compare.h"
 #include "shadowtech/depth_map/Pcf.h"
-#include "shadowtech/exact/ExactTechniques.h"
+#include "shadowtech/exact/ConservativeTechnique.h"
 #include "shadowtech/moment_map/MomentEstimators.h"
 #include "shadowtech/montecarlo/MonteCarlo.h"
 #include "shadowtech/pcss/Pcss.h"
@@ -14,8 +12,7 @@
 #include "shadowtech/published/PublishedPcss.h"
 #include "shadowtech/raytraced/Raytraced.h"
 #include "shadowtech/sampled/Sampled.h"
-#include "shadowtech/selective/Coherence.h"
-#include "shadowtech/selective/Selective.h"
+#include "shadowtech/selective/ChainTechnique.h"
 
 #include <algorithm>
 #include <memory>
@@ -26,10 +23,6 @@ namespace gnomon
 {
 namespace
 {
-
-///@{
-/// The exact techniques of lights at rest that leave their technique to the pass.
-///@}
 
 template <typename Estimator>
 constexpr Evaluation evaluationOf()
@@ -53,9 +46,24 @@ EstimatorEntry entry()
   return makeEntry<Estimator>(Estimator::info());
 }
 
+EstimatorEntry entryOf(Pcf::Kernel kernel)
+{
+  return makeEntry<Pcf>(Pcf::info(kernel), kernel);
+}
+
 EstimatorEntry entryOf(const MomentEstimator& estimator)
 {
   return makeEntry<MomentMapTechnique>(estimator.info, estimator);
+}
+
+EstimatorEntry entryOf(const ChainEntry& chain)
+{
+  return makeEntry<ChainTechnique>(chain.info, chain.stagesOf);
+}
+
+EstimatorEntry entryOf(const ConservativeEntry& conservative)
+{
+  return makeEntry<ConservativeTechnique>(conservative.info, conservative.rule);
 }
 
 const std::string& nameOf(const EstimatorEntry& entry)
@@ -90,9 +98,9 @@ std::vector<std::string> namesOf(const std::vector<Entry>& entries)
 std::vector<EstimatorEntry> makeEstimators()
 {
   std::vector<EstimatorEntry> entries = {
-    entry<Adaptive>(),
+    entryOf(Pcf::Kernel::JitteredDisc),
     entry<Compare>(),
-    entry<Pcf>(),
+    entryOf(Pcf::Kernel::Chosen),
     entry<Pcss>(),
     entry<PublishedPcss>(),
     entryOf(singleExponential()),
@@ -103,15 +111,15 @@ std::vector<EstimatorEntry> makeEstimators()
     entry<Planar>(),
     entry<Raytraced>(),
     entry<Sampled>(),
-    entry<Coherence>(),
-    entry<Selective>(),
+    entryOf(coherence()),
+    entryOf(selective()),
     entry<Penumbra>(),
   };
   for (const auto& table : { exactTechniques(), publishedCrsm() })
   {
     for (const ConservativeEntry& conservative : table)
     {
-      entries.push_back(makeEntry<ConservativeTechnique>(conservative.info, conservative.rule));
+      entries.push_back(entryOf(conservative));
     }
   }
   return entries;

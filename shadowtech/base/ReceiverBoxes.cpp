@@ -49,8 +49,7 @@ Bounds boxOf(
     {
       if (receivers.surface[i] != ReceiverPixels::notCovered)
       {
-        const glm::vec3 position(
-          receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
+        const glm::vec3 position = receivers.position(i);
         lower = glm::min(lower, position);
         upper = glm::max(upper, position);
         const float height = receivers.curved[i] != 0 ? receivers.curves[i].height : 0.0f;

@@ -89,18 +89,10 @@ void projectFlat(
     const double t = glm::dot(edge - origin, direction) / glm::dot(direction, direction);
     const double footprint = glm::length(rays.originPerRow + t * rays.directionPerRow);
     const glm::dvec3 position = inwards(edge, seen.corners, footprint);
-    const std::size_t i = first + j;
-    receivers.positionX[i] = static_cast<float>(position.x);
-    receivers.positionY[i] = static_cast<float>(position.y);
-    receivers.positionZ[i] = static_cast<float>(position.z);
-    receivers.offset[i] = shadowRayOffset(seen.noise, static_cast<float>(footprint));
-    if (seen.normal == glm::vec3(0.0f))
-    {
-      const glm::vec3 toCamera = -glm::normalize(direction);
-      receivers.normalX[i] = toCamera.x;
-      receivers.normalY[i] = toCamera.y;
-      receivers.normalZ[i] = toCamera.z;
-    }
+    const glm::vec3 normal =
+      seen.normal == glm::vec3(0.0f) ? glm::vec3(-glm::normalize(direction)) : seen.normal;
+    receivers.put(first + j, position, normal,
+      shadowRayOffset(seen.noise, static_cast<float>(footprint)), seen.surface);
   }
 }
 
@@ -135,20 +127,10 @@ void projectSolid(
     const double t = glm::dot(point.position - origin, direction) / glm::dot(direction, direction);
     const auto footprint =
       static_cast<float>(glm::length(rays.originPerRow + t * rays.directionPerRow));
-    const glm::vec3 position(point.position);
-    const glm::vec3 normal(point.normal);
     const float noise = noiseOf(*seen.solid, point);
-    const std::size_t i = span.first + j;
-    receivers.positionX[i] = position.x;
-    receivers.positionY[i] = position.y;
-    receivers.positionZ[i] = position.z;
-    receivers.normalX[i] = normal.x;
-    receivers.normalY[i] = normal.y;
-    receivers.normalZ[i] = normal.z;
-    receivers.offset[i] =
-      point.isMet ? shadowRayOffsetInside(noise, footprint) : shadowRayOffset(noise, footprint);
-    receivers.surface[i] = seen.surface;
-    receivers.curved[i] = 0;
+    receivers.put(span.first + j, point.position, point.normal,
+      point.isMet ? shadowRayOffsetInside(noise, footprint) : shadowRayOffset(noise, footprint),
+      seen.surface);
   }
 }
 

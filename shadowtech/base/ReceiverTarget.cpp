@@ -1,7 +1,6 @@
 #include "shadowtech/base/ReceiverTarget.h"
 
 #include "shadowtech/base/GlState.h"
-#include "shadowtech/base/TextureMemory.h"
 
 namespace gnomon
 {
@@ -35,8 +34,8 @@ void ReceiverTarget::allocate(int width, int height, bool withPoints)
 {
   const GlStateGuard guard;
   this->width_ = 0; // in case the allocation fails
-  const auto allocate = [&](GlTexture& texture, const TexelFormat& format)
-  { allocateTexture(texture, format, width, height, 0, "the receivers' image"); };
+  const auto allocate = [&](SizedTexture& texture, const TexelFormat& format)
+  { texture.allocate(format, width, height, 0, "the receivers' image"); };
   allocate(this->fragments_,
     withPoints ? TexelFormat{ GL_RGBA32F, GL_RGBA, 4 } : TexelFormat{ GL_RG32F, GL_RG, 2 });
   allocate(this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 });
@@ -115,10 +114,7 @@ void ReceiverTarget::readDepths(std::vector<float>& depths) const
 //------------------------------------------------------------------------------
 std::size_t ReceiverTarget::bytes() const
 {
-  // Fragments of two floats and a depth; with points, two normal components and a point of four.
-  const std::size_t floats = this->withPoints_ ? 9 : 3;
-  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * floats *
-    sizeof(float);
+  return this->fragments_.bytes() + this->points_.bytes() + this->depth_.bytes();
 }
 
 } // namespace gnomon

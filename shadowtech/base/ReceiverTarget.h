@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <glm/glm.hpp>
 
@@ -53,9 +54,9 @@ private:
   void allocate(int width, int height, bool withPoints);
 
   GlFramebuffer framebuffer_;
-  GlTexture fragments_;
-  GlTexture points_;
-  GlTexture depth_;
+  SizedTexture fragments_;
+  SizedTexture points_;
+  SizedTexture depth_;
   GLint outerDrawFramebuffer_ = 0;
   GLint outerReadFramebuffer_ = 0;
   int width_ = 0;

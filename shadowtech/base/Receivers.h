@@ -60,6 +60,28 @@ struct ReceiverPixels
   {
     return static_cast<std::size_t>(this->width) * static_cast<std::size_t>(this->height);
   }
+  glm::vec3 position(std::size_t i) const
+  {
+    return { this->positionX[i], this->positionY[i], this->positionZ[i] };
+  }
+  glm::vec3 normal(std::size_t i) const
+  {
+    return { this->normalX[i], this->normalY[i], this->normalZ[i] };
+  }
+  /// Set a receiver without a curve.
+  void put(std::size_t i, const glm::vec3& position, const glm::vec3& normal, float ofStart,
+    std::uint32_t ofSurface)
+  {
+    this->positionX[i] = position.x;
+    this->positionY[i] = position.y;
+    this->positionZ[i] = position.z;
+    this->normalX[i] = normal.x;
+    this->normalY[i] = normal.y;
+    this->normalZ[i] = normal.z;
+    this->offset[i] = ofStart;
+    this->surface[i] = ofSurface;
+    this->curved[i] = 0;
+  }
   void resize(int newWidth, int newHeight, bool withCurves = false)
   {
     this->width = newWidth;

@@ -3,6 +3,7 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <array>
 #include <cstddef>
@@ -43,12 +44,10 @@ public:
 
 private:
   int channels_;
-  std::array<GlTexture, 2> images_; ///< the newest sum and the next one's target
+  std::array<SizedTexture, 2> images_; ///< the newest sum and the next one's target
   std::size_t newest_ = 0;
   bool isEmpty_ = true;
   ScreenPass screenPass_;
-  int width_ = 0;
-  int height_ = 0;
 };
 
 } // namespace gnomon

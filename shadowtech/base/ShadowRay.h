@@ -15,50 +15,11 @@ namespace gnomon
 
 /// @file
 /// The one shadow ray of the project: where it starts, where it goes, and when none is needed.
-/// shadow_ray.glsl is its twin; docs/theory/shadow_ray.md is the short version of this comment.
+/// shadow_ray.glsl is its twin.
 ///
-/// The offset of the start from the surface follows from rounding. Let u = 2^-24 be the unit
-/// roundoff of float and N a triangle's unit normal. M is its largest centred coordinates by
-/// magnitude along each axis; X, Y, Z are the extent of its box; A is twice its area. The receiver
-/// was found on the triangle in double precision. The remaining errors are:
-///
-/// - Storage. Rounding the receiver to float moves it by at most u M_i along axis i, so off the
-///   plane by u sum |N_i| M_i. Adding the offset and rounding the ray's origin costs the same
-///   again: together 2u sum |N_i| M_i. It is zero for the centred frame's own planes.
-/// - Intersection. The ray O + t D is tested by the sign of T = (v0 - O) . (v1 - v0) x (v2 - v0).
-///   Rounding the vertices relative to O to u per axis moves their plane by u sum |N_i| X_i. That
-///   is at most 3u XYZ/A, as |N_i| A <= X_j X_k. Each edge is rounded once more. A component of the
-///   cross product is two products of two edges and a subtraction: 7u X_j X_k. Times v0, summed
-///   over three axes, that is 21u XYZ. The dot product's own rounding adds at most 9u XYZ. Together
-///   33u XYZ/A: a forward error bound of Embree's robust test. A sliver has a small A, hence a
-///   large bound. The bound ends at 1/1024 of the longest side, which is reached at about 1000:1,
-///   because rays would otherwise start somewhere else altogether.
-///
-/// planeNoise() is the sum of both, with 32u for 33u. No rounding reaches that: random triangles
-/// come to 0.7 of it. The offset is twice the noise, so that half the offset still holds.
-///
-/// - Instances. A ray is transformed to source coordinates, x_i = r_i.O + p_i. Here r_i are the
-///   rows of the inverse of the matrix (L, T), and p_i = -r_i.T, all in float as in Embree. The
-///   test that follows is affine. So an error of x_i counts in the world by L's column c_i: along N
-///   by N.c_i. The sum of four terms rounds to 4u (|r_i|.|O| + |p_i|), p_i itself to 3u |r_i|.|T|:
-///   at most 8u |r_i|.M + 8u |r_i|.|T|, component by component. The rows are off as well, alike in
-///   both of the sum's parts, so by dr_i.(O - T), where O is no farther from T than the triangle's
-///   corners. A cross product of two columns a, b is off by 2 sqrt(3) u |a||b|; for a skewness h
-///   (Instances.h) that is 2 sqrt(3) h u of its length. The determinant is off by (3 + 2 sqrt(3)) h
-///   u of itself, and dividing by it costs 5u. With h <= 2 all of this is less than 32u.
-///   instanceNoise() is the sum of these, and the intersection's rounding with the extent of the
-///   box in source coordinates, X'Y'Z' |det L| / A.
-///
-/// - Solids (Solid.h). Their rays are tested in double precision, so only storage counts. Storage
-///   also moves a receiver along the curved surface, hence off it by M^2 u^2 / 2R. That is less
-///   than the storage along the normal unless the radius R is below float's spacing.
-///
-/// - Footprint. A rasteriser snaps vertices to 1/256 pixel. So a fragment near an edge may lie past
-///   the edge by as much, behind the next triangle of a concave surface. There the offset grows by
-///   1/256 of the pixel's side. This moves a shadow's edge by as much times the cotangent of the
-///   light's elevation, which is invisible, but can be counted where edges are dense. A receiver
-///   known to lie inside its triangle therefore gets only 1/256 of that. This share only has to
-///   exceed 0, which is the noise of the centred frame's own planes.
+/// It starts off the surface by twice the rounding that a receiver and a float tracer may have,
+/// planeNoise() plus instanceNoise(), so that half the offset still holds. To that comes a share of
+/// the pixel's side. docs/theory/shadow_ray.md derives the bounds.
 
 /// Return how far off a surface float storage may move a receiver on it and its ray's origin.
 ///

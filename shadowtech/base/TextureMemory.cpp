@@ -20,10 +20,15 @@ struct TextureShape
 
   double bytes() const
   {
-    const double smaller = this->levels > 1 ? 4.0 / 3.0 : 1.0; // 1 + 1/4 + 1/16 + ...
-    const double bytesOfChannel = this->format.type == GL_UNSIGNED_BYTE ? 1.0 : 4.0;
-    return smaller * bytesOfChannel * this->format.channels * this->width * this->height *
-      (this->layers > 0 ? this->layers : 1);
+    const double bytesOfChannel = this->format.type == GL_UNSIGNED_BYTE ? 1.0
+      : this->format.type == GL_UNSIGNED_SHORT                          ? 2.0
+                                                                        : 4.0;
+    double texels = 0.0;
+    for (int level = 0; level < this->levels; ++level)
+    {
+      texels += static_cast<double>(this->width >> level) * (this->height >> level);
+    }
+    return texels * bytesOfChannel * this->format.channels * (this->layers > 0 ? this->layers : 1);
   }
 };
 
@@ -167,6 +172,52 @@ void allocateMap(
     });
   clearErrors();
   throw TextureMemoryError(describe(shape, "a map") + offer);
+}
+
+//------------------------------------------------------------------------------
+/// Return true if the texture has this shape; else note the shape for its allocation.
+bool SizedTexture::has(const TexelFormat& format, int width, int height, int layers, int levels)
+{
+  const bool same = *this && this->format_.internalFormat == format.internalFormat &&
+    this->width_ == width && this->height_ == height && this->layers_ == layers &&
+    this->levels_ == levels;
+  this->format_ = format;
+  this->width_ = width;
+  this->height_ = height;
+  this->layers_ = layers;
+  this->levels_ = levels;
+  return same;
+}
+
+//------------------------------------------------------------------------------
+bool SizedTexture::allocate(
+  const TexelFormat& format, int width, int height, int layers, const char* what, int levels)
+{
+  if (this->has(format, width, height, layers, levels))
+  {
+    return false;
+  }
+  allocateTexture(*this, format, width, height, layers, what, levels);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool SizedTexture::allocateMap(const TexelFormat& format, int sizeTexels, int layers, int levels)
+{
+  if (this->has(format, sizeTexels, sizeTexels, layers, levels))
+  {
+    return false;
+  }
+  gnomon::allocateMap(*this, format, sizeTexels, layers, levels);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::size_t SizedTexture::bytes() const
+{
+  const TextureShape shape{ this->format_, this->width_, this->height_, this->layers_,
+    this->levels_ };
+  return *this ? static_cast<std::size_t>(shape.bytes()) : 0;
 }
 
 //------------------------------------------------------------------------------

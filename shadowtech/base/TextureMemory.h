@@ -42,6 +42,32 @@ void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, i
 void allocateMap(
   GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers, int levels = 1);
 
+/// A texture that is allocated again only if its shape changes.
+class SizedTexture : public GlTexture
+{
+public:
+  /// Give it a shape, by allocateTexture(). A texture of that shape keeps its texels.
+  /// @return true if it was allocated, and is bound
+  bool allocate(
+    const TexelFormat& format, int width, int height, int layers, const char* what, int levels = 1);
+  /// The same for a light's map, by allocateMap().
+  bool allocateMap(const TexelFormat& format, int sizeTexels, int layers, int levels = 1);
+
+  const TexelFormat& format() const { return this->format_; }
+  int width() const { return this->width_; }
+  int height() const { return this->height_; }
+  int layers() const { return this->layers_; }
+  int levels() const { return this->levels_; }
+  /// Return the bytes of its texels; 0 if it has none.
+  std::size_t bytes() const;
+
+private:
+  bool has(const TexelFormat& format, int width, int height, int layers, int levels);
+
+  TexelFormat format_{};
+  int width_ = 0, height_ = 0, layers_ = 0, levels_ = 0;
+};
+
 /// Check that there is memory for a light's map on the CPU, before its layers are made.
 /// @throws TextureMemoryError with the largest power of two that fits as the map's side
 void requireRoomForMap(std::size_t bytesOfTexel, int sizeTexels, int layers);

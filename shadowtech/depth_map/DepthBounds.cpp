@@ -10,17 +10,10 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-void DepthBounds::release()
-{
-  this->bounds_.reset();
-  this->bytes_ = 0;
-}
-
-//------------------------------------------------------------------------------
 void DepthBounds::bake(GLuint map, int sizeTexels, int layers, ShaderLibrary& shaders)
 {
   const GlStateGuard guard;
-  this->release();
+  this->release(); // frees the old bounds' memory first
   // A power of two, so that each block consists of 2 x 2 smaller blocks.
   int side = 1;
   while (2 * side < sizeTexels)
@@ -32,15 +25,9 @@ void DepthBounds::bake(GLuint map, int sizeTexels, int layers, ShaderLibrary& sh
   {
     ++levels;
   }
-  allocateTexture(
-    this->bounds_, { GL_RG32F, GL_RG, 2 }, side, side, layers, "the depth bounds of a map", levels);
+  this->bounds_.allocate(
+    { GL_RG32F, GL_RG, 2 }, side, side, layers, "the depth bounds of a map", levels);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
-  for (int blocks = side; blocks >= 1; blocks /= 2)
-  {
-    this->bytes_ += static_cast<std::size_t>(blocks) * static_cast<std::size_t>(blocks) *
-      static_cast<std::size_t>(layers) * sizeof(glm::vec2);
-  }
-
   const GLuint program =
     ScreenPass::use(shaders, ShaderLibrary::source("shadowtech/depth_map/depth_bounds.frag.glsl"));
   for (int level = 0; level < levels; ++level)

@@ -3,6 +3,7 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <cstddef>
 
@@ -23,18 +24,17 @@ public:
   /// @throws TextureMemoryError
   void bake(GLuint map, int sizeTexels, int layers, ShaderLibrary& shaders);
   /// Free the pyramid.
-  void release();
+  void release() { this->bounds_.reset(); }
 
   /// True if the pyramid is built.
   explicit operator bool() const { return static_cast<bool>(this->bounds_); }
-  std::size_t bytes() const { return this->bytes_; }
+  std::size_t bytes() const { return this->bounds_.bytes(); }
   /// Return the uniform of depth_bounds.glsl.
   Uniform uniform() const;
 
 private:
-  GlTexture bounds_;
+  SizedTexture bounds_;
   ScreenPass screenPass_;
-  std::size_t bytes_ = 0;
 };
 
 } // namespace gnomon

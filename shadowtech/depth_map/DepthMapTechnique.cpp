@@ -9,7 +9,6 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/depth_map/DepthBounds.h"
 
 #include <algorithm>
@@ -104,11 +103,13 @@ void drawView(std::size_t number, const MapReach& reach, const Layer& layer, con
       layer.backOnly });
 }
 
-/// Allocate a map of depths; it is bound afterwards.
-void allocateDepths(GlTexture& texture, int sizeTexels, int layers)
+/// Allocate a map of depths.
+void allocateDepths(SizedTexture& texture, int sizeTexels, int layers)
 {
-  allocateMap(texture, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, layers);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  if (texture.allocateMap({ GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, layers))
+  {
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  }
 }
 
 /// Attach a layer as the bound framebuffer's depth.
@@ -127,34 +128,21 @@ bool measuresAlongRay(const ShadowLight& light)
 }
 
 //------------------------------------------------------------------------------
-void DepthMapTechnique::allocate(int sizeTexels, int layers)
-{
-  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers)
-  {
-    return;
-  }
-  this->sizeTexels_ = 0; // in case the allocation fails
-  this->layers_ = 0;
-  allocateDepths(this->map_, sizeTexels, layers);
-  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
-  glDrawBuffer(GL_NONE);
-  glReadBuffer(GL_NONE);
-  this->sizeTexels_ = sizeTexels;
-  this->layers_ = layers;
-}
-
-//------------------------------------------------------------------------------
 void DepthMapTechnique::bake(const MapInput& input)
 {
   const GlStateGuard guard;
   const std::vector<LightView>& views = input.views.views;
   // A light without a view still needs a texture to bind.
-  this->allocate(input.light.mapSizeTexels, std::max(static_cast<int>(views.size()), 1));
+  allocateDepths(
+    this->map_, input.light.mapSizeTexels, std::max(static_cast<int>(views.size()), 1));
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
   this->views_ = input.views;
   this->viewFits_ = input.viewFits;
   this->reach_ = this->mapReach(input.light);
 
-  beginCasters(this->framebuffer_.name(), this->sizeTexels_);
+  beginCasters(this->framebuffer_.name(), this->map_.width());
   if (input.light.depthMap.surface == DepthSurface::Midpoint)
   {
     this->bakeMidpoints(input);
@@ -178,15 +166,15 @@ void DepthMapTechnique::bake(const MapInput& input)
 /// surfaces, draw their midpoint over the pushed first one.
 void DepthMapTechnique::bakeMidpoints(const MapInput& input)
 {
-  GlTexture front;
-  GlTexture back;
+  SizedTexture front;
+  SizedTexture back;
   const int layers = static_cast<int>(input.views.views.size());
   if (layers == 0)
   {
     return;
   }
-  allocateDepths(front, this->sizeTexels_, layers);
-  allocateDepths(back, this->sizeTexels_, layers);
+  allocateDepths(front, this->map_.width(), layers);
+  allocateDepths(back, this->map_.width(), layers);
   for (std::size_t i = 0; i < input.views.views.size(); ++i)
   {
     Layer unpushed;
@@ -217,14 +205,13 @@ void DepthMapTechnique::bakeMidpoints(const MapInput& input)
 //------------------------------------------------------------------------------
 void DepthMapTechnique::bakeBounds(DepthBounds& bounds, ShaderLibrary& shaders) const
 {
-  bounds.bake(this->map_.name(), this->sizeTexels_, this->layers_, shaders);
+  bounds.bake(this->map_.name(), this->map_.width(), this->map_.layers(), shaders);
 }
 
 //------------------------------------------------------------------------------
 std::size_t DepthMapTechnique::bytesOfMaps() const
 {
-  return static_cast<std::size_t>(this->layers_) * static_cast<std::size_t>(this->sizeTexels_) *
-    static_cast<std::size_t>(this->sizeTexels_) * sizeof(float);
+  return this->map_.bytes();
 }
 
 //------------------------------------------------------------------------------
@@ -251,11 +238,11 @@ std::string DepthMapTechnique::visibilityGlsl(const ShadowLight& light) const
 std::vector<Uniform> DepthMapTechnique::uniforms(const ReceiverSpace& space) const
 {
   std::vector<Uniform> uniforms =
-    lightViewsUniforms(this->views_, this->sizeTexels_, space, this->viewFits_);
+    lightViewsUniforms(this->views_, this->map_.width(), space, this->viewFits_);
   uniforms.push_back(
     { "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
   const double followed =
-    this->reach_.largestTexels(mostTexelsAcross(this->views_, this->sizeTexels_)) /
+    this->reach_.largestTexels(mostTexelsAcross(this->views_, this->map_.width())) /
     MapReach{}.largestTexels();
   uniforms.push_back(depthSlacks(followed));
   for (std::size_t i = 0; i < this->views_.views.size(); ++i)

@@ -1,9 +1,10 @@
 #include "shadowtech/depth_map/Pcf.h"
 
+#include "shadowtech/base/GlState.h"
 #include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/depth_map/PoissonDisc.h"
+#include "shadowtech/depth_map/KernelPoints.h"
 
 namespace gnomon
 {
@@ -40,16 +41,46 @@ std::string refusedKernel(const ShadowLight& light)
     : "";
 }
 
+bool readsBounds(const ShadowLight& light)
+{
+  return light.earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
-TechniqueInfo Pcf::info()
+TechniqueInfo Compare::info()
 {
   TechniqueInfo info;
-  info.name = "pcf";
+  info.name = "compare";
   info.bytesPerTexel = bytesPerTexel;
-  info.settings = { &viewSettings(), &kernelSettings(), &pcfSettings(), &depthMapSettings() };
-  info.refused = { refusedKernel };
+  info.settings = { &viewSettings(), &depthMapSettings() };
+  return info;
+}
+
+//------------------------------------------------------------------------------
+std::string Compare::estimatorGlsl(const ShadowLight&) const
+{
+  return ShaderLibrary::source("shadowtech/depth_map/compare_estimator.glsl");
+}
+
+//------------------------------------------------------------------------------
+TechniqueInfo Pcf::info(Kernel kernel)
+{
+  TechniqueInfo info;
+  if (kernel == Kernel::Chosen)
+  {
+    info.name = "pcf";
+    info.bytesPerTexel = bytesPerTexel;
+    info.settings = { &viewSettings(), &kernelSettings(), &pcfSettings(), &depthMapSettings() };
+    info.refused = { refusedKernel };
+    return info;
+  }
+  info.name = "adaptive";
+  info.bytesPerTexel = bytesPerTexelWithBounds;
+  info.settings = { &viewSettings(), &kernelSettings(), &adaptiveSettings(), &earlyOutSettings(),
+    &depthMapSettings() };
+  info.kernel = "disc";
   return info;
 }
 
@@ -58,36 +89,109 @@ MapReach Pcf::mapReach(const ShadowLight& light) const
 {
   const KernelUnits units = kernelUnits(light);
   const double width = light.kernel.sizeTexels;
-  switch (light.pcf.kernel)
+  if (this->isDisc_ || light.pcf.kernel == FilterKernel::Poisson)
   {
-    case FilterKernel::Bilinear:
-    case FilterKernel::Castano:
-      return units == KernelUnits::Across ? kernelReach(light, { 1.0, 0.5 * (width - 1.0), 0.0 })
-                                          : kernelReach(light, { 0.0, 0.5 * (width + 1.0), 0.0 });
-    case FilterKernel::Box:
-      return kernelReach(light, { 0.5, 0.5 * (width - 1.0), 0.0 });
-    case FilterKernel::Poisson:
-      return kernelReach(light, { 0.5, 0.0, 0.5 * width });
+    return kernelReach(light, { 0.5, 0.0, 0.5 * width });
   }
-  return {};
+  if (light.pcf.kernel == FilterKernel::Box)
+  {
+    return kernelReach(light, { 0.5, 0.5 * (width - 1.0), 0.0 });
+  }
+  return units == KernelUnits::Across ? kernelReach(light, { 1.0, 0.5 * (width - 1.0), 0.0 })
+                                      : kernelReach(light, { 0.0, 0.5 * (width + 1.0), 0.0 });
+}
+
+//------------------------------------------------------------------------------
+void Pcf::bake(const MapInput& input)
+{
+  this->DepthMapTechnique::bake(input);
+  if (!this->isDisc_)
+  {
+    return;
+  }
+  const GlStateGuard guard;
+  this->bakeDiscs(input.light.adaptive);
+  this->bounds_.release();
+  if (readsBounds(input.light))
+  {
+    this->bakeBounds(this->bounds_, input.shaders);
+  }
+}
+
+//------------------------------------------------------------------------------
+void Pcf::bakeDiscs(const AdaptiveSettings& settings)
+{
+  const int sets = settings.discSets;
+  const int points = settings.discGrid * settings.discGrid;
+  if (!this->discs_.allocate({ GL_RG32F, GL_RG, 2 }, sets, sets, points, "a table of discs"))
+  {
+    return;
+  }
+  const int discs = sets * sets;
+  const std::vector<glm::vec2> byDisc = jitteredDiscs(settings.discGrid, discs);
+  std::vector<glm::vec2> byPoint;
+  byPoint.reserve(byDisc.size());
+  for (int point = 0; point < points; ++point)
+  {
+    for (int disc = 0; disc < discs; ++disc)
+    {
+      byPoint.push_back(byDisc[static_cast<std::size_t>(disc * points + point)]);
+    }
+  }
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage3D(
+    GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, sets, sets, points, GL_RG, GL_FLOAT, byPoint.data());
+}
+
+//------------------------------------------------------------------------------
+std::size_t Pcf::bytesOfMaps() const
+{
+  return this->DepthMapTechnique::bytesOfMaps() + this->bounds_.bytes() + this->discs_.bytes();
+}
+
+//------------------------------------------------------------------------------
+std::vector<Uniform> Pcf::uniforms(const ReceiverSpace& space) const
+{
+  std::vector<Uniform> uniforms = this->DepthMapTechnique::uniforms(space);
+  if (this->isDisc_)
+  {
+    uniforms.push_back(
+      { "discs_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->discs_.name() } });
+  }
+  if (this->bounds_)
+  {
+    uniforms.push_back(this->bounds_.uniform());
+  }
+  return uniforms;
 }
 
 //------------------------------------------------------------------------------
 std::string Pcf::estimatorGlsl(const ShadowLight& light) const
 {
+  const std::string source = ShaderLibrary::source("shadowtech/depth_map/pcf_estimator.glsl");
+  const std::string common = kernelDefines(light) +
+    glslDefine("PCF_TEXELS_LIGHT", light.kernel.sizeTexels) +
+    glslDefine("PCF_DISC_LIGHT", this->isDisc_);
+  if (this->isDisc_)
+  {
+    return common + glslDefine("DISC_RING_LIGHT", light.adaptive.discGrid) +
+      glslDefine("DISC_POINTS_LIGHT", light.adaptive.discGrid * light.adaptive.discGrid) +
+      glslDefine("DISC_SETS_LIGHT", light.adaptive.discSets) +
+      glslDefine("DISC_ASKS_RING_LIGHT", light.earlyOut == EarlyOut::Ring) +
+      glslDefine("DISC_ASKS_BOUNDS_LIGHT", readsBounds(light)) + source;
+  }
   const KernelUnits units = kernelUnits(light);
   const bool poisson = light.pcf.kernel == FilterKernel::Poisson;
   const bool castano = light.pcf.kernel == FilterKernel::Castano;
   const bool smooth = castano || light.pcf.kernel == FilterKernel::Bilinear;
   const bool rows = light.pcf.kernel == FilterKernel::Bilinear && units == KernelUnits::Texels;
   const bool weighted = smooth && !rows && units != KernelUnits::Across;
-  return kernelDefines(light) + glslDefine("PCF_TEXELS_LIGHT", light.kernel.sizeTexels) +
-    glslDefine("PCF_ROWS_LIGHT", rows) + glslDefine("PCF_WEIGHTED_LIGHT", weighted) +
+  return common + glslDefine("PCF_ROWS_LIGHT", rows) + glslDefine("PCF_WEIGHTED_LIGHT", weighted) +
     glslDefine("PCF_POISSON_LIGHT", poisson) + glslDefine("PCF_POINTS_LIGHT", poissonPoints) +
     glslDefine("PCF_BOX_LIGHT", light.pcf.kernel == FilterKernel::Box) +
     glslDefine("PCF_CASTANO_LIGHT", castano) + (poisson ? poissonDiscGlsl() : "") +
-    (castano ? castanoGlsl(light.kernel.sizeTexels) : "") +
-    ShaderLibrary::source("shadowtech/depth_map/pcf_estimator.glsl");
+    (castano ? castanoGlsl(light.kernel.sizeTexels) : "") + source;
 }
 
 } // namespace gnomon

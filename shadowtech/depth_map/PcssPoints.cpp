@@ -3,8 +3,7 @@
 #include "lights/LightSamples.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/GlslText.h"
-#include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/depth_map/PoissonSquare.h"
+#include "shadowtech/depth_map/KernelPoints.h"
 
 #include <array>
 
@@ -49,18 +48,11 @@ void PcssPoints::upload(PcssSamples samples, LightArea::Shape shape)
   const GlStateGuard guard;
   const std::vector<glm::vec2> points = pcssPoints(samples, shape);
   const int count = static_cast<int>(points.size());
-  allocateTexture(this->texture_, { GL_RG32F, GL_RG, 2 }, count, 1, 0, "points of a light");
+  this->texture_.allocate({ GL_RG32F, GL_RG, 2 }, count, 1, 0, "points of a light");
+  glBindTexture(GL_TEXTURE_2D, this->texture_.name());
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, count, 1, GL_RG, GL_FLOAT, points.data());
-  this->bytes_ = points.size() * sizeof(glm::vec2);
-}
-
-//------------------------------------------------------------------------------
-void PcssPoints::release()
-{
-  this->texture_.reset();
-  this->bytes_ = 0;
 }
 
 //------------------------------------------------------------------------------

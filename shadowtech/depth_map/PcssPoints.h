@@ -3,6 +3,7 @@
 #include "lights/LightArea.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <glm/glm.hpp>
 
@@ -26,7 +27,7 @@ PcssCounts pcssCounts(PcssSamples samples);
 std::string pcssCountsDefines(PcssSamples samples);
 
 /// Return the points of both steps, one after the other, on the shape of radius or half side 1:
-/// Poisson sets (PoissonSquare.h), mapped to disks by the concentric map.
+/// Poisson sets (poissonSquare()), mapped to disks by the concentric map.
 std::vector<glm::vec2> pcssPoints(PcssSamples samples, LightArea::Shape shape);
 
 /// The points of pcssPoints() on the GPU: one row of a texture, the shaders' `lightPoints_LIGHT`.
@@ -37,14 +38,13 @@ public:
   /// @throws TextureMemoryError
   void upload(PcssSamples samples, LightArea::Shape shape);
   /// Free the texture.
-  void release();
+  void release() { this->texture_.reset(); }
   /// Return the uniform of the texture.
   Uniform uniform() const;
-  std::size_t bytes() const { return this->bytes_; }
+  std::size_t bytes() const { return this->texture_.bytes(); }
 
 private:
-  GlTexture texture_;
-  std::size_t bytes_ = 0;
+  SizedTexture texture_;
 };
 
 } // namespace gnomon

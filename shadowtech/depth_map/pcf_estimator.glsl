@@ -1,6 +1,8 @@
 // Percentage closer filtering (Reeves, Salesin and Cook 1987): the share of the light's kernel that
 // nothing hides. Pcf.h describes the kernels; PCF_TEXELS_LIGHT is their width. Macros select how
 // the map is read:
+// - PCF_DISC_LIGHT: DISC_POINTS_LIGHT points of a disc, of which the first DISC_RING_LIGHT lie on its
+//   rim, and fewer where the whole disc is lit or hidden;
 // - PCF_ROWS_LIGHT: the bilinear kernel in units of texels;
 // - PCF_WEIGHTED_LIGHT: all texels of a bilinear or Castano's kernel;
 // - PCF_POISSON_LIGHT: points of a disc;
@@ -11,6 +13,51 @@
 #include "shadowtech/base/kernel_units.glsl"
 #include "shadowtech/base/share.glsl"
 #include "shadowtech/depth_map/kernel.glsl"
+
+#if PCF_DISC_LIGHT
+
+#if DISC_ASKS_BOUNDS_LIGHT
+#include "shadowtech/depth_map/depth_bounds.glsl"
+#endif
+
+uniform sampler2DArray discs_LIGHT; // a layer for each point, a texel for each disc
+
+// Return the sum of hidden shares over some of the disc's points.
+float hiddenOf_LIGHT(ViewPoint point, mat2 shape, ivec2 disc, int first, int end, float slack)
+{
+  float hidden = 0.0;
+  for (int i = first; i < end; ++i)
+  {
+    vec2 offset = shape * texelFetch(discs_LIGHT, ivec3(disc, i), 0).rg;
+    hidden += hidden_LIGHT(point, ivec2(floor(point.texel + offset)), slack);
+  }
+  return hidden;
+}
+
+float estimate_LIGHT(ViewPoint point, float slack)
+{
+  mat2 shape = 0.5 * float(PCF_TEXELS_LIGHT) * kernelShape_LIGHT(point);
+#if DISC_ASKS_BOUNDS_LIGHT
+  vec2 reach = vec2(length(vec2(shape[0].x, shape[1].x)), length(vec2(shape[0].y, shape[1].y)));
+  float decided = decided_LIGHT(point, reach, slack);
+  if (decided >= 0.0)
+  {
+    return decided;
+  }
+#endif
+  ivec2 disc = ivec2(4.0 * point.texel) % DISC_SETS_LIGHT;
+  float hidden = hiddenOf_LIGHT(point, shape, disc, 0, DISC_RING_LIGHT, slack);
+#if DISC_ASKS_RING_LIGHT
+  if (hidden == 0.0 || hidden == float(DISC_RING_LIGHT))
+  {
+    return hidden == 0.0 ? 1.0 : 0.0;
+  }
+#endif
+  hidden += hiddenOf_LIGHT(point, shape, disc, DISC_RING_LIGHT, DISC_POINTS_LIGHT, slack);
+  return 1.0 - shareOf(hidden, float(DISC_POINTS_LIGHT));
+}
+
+#else
 
 #if PCF_CASTANO_LIGHT
 // Return a place's weight by its distance along an axis, in kernel units.
@@ -150,5 +197,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
   }
   return 1.0 - shareOf(hidden, all);
 }
+
+#endif
 
 #endif

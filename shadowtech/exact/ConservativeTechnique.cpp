@@ -46,4 +46,30 @@ void ConservativeTechnique::computeVisibility(
   counts.rays = counts.tracedPixels;
 }
 
+//------------------------------------------------------------------------------
+const std::vector<ConservativeEntry>& exactTechniques()
+{
+  static const std::vector<ConservativeEntry> entries = []
+  {
+    TechniqueInfo crsm = infoOfExact("crsm");
+    crsm.asPublished = "crsm_as_published";
+    crsm.settings.push_back(&publishedSettings());
+    TechniqueInfo crsma = infoOfExact("crsma");
+    crsma.asPublished = "crsma_as_published";
+    crsma.settings.insert(crsma.settings.end(), { &crsmaSettings(), &publishedSettings() });
+    return std::vector<ConservativeEntry>{
+      { crsm, [](const ShadowSettings&) { return certainRule(Covering::Triangle); } },
+      { crsma,
+        [](const ShadowSettings& settings)
+        {
+          const bool fan = settings.crsma.ring == AdjacencyRing::Vertices;
+          return certainRule(fan ? Covering::Fan : Covering::Ring);
+        } },
+      { infoOfExact("silhouette"),
+        [](const ShadowSettings&) { return certainRule(Covering::Silhouette); } },
+    };
+  }();
+  return entries;
+}
+
 } // namespace gnomon

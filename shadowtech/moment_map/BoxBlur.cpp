@@ -19,25 +19,12 @@ GLuint ceilDivide(int dividend, int divisor)
 } // namespace
 
 //------------------------------------------------------------------------------
-void BoxBlur::allocate(const TexelFormat& format, int sizeTexels)
-{
-  if (this->sizeTexels_ == sizeTexels && this->format_.internalFormat == format.internalFormat)
-  {
-    return;
-  }
-  this->sizeTexels_ = 0; // stays 0 if memory runs out
-  allocateMap(this->rows_, format, sizeTexels, 1);
-  this->format_ = format;
-  this->sizeTexels_ = sizeTexels;
-}
-
-//------------------------------------------------------------------------------
 void BoxBlur::apply(
   GLuint map, int layers, int widthTexels, const glm::vec4& empty, ShaderLibrary& shaders)
 {
-  const std::string format = this->format_.channels == 1 ? "r32f"
-    : this->format_.channels == 2                        ? "rg32f"
-                                                         : "rgba32f";
+  const std::string format = this->rows_.format().channels == 1 ? "r32f"
+    : this->rows_.format().channels == 2                        ? "rg32f"
+                                                                : "rgba32f";
   const GLuint program = shaders.program(
     { { GL_COMPUTE_SHADER, ShaderLibrary::source("shadowtech/moment_map/box_blur.comp.glsl") } },
     { "BLUR_TEXELS " + std::to_string(widthTexels), "FORMAT " + format });
@@ -50,11 +37,11 @@ void BoxBlur::apply(
   {
     glBindTexture(GL_TEXTURE_2D_ARRAY, source);
     glBindImageTexture(
-      0, target, 0, GL_FALSE, targetLayer, GL_WRITE_ONLY, this->format_.internalFormat);
+      0, target, 0, GL_FALSE, targetLayer, GL_WRITE_ONLY, this->rows_.format().internalFormat);
     ShaderLibrary::setUniform(program, { "layer", sourceLayer });
     ShaderLibrary::setUniform(program, { "axis", axis });
-    glDispatchCompute(
-      ceilDivide(this->sizeTexels_, texelsPerGroup), ceilDivide(this->sizeTexels_, widthTexels), 1);
+    glDispatchCompute(ceilDivide(this->rows_.width(), texelsPerGroup),
+      ceilDivide(this->rows_.width(), widthTexels), 1);
     // The next pass reads this one's texels, and writes where this one read.
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   };
@@ -63,21 +50,7 @@ void BoxBlur::apply(
     pass(map, layer, this->rows_.name(), 0, { 1, 0 });
     pass(this->rows_.name(), 0, map, layer, { 0, 1 });
   }
-  glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, this->format_.internalFormat);
-}
-
-//------------------------------------------------------------------------------
-void BoxBlur::release()
-{
-  this->rows_.reset();
-  this->sizeTexels_ = 0;
-}
-
-//------------------------------------------------------------------------------
-std::size_t BoxBlur::bytes() const
-{
-  const auto side = static_cast<std::size_t>(this->sizeTexels_);
-  return side * side * static_cast<std::size_t>(this->format_.channels) * sizeof(float);
+  glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, this->rows_.format().internalFormat);
 }
 
 } // namespace gnomon

@@ -24,17 +24,18 @@ public:
   /// @param format GL_RG32F or GL_RGBA32F
   /// @param sizeTexels side of the map
   /// @throws TextureMemoryError without enough memory
-  void allocate(const TexelFormat& format, int sizeTexels);
+  void allocate(const TexelFormat& format, int sizeTexels)
+  {
+    this->rows_.allocateMap(format, sizeTexels, 1);
+  }
   /// Blur all layers of a map with the allocated format and size, each separately.
   void apply(
     GLuint map, int layers, int widthTexels, const glm::vec4& empty, ShaderLibrary& shaders);
-  void release();
-  std::size_t bytes() const;
+  void release() { this->rows_.reset(); }
+  std::size_t bytes() const { return this->rows_.bytes(); }
 
 private:
-  GlTexture rows_; ///< a layer after the pass along rows
-  TexelFormat format_{};
-  int sizeTexels_ = 0;
+  SizedTexture rows_; ///< a layer after the pass along rows
 };
 
 } // namespace gnomon

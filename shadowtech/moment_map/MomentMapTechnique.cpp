@@ -8,7 +8,6 @@
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -59,39 +58,29 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   blurred ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();
   this->summed_ ? this->table_.allocate(format.channels, sizeTexels, views)
                 : this->table_.release();
-  const int layers = this->summed_ ? 1 : views;
   const int levels = levelsOf(light);
-  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers && this->levels_ == levels &&
-    this->samples_ == light.momentMap.samples)
+  if (this->map_.allocateMap(format, sizeTexels, this->summed_ ? 1 : views, levels))
   {
-    return;
+    glTexParameteri(
+      GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    glTexParameterfv(
+      GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(this->estimator_.empty));
   }
-  this->sizeTexels_ = 0; // stays 0 if memory runs out
-  this->layers_ = 0;
-  this->depth_.reset();
-  this->sampled_.release();
-  allocateMap(this->map_, format, sizeTexels, layers, levels);
-  glTexParameteri(
-    GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-  glTexParameterfv(
-    GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(this->estimator_.empty));
   if (light.momentMap.samples > 1)
   {
+    this->depth_.reset();
     this->sampled_.allocate(format, sizeTexels, light.momentMap.samples);
   }
   else
   {
-    allocateMap(this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, 1);
+    this->sampled_.release();
+    this->depth_.allocateMap({ GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, 1);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->depth_.name(), 0, 0);
-  this->sizeTexels_ = sizeTexels;
-  this->layers_ = layers;
-  this->levels_ = levels;
-  this->samples_ = light.momentMap.samples;
 }
 
 //------------------------------------------------------------------------------
@@ -110,9 +99,10 @@ void MomentMapTechnique::bake(const MapInput& input)
     this->table_.setUnits(this->estimator_.largest, this->widestKernel());
   }
 
-  const bool sampled = this->samples_ > 1;
+  const int samples = input.light.momentMap.samples;
+  const bool sampled = samples > 1;
   const GLuint target = sampled ? this->sampled_.framebuffer() : this->framebuffer_.name();
-  beginCasters(target, this->sizeTexels_);
+  beginCasters(target, this->map_.width());
   if (sampled)
   {
     glEnable(GL_MULTISAMPLE);
@@ -130,8 +120,7 @@ void MomentMapTechnique::bake(const MapInput& input)
     const float farthest = 1.0f;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     glClearBufferfv(GL_COLOR, 0, glm::value_ptr(this->estimator_.empty));
-    std::vector<std::string> defines = { "DEPTH_LINEAR",
-      "SAMPLES " + std::to_string(this->samples_) };
+    std::vector<std::string> defines = { "DEPTH_LINEAR", "SAMPLES " + std::to_string(samples) };
     if (!views[i].depthIsAffine())
     {
       defines.emplace_back("WRITES_DEPTH");
@@ -154,7 +143,7 @@ void MomentMapTechnique::bake(const MapInput& input)
     this->blur_.apply(this->map_.name(), static_cast<int>(views.size()),
       input.light.kernel.sizeTexels, this->estimator_.empty, input.shaders);
   }
-  if (this->levels_ > 1)
+  if (this->map_.levels() > 1)
   {
     // Drivers may use either path to read the blur's output.
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
@@ -168,24 +157,16 @@ void MomentMapTechnique::bake(const MapInput& input)
 /// Return the longest side of a rectangle that lookups read from the baked map, in texels.
 double MomentMapTechnique::widestKernel() const
 {
-  const double texelsAcross = mostTexelsAcross(this->views_, this->sizeTexels_);
+  const double texelsAcross = mostTexelsAcross(this->views_, this->map_.width());
   return std::clamp(
-    2.0 * this->reach_.largestTexels(texelsAcross) - 1.0, 1.0, 2.0 * this->sizeTexels_);
+    2.0 * this->reach_.largestTexels(texelsAcross) - 1.0, 1.0, 2.0 * this->map_.width());
 }
 
 //------------------------------------------------------------------------------
 std::size_t MomentMapTechnique::bytesOfMaps() const
 {
-  const auto side = static_cast<std::size_t>(this->sizeTexels_);
-  std::size_t texels = 0;
-  for (int level = 0; level < this->levels_; ++level)
-  {
-    texels += (side >> level) * (side >> level);
-  }
-  const auto channels = static_cast<std::size_t>(this->layers_ * this->estimator_.count);
-  const std::size_t depth = this->depth_ ? side * side : 0;
-  return (texels * channels + depth) * sizeof(float) + this->sampled_.bytes() +
-    this->blur_.bytes() + this->table_.bytes();
+  return this->map_.bytes() + this->depth_.bytes() + this->sampled_.bytes() + this->blur_.bytes() +
+    this->table_.bytes();
 }
 
 //------------------------------------------------------------------------------
@@ -204,7 +185,7 @@ std::string MomentMapTechnique::visibilityGlsl(const ShadowLight& light) const
 std::vector<Uniform> MomentMapTechnique::uniforms(const ReceiverSpace& space) const
 {
   std::vector<Uniform> uniforms =
-    lightViewsUniforms(this->views_, this->sizeTexels_, space, this->viewFits_);
+    lightViewsUniforms(this->views_, this->map_.width(), space, this->viewFits_);
   uniforms.push_back(depthSlacks());
   if (!this->summed_)
   {

@@ -35,18 +35,7 @@ struct MomentEstimator
 /// The depth of moments is the map's linear depth, from [0, 1] to [-1, 1]. Texels without casters,
 /// and those outside a layer, have the moments of depth 1.
 ///
-/// **No bias is tuned.** A receiver is compared at its own depth. Where more than two moments
-/// demand it, it is compared at a depth that follows from its plane (MomentEstimators.h). The mean
-/// of a plane's depths over the kernel's square is the depth at the square's middle, which is the
-/// receiver's. Parallel rays make depth linear on the map. In perspective it is convex along any
-/// line on the map, so its mean only lies farther, which is on the lit side. The same holds for
-/// convex surfaces.
-///
-/// The rest is rounding of positions on the map. It comes from the rasterizer, and from the
-/// texture unit's weights, which may be multiples of 1/256 texel. It moves depth in proportion to
-/// the slope, like the square root of the variance. A single texel has no variance of its own. So
-/// its depths count as spread by half of their change to the next texel (Donnelly and Lauritzen
-/// 2006, "derivative bias"). For flat parts, the estimators have a floor to the variance.
+/// No bias is tuned: docs/theory/moment_maps.md says why.
 class MomentMapTechnique : public PointwiseTechnique
 {
 public:
@@ -66,16 +55,12 @@ private:
   double widestKernel() const;
 
   MomentEstimator estimator_;
-  GlTexture map_;   ///< a layer per view; with summed-area tables, one layer before it is summed
-  GlTexture depth_; ///< of the layer being baked, with one sample per texel
+  SizedTexture map_;   ///< a layer per view; with summed-area tables, one layer before it is summed
+  SizedTexture depth_; ///< of the layer being baked, with one sample per texel
   GlFramebuffer framebuffer_;
   SampledLayer sampled_; ///< the layer being baked, if it has several samples per texel
   BoxBlur blur_;
   SummedAreaTable table_;
-  int sizeTexels_ = 0;
-  int layers_ = 0; ///< of map_
-  int levels_ = 0; ///< of map_
-  int samples_ = 0;
   MapReach reach_;          ///< as baked
   bool summed_ = false;     ///< as baked
   LightViews views_;        ///< as baked

@@ -6,6 +6,10 @@ namespace gnomon
 //------------------------------------------------------------------------------
 void SampledLayer::allocate(const TexelFormat& format, int sizeTexels, int samplesPerTexel)
 {
+  if (this->sizeTexels_ == sizeTexels && this->samples_ == samplesPerTexel)
+  {
+    return;
+  }
   this->release(); // stays empty if memory runs out
   allocateSamples(this->moments_, format, sizeTexels, samplesPerTexel);
   allocateSamples(

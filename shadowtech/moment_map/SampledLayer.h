@@ -13,7 +13,7 @@ class SampledLayer
 {
 public:
   /// Allocate the layer.
-  /// @param format of the map
+  /// @param format of the map, the same in all calls
   /// @param sizeTexels side of the map
   /// @throws TextureMemoryError without enough memory
   void allocate(const TexelFormat& format, int sizeTexels, int samplesPerTexel);

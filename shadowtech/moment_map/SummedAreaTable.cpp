@@ -1,11 +1,9 @@
 #include "shadowtech/moment_map/SummedAreaTable.h"
 
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <string>
 
 namespace gnomon
@@ -27,22 +25,14 @@ TexelFormat sumsFormat(int channels)
 //------------------------------------------------------------------------------
 void SummedAreaTable::allocate(int channels, int sizeTexels, int layers)
 {
-  if (this->channels_ == channels && this->sizeTexels_ == sizeTexels && this->layers_ == layers)
-  {
-    return;
-  }
-  this->release(); // stays empty if memory runs out
-  allocateMap(this->table_, sumsFormat(channels), sizeTexels, layers);
-  this->channels_ = channels;
-  this->sizeTexels_ = sizeTexels;
-  this->layers_ = layers;
+  this->table_.allocateMap(sumsFormat(channels), sizeTexels, layers);
 }
 
 //------------------------------------------------------------------------------
 void SummedAreaTable::setUnits(const glm::vec4& largest, double widestTexels)
 {
   // The shader clips rectangles to the layer, and reads up to two texels more along an axis.
-  const double side = std::min(widestTexels + 2.0, static_cast<double>(this->sizeTexels_));
+  const double side = std::min(widestTexels + 2.0, static_cast<double>(this->table_.width()));
   for (int i = 0; i < 4; ++i)
   {
     // Powers of two keep a float's digits. A little of the integers' range is left for rounding.
@@ -55,8 +45,8 @@ void SummedAreaTable::setUnits(const glm::vec4& largest, double widestTexels)
 //------------------------------------------------------------------------------
 void SummedAreaTable::sum(GLuint map, int mapLayer, int layer, ShaderLibrary& shaders)
 {
-  const TexelFormat format = sumsFormat(this->channels_);
-  const std::string layout = this->channels_ == 2 ? "rg32ui" : "rgba32ui";
+  const TexelFormat& format = this->table_.format();
+  const std::string layout = format.channels == 2 ? "rg32ui" : "rgba32ui";
   const std::string source = ShaderLibrary::source("shadowtech/moment_map/sum_area.comp.glsl");
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D_ARRAY, map);
@@ -71,28 +61,11 @@ void SummedAreaTable::sum(GLuint map, int mapLayer, int layer, ShaderLibrary& sh
     ShaderLibrary::setUniform(program, { "layer", mapLayer });
     ShaderLibrary::setUniform(program, { "unitsOfOne", this->unitsOfOne_ });
     glDispatchCompute(
-      static_cast<GLuint>((this->sizeTexels_ + linesPerGroup - 1) / linesPerGroup), 1, 1);
+      static_cast<GLuint>((this->table_.width() + linesPerGroup - 1) / linesPerGroup), 1, 1);
     // Columns read the rows' output, and lookups read that.
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
   glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_READ_WRITE, format.internalFormat);
-}
-
-//------------------------------------------------------------------------------
-void SummedAreaTable::release()
-{
-  this->table_.reset();
-  this->channels_ = 0;
-  this->sizeTexels_ = 0;
-  this->layers_ = 0;
-}
-
-//------------------------------------------------------------------------------
-std::size_t SummedAreaTable::bytes() const
-{
-  const auto side = static_cast<std::size_t>(this->sizeTexels_);
-  return side * side * static_cast<std::size_t>(this->layers_ * this->channels_) *
-    sizeof(std::uint32_t);
 }
 
 //------------------------------------------------------------------------------

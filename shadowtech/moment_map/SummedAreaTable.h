@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <glm/glm.hpp>
 
@@ -40,20 +41,17 @@ public:
   /// Fill a layer with the sums of a float map's layer. This changes texture unit 0 and the
   /// program.
   void sum(GLuint map, int mapLayer, int layer, ShaderLibrary& shaders);
-  void release();
+  void release() { this->table_.reset(); }
 
   GLuint texture() const { return this->table_.name(); }
-  std::size_t bytes() const;
+  std::size_t bytes() const { return this->table_.bytes(); }
 
   /// Return the uniforms of summed_area.glsl.
   /// @param empty the value outside a layer
   std::vector<Uniform> uniforms(const glm::vec4& empty) const;
 
 private:
-  GlTexture table_;
-  int channels_ = 0;
-  int sizeTexels_ = 0;
-  int layers_ = 0;
+  SizedTexture table_;
   glm::vec4 unitsOfOne_{ 1.0f }; ///< powers of two
 };
 

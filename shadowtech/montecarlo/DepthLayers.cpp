@@ -2,7 +2,6 @@
 
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 
 #include <utility>
 
@@ -14,7 +13,7 @@ namespace
 /// Number of peeled surfaces that face the light, and of those that face away.
 constexpr int peeledSurfaces = 4;
 
-/// The cleared value of layers, behind all depths.
+/// The cleared value of layers and slabs (slabs.glsl), behind all depths.
 constexpr GLfloat noSurface[4] = { 2.0f, 2.0f, 2.0f, 2.0f };
 
 /// Return the shader that renders casters into a view's layer.
@@ -34,35 +33,26 @@ int pagesOf(const ShadowLight& light)
   return isPeeled(light) ? 2 : 1;
 }
 
-/// Return the bytes per texel of all views' slabs, and of the layers that one view's slabs are made
-/// from.
-std::size_t bytesOfTexel(int views, int pages)
-{
-  const int layers = pages > 1 ? 2 * peeledSurfaces : 1;
-  return static_cast<std::size_t>(4 * views * pages + 2 * layers + 1) * sizeof(float);
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
 void DepthLayers::allocate(const ShadowLight& light, int views)
 {
-  const int pages = pagesOf(light);
-  if (this->sizeTexels_ == light.mapSizeTexels && this->views_ == views && this->pages_ == pages)
+  this->pages_ = pagesOf(light);
+  const int side = light.mapSizeTexels;
+  this->slabs_.allocateMap({ GL_RGBA32F, GL_RGBA, 4 }, side, views * this->pages_);
+  if (isPeeled(light))
   {
-    return;
+    this->layers_.allocateMap({ GL_RG32F, GL_RG, 2 }, side, 2 * peeledSurfaces);
+    this->depth_.allocateMap({ GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, side, 1);
   }
-  this->sizeTexels_ = 0; // stays 0 if memory runs out
-  const int layers = isPeeled(light) ? 2 * peeledSurfaces : 1;
-  allocateMap(this->slabs_, { GL_RGBA32F, GL_RGBA, 4 }, light.mapSizeTexels, views * pages);
-  allocateMap(this->layers_, { GL_RG32F, GL_RG, 2 }, light.mapSizeTexels, layers);
-  allocateMap(
-    this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, light.mapSizeTexels, 1);
+  else
+  {
+    this->layers_.reset();
+    this->depth_.reset();
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->depth_.name(), 0, 0);
-  this->sizeTexels_ = light.mapSizeTexels;
-  this->views_ = views;
-  this->pages_ = pages;
 }
 
 //------------------------------------------------------------------------------
@@ -72,26 +62,31 @@ void DepthLayers::draw(const MapInput& input, double nearest)
   this->allocate(input.light, std::max(static_cast<int>(views.size()), 1));
   for (std::size_t view = 0; view < views.size(); ++view)
   {
-    beginCasters(this->framebuffer_.name(), this->sizeTexels_);
+    beginCasters(this->framebuffer_.name(), this->slabs_.width());
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisablei(GL_BLEND, 0);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     isPeeled(input.light) ? this->drawPeeled(input, view, nearest)
                           : this->drawHull(input, view, nearest);
-    this->makeSlabs(input, view);
   }
 }
 
 //------------------------------------------------------------------------------
 void DepthLayers::drawHull(const MapInput& input, std::size_t view, double nearest)
 {
-  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->layers_.name(), 0, 0);
+  glFramebufferTextureLayer(
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->slabs_.name(), 0, static_cast<int>(view));
   glClearBufferfv(GL_COLOR, 0, noSurface);
   glDisable(GL_DEPTH_TEST);
   glEnablei(GL_BLEND, 0);
   glBlendEquation(GL_MIN);
-  drawCasters(view, input,
-    layerShader("shadowtech/montecarlo/layer_hull.frag.glsl", input.views.views[view], nearest));
+  CasterShader shader =
+    layerShader("shadowtech/montecarlo/layer_hull.frag.glsl", input.views.views[view], nearest);
+  if (input.light.monteCarlo.layers == RayLayers::Near)
+  {
+    shader.defines.emplace_back("ENDLESS");
+  }
+  drawCasters(view, input, std::move(shader));
   glDisablei(GL_BLEND, 0);
 }
 
@@ -113,20 +108,9 @@ void DepthLayers::drawPeeled(const MapInput& input, std::size_t view, double nea
     shader.uniforms.push_back({ "fronts", layer < peeledSurfaces ? 1 : 0 });
     drawCasters(view, input, std::move(shader));
   }
-}
-
-//------------------------------------------------------------------------------
-void DepthLayers::makeSlabs(const MapInput& input, std::size_t view)
-{
-  std::vector<std::string> defines = { "PEELED " + std::to_string(peeledSurfaces) };
-  if (input.light.monteCarlo.layers == RayLayers::Near)
-  {
-    defines.emplace_back("ENDLESS");
-  }
   const GLuint program = ScreenPass::use(input.shaders,
-    ShaderLibrary::source(isPeeled(input.light) ? "shadowtech/montecarlo/slabs_of_peeled.frag.glsl"
-                                                : "shadowtech/montecarlo/slabs_of_hull.frag.glsl"),
-    defines);
+    ShaderLibrary::source("shadowtech/montecarlo/slabs_of_peeled.frag.glsl"),
+    { "PEELED " + std::to_string(peeledSurfaces) });
   ShaderLibrary::setUniforms(
     program, { { "layers", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->layers_.name() } } }, 0, 0);
   std::vector<ScreenPass::Image> pages;
@@ -134,20 +118,21 @@ void DepthLayers::makeSlabs(const MapInput& input, std::size_t view)
   {
     pages.push_back({ this->slabs_.name(), static_cast<int>(view) * this->pages_ + page });
   }
-  this->screenPass_.fill(pages, this->sizeTexels_, this->sizeTexels_);
+  this->screenPass_.fill(pages, this->slabs_.width(), this->slabs_.width());
 }
 
 //------------------------------------------------------------------------------
 std::size_t DepthLayers::bytes() const
 {
-  const auto side = static_cast<std::size_t>(this->sizeTexels_);
-  return side * side * bytesOfTexel(this->views_, this->pages_);
+  return this->slabs_.bytes() + this->layers_.bytes() + this->depth_.bytes();
 }
 
 //------------------------------------------------------------------------------
 double DepthLayers::bytesPerTexel(const ShadowLight& light)
 {
-  return static_cast<double>(bytesOfTexel(mostViews(light), pagesOf(light)));
+  // All views' slabs, and the layers and the depth buffer that one view's slabs are peeled with.
+  const int peeling = isPeeled(light) ? 4 * peeledSurfaces + 1 : 0;
+  return sizeof(float) * (4.0 * mostViews(light) * pagesOf(light) + peeling);
 }
 
 } // namespace gnomon

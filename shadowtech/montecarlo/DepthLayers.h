@@ -3,6 +3,7 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <cstddef>
 
@@ -21,8 +22,8 @@ public:
   /// @param nearest the z at which p is -1, for positional lights
   void draw(const MapInput& input, double nearest);
 
-  /// Return an array of RGBA textures. A page holds two slabs (begin, end, begin, end); the pages
-  /// of all views follow each other.
+  /// Return an array of RGBA textures. A page holds two slabs (slabs.glsl); the pages of all views
+  /// follow each other.
   GLuint slabs() const { return this->slabs_.name(); }
   int pages() const { return this->pages_; }
   std::size_t bytes() const;
@@ -32,15 +33,15 @@ private:
   void allocate(const ShadowLight& light, int views);
   void drawHull(const MapInput& input, std::size_t view, double nearest);
   void drawPeeled(const MapInput& input, std::size_t view, double nearest);
-  void makeSlabs(const MapInput& input, std::size_t view);
 
-  GlTexture slabs_;
-  GlTexture layers_; ///< of the view being baked
-  GlTexture depth_;
+  SizedTexture slabs_;
+  ///@{
+  /// Of the view being peeled.
+  SizedTexture layers_;
+  SizedTexture depth_;
+  ///@}
   GlFramebuffer framebuffer_;
   ScreenPass screenPass_;
-  int sizeTexels_ = 0;
-  int views_ = 0;
   int pages_ = 0;
 };
 

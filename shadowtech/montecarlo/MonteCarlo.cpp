@@ -8,7 +8,6 @@
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/base/VisibilityLayers.h"
 #include "shadowtech/montecarlo/RaySpace.h"
 
@@ -105,35 +104,24 @@ void MonteCarlo::bake(const MapInput& input)
   this->layers_.draw(
     { input.light, this->views_, input.occluders, input.buffers, input.shaders }, this->nearest_);
   this->bounds_.build(this->layers_.slabs(), this->layers_.pages(), input.light.mapSizeTexels,
-    static_cast<int>(this->views_.views.size()), input.light.monteCarlo.pyramid, input.shaders);
+    static_cast<int>(this->views_.views.size()), input.shaders);
 }
 
 //------------------------------------------------------------------------------
 std::size_t MonteCarlo::bytesOfMaps() const
 {
-  const auto pixels =
-    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
   return this->layers_.bytes() + this->bounds_.bytes() + this->undecided_.bytes() +
-    this->filter_.bytes() +
-    (static_cast<std::size_t>(this->channels_) + 5) * pixels * sizeof(float) +
-    (this->uploaded_ ? sizeof(glm::u8vec3) * this->uploaded_->texels.size() : 0);
+    this->filter_.bytes() + this->unfiltered_.bytes() + this->slopes_.bytes() +
+    this->lightTexture_.bytes();
 }
 
 //------------------------------------------------------------------------------
 void MonteCarlo::allocate(int width, int height, int channels)
 {
-  if (this->width_ == width && this->height_ == height && this->channels_ == channels)
-  {
-    return;
-  }
-  this->width_ = 0; // stays 0 if memory runs out
   const TexelFormat format =
     channels == 3 ? TexelFormat{ GL_RGBA32F, GL_RGBA, 4 } : TexelFormat{ GL_RG32F, GL_RG, 2 };
-  allocateTexture(this->unfiltered_, format, width, height, 0, "visibility");
-  allocateTexture(
-    this->slopes_, { GL_RGBA32F, GL_RGBA, 4 }, width, height, 0, "slopes of visibility");
-  this->width_ = width;
-  this->height_ = height;
+  this->unfiltered_.allocate(format, width, height, 0, "visibility");
+  this->slopes_.allocate({ GL_RGBA32F, GL_RGBA, 4 }, width, height, 0, "slopes of visibility");
   this->channels_ = channels;
 }
 
@@ -145,8 +133,9 @@ void MonteCarlo::upload(const std::shared_ptr<const LightTexture>& texture)
     return;
   }
   this->uploaded_.reset(); // stays empty if memory runs out
-  allocateTexture(this->lightTexture_, { GL_RGB8UI, GL_RGB_INTEGER, 3, GL_UNSIGNED_BYTE },
-    texture->width, texture->height, 0, "a light's texture");
+  this->lightTexture_.allocate({ GL_RGB8UI, GL_RGB_INTEGER, 3, GL_UNSIGNED_BYTE }, texture->width,
+    texture->height, 0, "a light's texture");
+  glBindTexture(GL_TEXTURE_2D, this->lightTexture_.name());
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texture->width, texture->height, GL_RGB_INTEGER,
@@ -169,7 +158,9 @@ std::vector<Uniform> MonteCarlo::uniformsOf(const LayerInput& input) const
     { "slabBounds", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->bounds_.texture() } },
     { "topLevel", this->bounds_.topLevel() }, { "mapSide", light.mapSizeTexels },
     { "lightView", glm::vec4(viewFromCentred * lightPoint(light, centreWorld)) },
-    { "pixelSide", glm::vec2(input.camera.pixelSide({ this->width_, this->height_ })) },
+    { "pixelSide",
+      glm::vec2(
+        input.camera.pixelSide({ this->unfiltered_.width(), this->unfiltered_.height() })) },
     { "viewFromUnit", glm::mat3(glm::dmat3(viewFromCentred) * areaOf(light).worldFromUnit) },
     { "clipFromView", glm::mat4(input.camera.clipFromView) }, { "lightSeed", light.lightSeed },
     { "viewCount", static_cast<int>(this->views_.views.size()) }
@@ -200,8 +191,8 @@ void MonteCarlo::readClasses(const LayerInput& input) const
   {
     return;
   }
-  std::vector<glm::vec4> texels(
-    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  std::vector<glm::vec4> texels(static_cast<std::size_t>(this->unfiltered_.width()) *
+    static_cast<std::size_t>(this->unfiltered_.height()));
   readTexture(this->unfiltered_.name(), GL_RGBA, GL_FLOAT, texels.data());
   input.classes->resize(texels.size());
   std::transform(texels.begin(), texels.end(), input.classes->begin(),
@@ -232,7 +223,6 @@ void MonteCarlo::followRays(const LayerInput& input)
   const bool decides =
     light.monteCarlo.classify != RayClasses::Off && viewLayout(light) == ViewLayout::Single;
   defineWhere(textured, "TEXTURED");
-  defineWhere(light.monteCarlo.pyramid == SlabHierarchy::NBuffer, "NBUFFER");
   defineWhere(light.monteCarlo.search == RaySearch::Linear, "LINEAR_SEARCH");
   defineWhere(light.monteCarlo.layers == RayLayers::Eye, "EYE_LAYER");
   defineWhere(decides, "CLASSIFY_PIXELS");
@@ -250,7 +240,7 @@ void MonteCarlo::followRays(const LayerInput& input)
   {
     const GLuint program = ScreenPass::use(input.shaders, source, all);
     ShaderLibrary::setUniforms(program, uniforms, 0, 0);
-    this->screenPass_.fill(images, this->width_, this->height_);
+    this->screenPass_.fill(images, this->unfiltered_.width(), this->unfiltered_.height());
   };
   if (!decides)
   {
@@ -262,7 +252,8 @@ void MonteCarlo::followRays(const LayerInput& input)
   fill(deciding);
   {
     const ChannelView view = this->viewOf(0);
-    this->undecided_.find(this->unfiltered_.name(), { this->width_, this->height_ }, input.shaders);
+    this->undecided_.find(this->unfiltered_.name(),
+      { this->unfiltered_.width(), this->unfiltered_.height() }, input.shaders);
   }
   const GLuint program = UndecidedTiles::use(input.shaders, source, defines);
   const int freeUnit = ShaderLibrary::setUniforms(program, uniforms, 0, 0);
@@ -295,7 +286,8 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightCounts& counts)
   for (int channel = 0; channel < this->channels_ && filterOf(light) > 0; ++channel)
   {
     const ChannelView view = this->viewOf(channel);
-    this->undecided_.find(this->unfiltered_.name(), { this->width_, this->height_ }, input.shaders);
+    this->undecided_.find(this->unfiltered_.name(),
+      { this->unfiltered_.width(), this->unfiltered_.height() }, input.shaders);
     // A channel that the light lacks is 0 everywhere, without noise.
     const float mean = textured ? light.texture->mean[channel] : 1.0f;
     const float lit = mean > 0.0f ? mean : 1.0f;

@@ -46,16 +46,14 @@ private:
   DepthLayers layers_;
   SlabBounds bounds_;
 
-  GlTexture lightTexture_;
+  SizedTexture lightTexture_;
   std::shared_ptr<const LightTexture> uploaded_; ///< the texture in `lightTexture_`
 
-  GlTexture unfiltered_; ///< visibility in one channel or three, then the class
-  GlTexture slopes_;     ///< gradients of visibility
+  SizedTexture unfiltered_; ///< visibility in one channel or three, then the class
+  SizedTexture slopes_;     ///< gradients of visibility
   UndecidedTiles undecided_;
   VisibilityFilter filter_;
   ScreenPass screenPass_;
-  int width_ = 0;
-  int height_ = 0;
   int channels_ = 1; ///< of visibility
 };
 

@@ -1,7 +1,6 @@
 #include "shadowtech/montecarlo/UndecidedTiles.h"
 
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 
 namespace gnomon
 {
@@ -27,19 +26,15 @@ int UndecidedTiles::tilesOf(int pixels)
 //------------------------------------------------------------------------------
 void UndecidedTiles::find(GLuint visibilityAndClass, const glm::ivec2& size, ShaderLibrary& shaders)
 {
-  if (this->size_ != size)
-  {
-    this->size_ = glm::ivec2(0); // stays 0 if memory runs out
-    this->tiles_ = { tilesOf(size.x), tilesOf(size.y) };
-    allocateTexture(this->contents_, { GL_RGBA32F, GL_RGBA, 4 }, this->tiles_.x, this->tiles_.y, 0,
-      "what there is in tiles");
-    this->size_ = size;
-  }
+  this->size_ = size;
+  this->contents_.allocate(
+    { GL_RGBA32F, GL_RGBA, 4 }, tilesOf(size.x), tilesOf(size.y), 0, "what there is in tiles");
   const GLuint program = ScreenPass::use(shaders,
     ShaderLibrary::source("shadowtech/montecarlo/undecided_tiles.frag.glsl"), { tileDefine() });
   ShaderLibrary::setUniforms(program,
     { { "visibilityAndClass", TextureBinding{ GL_TEXTURE_2D, visibilityAndClass } } }, 0, 0);
-  this->screenPass_.fill({ { this->contents_.name() } }, this->tiles_.x, this->tiles_.y);
+  this->screenPass_.fill(
+    { { this->contents_.name() } }, this->contents_.width(), this->contents_.height());
 }
 
 //------------------------------------------------------------------------------
@@ -63,14 +58,7 @@ std::vector<Uniform> UndecidedTiles::uniforms(const glm::ivec2& reachTiles) cons
 void UndecidedTiles::fill(const std::vector<ScreenPass::Image>& images)
 {
   this->screenPass_.fillQuads(
-    images, this->size_.x, this->size_.y, this->tiles_.x * this->tiles_.y);
-}
-
-//------------------------------------------------------------------------------
-std::size_t UndecidedTiles::bytes() const
-{
-  return static_cast<std::size_t>(this->tiles_.x) * static_cast<std::size_t>(this->tiles_.y) * 4 *
-    sizeof(float);
+    images, this->size_.x, this->size_.y, this->contents_.width() * this->contents_.height());
 }
 
 } // namespace gnomon

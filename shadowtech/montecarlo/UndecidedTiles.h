@@ -3,6 +3,7 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <glm/glm.hpp>
 
@@ -37,13 +38,12 @@ public:
   /// Return how many tiles cover a distance in pixels.
   static int tilesOf(int pixels);
 
-  std::size_t bytes() const;
+  std::size_t bytes() const { return this->contents_.bytes(); }
 
 private:
-  GlTexture contents_; ///< output of undecided_tiles.frag.glsl
+  SizedTexture contents_; ///< output of undecided_tiles.frag.glsl
   ScreenPass screenPass_;
-  glm::ivec2 size_{ 0 };  ///< of the picture, in pixels
-  glm::ivec2 tiles_{ 0 }; ///< number of tiles along x and y
+  glm::ivec2 size_{ 0 }; ///< of the picture, in pixels
 };
 
 } // namespace gnomon

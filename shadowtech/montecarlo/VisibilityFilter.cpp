@@ -2,7 +2,6 @@
 
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/base/VisibilityLayers.h"
 #include "shadowtech/montecarlo/UndecidedTiles.h"
 
@@ -15,15 +14,9 @@ void VisibilityFilter::apply(const LayerInput& input, int layer, const Noisy& no
 {
   const int width = input.receivers.width();
   const int height = input.receivers.height();
-  if (this->width_ != width || this->height_ != height)
-  {
-    this->width_ = 0; // stays 0 if memory runs out
-    allocateTexture(this->rows_, { GL_RG32F, GL_RG, 2 }, width, height, 0, "filtered rows");
-    allocateTexture(
-      this->slopesOfRows_, { GL_RGBA32F, GL_RGBA, 4 }, width, height, 0, "slopes of filtered rows");
-    this->width_ = width;
-    this->height_ = height;
-  }
+  this->rows_.allocate({ GL_RG32F, GL_RG, 2 }, width, height, 0, "filtered rows");
+  this->slopesOfRows_.allocate(
+    { GL_RGBA32F, GL_RGBA, 4 }, width, height, 0, "slopes of filtered rows");
   const GLuint program = UndecidedTiles::use(input.shaders,
     ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl"),
     { "FILTER_PIXELS " + std::to_string(radiusPixels), "RAYS " + std::to_string(noisy.rays),
@@ -48,13 +41,6 @@ void VisibilityFilter::apply(const LayerInput& input, int layer, const Noisy& no
   undecided.fill({ { this->rows_.name() }, { this->slopesOfRows_.name() } });
   set(this->rows_.name(), this->slopesOfRows_.name(), { 0, 1 }, { reach, reach });
   undecided.fill({ { input.layers.texture(), layer } });
-}
-
-//------------------------------------------------------------------------------
-std::size_t VisibilityFilter::bytes() const
-{
-  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * 6 *
-    sizeof(float);
 }
 
 } // namespace gnomon

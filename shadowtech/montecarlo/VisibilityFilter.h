@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <glm/glm.hpp>
 
@@ -33,13 +34,11 @@ public:
   void apply(const LayerInput& input, int layer, const Noisy& noisy, UndecidedTiles& undecided,
     int radiusPixels);
 
-  std::size_t bytes() const;
+  std::size_t bytes() const { return this->rows_.bytes() + this->slopesOfRows_.bytes(); }
 
 private:
-  GlTexture rows_;
-  GlTexture slopesOfRows_;
-  int width_ = 0;
-  int height_ = 0;
+  SizedTexture rows_;
+  SizedTexture slopesOfRows_;
 };
 
 } // namespace gnomon

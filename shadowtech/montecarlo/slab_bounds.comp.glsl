@@ -1,14 +1,13 @@
-// Builds a level of the hierarchy over the slabs (SlabBounds.h) from the level below, and level 0
-// from the slabs.
+// Builds a level of the pyramid over the slabs (SlabBounds.h): level 0 from the slabs, with
+// OF_BOUNDS another one from the level below.
 
 #include "shadowtech/montecarlo/slabs.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform sampler2DArray below; // the slabs, or the hierarchy
+uniform sampler2DArray below; // the slabs, or the pyramid
 uniform int layer;            // of `below`
 uniform int level;            // of the mip map to read
-uniform ivec2 steps;          // offsets from a texel to the first and the last texel that it joins
 layout(binding = 0, rgba32f) writeonly uniform image2D target;
 
 // x: the least depth at which a slab begins; y: the greatest at which one ends; z, w: the greatest
@@ -18,10 +17,10 @@ vec4 joined(vec4 a, vec4 b)
   return vec4(min(a.x, b.x), max(a.y, b.y), max(a.z, b.z), min(a.w, b.w));
 }
 
-#ifdef OF_SLABS
+#ifndef OF_BOUNDS
 vec4 boundsOfTexel(ivec2 texel)
 {
-  vec4 bounds = vec4(NO_SLAB, NO_SLAB);
+  vec4 bounds = vec4(2.0, -2.0, 2.0, -2.0);
   if (any(greaterThanEqual(texel, textureSize(below, 0).xy)))
   {
     return bounds; // beyond a map whose side is no power of two
@@ -29,7 +28,7 @@ vec4 boundsOfTexel(ivec2 texel)
   for (int i = 0; i < 2 * PAGES; ++i)
   {
     vec4 page = texelFetch(below, ivec3(texel, layer + i / 2), 0);
-    vec2 slab = i % 2 == 0 ? page.xy : page.zw;
+    vec2 slab = vec2(1.0, -1.0) * (i % 2 == 0 ? page.xy : page.zw);
     bounds.xy = vec2(min(bounds.x, slab.x), max(bounds.y, slab.y));
     bounds.zw = slab.y - slab.x > bounds.w - bounds.z ? slab : bounds.zw;
   }
@@ -44,18 +43,11 @@ void main()
   {
     return;
   }
-#ifdef OF_SLABS
+#ifndef OF_BOUNDS
   vec4 bounds = boundsOfTexel(texel);
-#else
-#ifdef NBUFFER
-  // At the border the four clamped texels overlap, which leaves extrema correct.
-  ivec2 last = textureSize(below, 0).xy - 1;
-  ivec2 first = clamp(texel + steps.x, ivec2(0), last);
-  ivec2 second = clamp(texel + steps.y, ivec2(0), last);
 #else
   ivec2 first = 2 * texel;
   ivec2 second = first + 1;
-#endif
   vec4 bounds = joined(joined(texelFetch(below, ivec3(first, layer), level),
                          texelFetch(below, ivec3(second.x, first.y, layer), level)),
     joined(texelFetch(below, ivec3(first.x, second.y, layer), level),

@@ -1,54 +1,30 @@
-// Tests whether a ray meets a slab of the light's map. It goes from cell to cell of the hierarchy
+// Tests whether a ray meets a slab of the light's map. It goes from cell to cell of the pyramid
 // (SlabBounds.h), after Curtis 2009, section 3.5, algorithm 2. A cell of a level is a square of
-// 2^level texels; in an N-buffer it may lie anywhere.
+// 2^level texels.
 //
 // LINEAR_SEARCH instead takes steps of equal length, with bisection (section 3.3). It needs maps
 // with one slab per texel.
 
-uniform sampler2DArray slabs; // pages of all views, one after another
+uniform sampler2DArray slabs; // pages of all views, one after another (slabs.glsl)
 uniform sampler2DArray slabBounds;
 uniform int mapSide;  // in texels
 uniform int topLevel; // its single cell covers the whole map
 
-// Return the cell that a ray enters at a texel: the one that extends farthest ahead, or the grid's.
-ivec2 cellFrom(ivec2 texel, int level, bvec2 ahead)
+// Return the bounds of a texel's cell (slab_bounds.comp.glsl).
+vec4 boundsOfCell(int view, ivec2 texel, int level)
 {
-#ifdef NBUFFER
-  ivec2 back = texel - ((1 << level) - 1);
-  return ivec2(ahead.x ? texel.x : back.x, ahead.y ? texel.y : back.y);
-#else
-  return (texel >> level) << level;
-#endif
-}
-
-// Return the bounds of a cell (slab_bounds.comp.glsl).
-vec4 boundsOfCell(int view, ivec2 cell, int level)
-{
-#ifdef NBUFFER
-  int side = textureSize(slabBounds, 0).x;
-  ivec2 centre = cell + (level == 0 ? 0 : (1 << (level - 1)) - 1);
-  ivec2 texel = clamp(centre, ivec2(0), ivec2(side - 1));
-  return texelFetch(slabBounds, ivec3(texel, view * (topLevel + 1) + level), 0);
-#else
-  return texelFetch(slabBounds, ivec3(cell >> level, view), level);
-#endif
+  return texelFetch(slabBounds, ivec3(texel >> level, view), level);
 }
 
 // Return bounds of all texels from one to another, and possibly of a few around them.
 vec4 boundsOfRegion(int view, ivec2 lower, ivec2 upper)
 {
   ivec2 size = upper - lower + 1;
-#ifdef NBUFFER
-  int level = min(findMSB(max(size.x, size.y)), topLevel);
-  ivec2 last = max(upper + 1 - (1 << level), lower);
-#else
   int level = min(findMSB(2 * max(size.x, size.y) - 1), topLevel);
-  ivec2 last = upper;
-#endif
   vec4 a = boundsOfCell(view, lower, level);
-  vec4 b = boundsOfCell(view, ivec2(last.x, lower.y), level);
-  vec4 c = boundsOfCell(view, ivec2(lower.x, last.y), level);
-  vec4 d = boundsOfCell(view, last, level);
+  vec4 b = boundsOfCell(view, ivec2(upper.x, lower.y), level);
+  vec4 c = boundsOfCell(view, ivec2(lower.x, upper.y), level);
+  vec4 d = boundsOfCell(view, upper, level);
   return vec4(min(min(a.x, b.x), min(c.x, d.x)), max(max(a.y, b.y), max(c.y, d.y)),
     max(max(a.z, b.z), max(c.z, d.z)), min(min(a.w, b.w), min(c.w, d.w)));
 }
@@ -96,7 +72,7 @@ int stateAt(int view, vec3 point)
   ivec2 texel = clamp(ivec2(floor(point.xy)), ivec2(0), ivec2(mapSide - 1));
   vec2 slab = texelFetch(slabs, ivec3(texel, view), 0).xy;
   bool before = point.z < slab.x;
-  bool behind = point.z > slab.y;
+  bool behind = point.z > -slab.y;
 #ifdef EYE_LAYER
   if (!before && !behind && seenEmpty(view, point))
   {
@@ -157,8 +133,8 @@ bool meetsSlab(int view, ivec2 texel, float least, float greatest)
   for (int i = 0; i < PAGES; ++i)
   {
     vec4 page = texelFetch(slabs, ivec3(texel, view * PAGES + i), 0);
-    meets = meets || (page.x <= greatest && least <= page.y) ||
-      (page.z <= greatest && least <= page.w);
+    meets = meets || (page.x <= greatest && least <= -page.y) ||
+      (page.z <= greatest && least <= -page.w);
   }
   return meets;
 }
@@ -183,8 +159,8 @@ bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
   for (int i = 0; i < 64 + 8 * mapSide; ++i)
   {
     ++cellsVisited;
-    ivec2 cell = cellFrom(texel, level, ahead);
     int side = 1 << level;
+    ivec2 cell = (texel >> level) << level;
     vec2 border = vec2(ahead.x ? cell.x + side : cell.x, ahead.y ? cell.y + side : cell.y);
     vec2 leaving = (border - begin.xy) * inverse;
     leaving = vec2(way.x != 0.0 ? leaving.x : 1e30, way.y != 0.0 ? leaving.y : 1e30);

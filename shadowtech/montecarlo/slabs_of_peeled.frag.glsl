@@ -49,7 +49,8 @@ float endOfSolid(vec2 front, float back)
 
 void main()
 {
-  vec2 found[4] = vec2[](NO_SLAB, NO_SLAB, NO_SLAB, NO_SLAB);
+  const vec2 none = vec2(2.0, -2.0);
+  vec2 found[4] = vec2[](none, none, none, none);
   int count = 0;
   int fronts = 0;
   int backs = 0;
@@ -87,6 +88,6 @@ void main()
   {
     found[count++] = vec2(front.x, front.x + front.y);
   }
-  firstPage = vec4(found[0], found[1]);
-  secondPage = vec4(found[2], found[3]);
+  firstPage = vec4(1.0, -1.0, 1.0, -1.0) * vec4(found[0], found[1]);
+  secondPage = vec4(1.0, -1.0, 1.0, -1.0) * vec4(found[2], found[3]);
 }

@@ -70,7 +70,7 @@ public:
     this->starts_.clear();
     for (std::size_t i = 0; i < count; ++i)
     {
-      this->starts_.add(this->startOf(pixels[i]));
+      this->starts_.add(this->tile_.origin(pixels[i]));
     }
     this->starts_.finish();
     ShaftEdges::Found found = ShaftEdges::Found::Unclear;
@@ -92,22 +92,17 @@ public:
     std::uint16_t* const middle = pixels + count / 2;
     std::nth_element(pixels, middle, pixels + count,
       [&](std::uint16_t a, std::uint16_t b)
-      { return this->startOf(a)[axis] < this->startOf(b)[axis]; });
+      { return this->tile_.origin(a)[axis] < this->tile_.origin(b)[axis]; });
     return this->choose(pixels, count / 2) + this->choose(middle, count - count / 2);
   }
 
 private:
-  glm::vec3 startOf(std::size_t pixel) const
-  {
-    return { this->tile_.originX[pixel], this->tile_.originY[pixel], this->tile_.originZ[pixel] };
-  }
-
   Bounds boundsOf(const std::uint16_t* pixels, std::size_t count) const
   {
     Bounds bounds;
     for (std::size_t i = 0; i < count; ++i)
     {
-      bounds.add(glm::dvec3(this->startOf(pixels[i])));
+      bounds.add(glm::dvec3(this->tile_.origin(pixels[i])));
     }
     return bounds;
   }
@@ -133,7 +128,7 @@ private:
     }
     const auto partOf = [&](std::uint16_t pixel)
     {
-      const double share = (static_cast<double>(this->startOf(pixel)[axis]) - lower) / size;
+      const double share = (static_cast<double>(this->tile_.origin(pixel)[axis]) - lower) / size;
       return std::min(
         static_cast<std::size_t>(share * static_cast<double>(partsOfStarts)), partsOfStarts - 1);
     };
@@ -186,10 +181,9 @@ private:
   /// face of a light's box than their offset end beyond it.
   bool endsAsShaft(std::size_t pixel, const LightShaft& shaft) const
   {
-    const glm::dvec3 direction(
-      this->tile_.directionX[pixel], this->tile_.directionY[pixel], this->tile_.directionZ[pixel]);
+    const glm::dvec3 direction(this->tile_.direction(pixel));
     return !(shaft.lastEnd() < std::numeric_limits<double>::infinity()) ||
-      shaft.endDepth(shaft.toShaft(this->startOf(pixel)) + shaft.rotation() * direction) <=
+      shaft.endDepth(shaft.toShaft(this->tile_.origin(pixel)) + shaft.rotation() * direction) <=
       shaft.lastEnd();
   }
 
@@ -202,7 +196,7 @@ private:
     for (std::size_t i = 0; i < count; ++i)
     {
       const std::uint16_t pixel = pixels[i];
-      const glm::vec3 start = this->startOf(pixel);
+      const glm::vec3 start = this->tile_.origin(pixel);
       if (this->isOnTriangle(start) || !this->endsAsShaft(pixel, shaft))
       {
         ++traced;

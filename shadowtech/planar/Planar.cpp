@@ -4,12 +4,18 @@
 #include "lights/PlanarProjection.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/LightReach.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/ScreenPass.h"
+#include "shadowtech/base/SeenTriangle.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/VisibilityLayers.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
@@ -21,10 +27,11 @@ namespace
 /// Number of samples rendered at a time: the bits of a texel.
 constexpr std::size_t samplesPerBatch = 32;
 
-/// Values of planes_of_pixels.frag.glsl: receivers on none of the chosen planes, and on the first
-/// one.
-constexpr unsigned int offPlanes = 1;
-constexpr int firstPlane = 2;
+/// The plane of a pixel: nothing receives there, a receiver is on none of the chosen planes, or on
+/// the first one.
+constexpr GLuint noReceiver = 0;
+constexpr GLuint offPlanes = 1;
+constexpr GLuint firstPlane = 2;
 
 /// Return a plane, oriented to the side that the camera sees.
 glm::dvec4 turnedTo(const CameraView& camera, const glm::dvec4& plane)
@@ -105,14 +112,21 @@ std::vector<glm::dvec4> castingPart(const ShadowLight& light, const glm::dvec3& 
 } // namespace
 
 //------------------------------------------------------------------------------
+/// The light as the chosen planes see it.
+struct Planar::Sight
+{
+  glm::dvec4 centre;               ///< lightPoint()
+  std::vector<glm::dvec4> samples; ///< lightSamples()
+  std::vector<glm::dvec4> planes;  ///< the chosen planes, oriented to the camera
+  std::vector<bool> facing;        ///< for each plane, true if it faces the light's centre
+};
+
 /// The samples rendered at a time.
 struct Planar::Batch
 {
-  std::size_t first = 0; ///< index into all samples
-  std::size_t count = 0;
-  bool last = false;
-  std::vector<glm::dvec4> planes; ///< the chosen planes, oriented to the camera
-  std::vector<bool> facing;       ///< for each plane, true if it faces the light's centre
+  std::size_t first; ///< index into all samples
+  std::size_t count;
+  bool last;
 };
 
 //------------------------------------------------------------------------------
@@ -130,119 +144,99 @@ void Planar::drawVisibility(const LayerInput& input, LightCounts& counts)
 {
   const GlStateGuard guard;
   this->planes_.update(input.occluders, static_cast<std::size_t>(input.light.planar.planes));
-  this->centre_ = lightPoint(input.light, input.occluders.frame.centre);
-  this->samples_ = lightSamples(input.light, input.occluders.frame.centre);
-  counts.lightSamples = static_cast<int>(this->samples_.size());
-  this->allocate(input.receivers.width(), input.receivers.height());
-  this->samples_.size() > samplesPerBatch
-    ? this->lit_.begin(this->width_, this->height_, "the samples' shadows")
-    : this->lit_.clear();
-  this->sendPlanes(input);
-  this->findPlanesOfPixels(input);
-  for (std::size_t first = 0; first < this->samples_.size(); first += samplesPerBatch)
+  Sight sight{ lightPoint(input.light, input.occluders.frame.centre),
+    lightSamples(input.light, input.occluders.frame.centre), {}, {} };
+  for (const ReceiverPlane& plane : this->planes_.planes())
   {
-    const Batch batch = this->makeBatch(input, first);
-    this->drawShadows(input, batch);
-    this->sumUp(input, batch);
+    sight.planes.push_back(turnedTo(input.camera, plane.plane));
+    sight.facing.push_back(standsBefore(sight.planes.back(), plane.thickness, sight.centre));
   }
-  counts.planes = static_cast<int>(this->planes_.planes().size());
-  counts.pixelsOffPlanes = input.counting ? this->countPixelsOffPlanes() : 0;
+  const std::size_t samples = sight.samples.size();
+  counts.lightSamples = static_cast<int>(samples);
+  this->allocate(input.receivers.width(), input.receivers.height());
+  samples > samplesPerBatch
+    ? this->lit_.begin(this->shadows_.width(), this->shadows_.height(), "the samples' shadows")
+    : this->lit_.clear();
+  const std::int64_t pixelsOffPlanes = this->findPlanesOfPixels(input);
+  for (std::size_t first = 0; first < samples; first += samplesPerBatch)
+  {
+    const std::size_t count = std::min(samples - first, samplesPerBatch);
+    const Batch batch{ first, count, first + count == samples };
+    this->drawShadows(input, sight, batch);
+    this->sumUp(input, sight, batch);
+  }
+  counts.planes = static_cast<int>(sight.planes.size());
+  counts.pixelsOffPlanes = input.counting ? pixelsOffPlanes : 0;
   this->noteWhatIsLeftOut(input);
 }
 
 //------------------------------------------------------------------------------
 void Planar::allocate(int width, int height)
 {
-  if (this->width_ == width && this->height_ == height)
-  {
-    return;
-  }
-  this->width_ = 0; // stays 0 if memory runs out
   glActiveTexture(GL_TEXTURE0);
   const TexelFormat integers{ GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT };
-  allocateTexture(this->planesOfPixels_, integers, width, height, 0, "the pixels' planes");
-  allocateTexture(this->shadows_, integers, width, height, 0, "the planes' shadows");
+  this->planesOfPixels_.allocate(integers, width, height, 0, "the pixels' planes");
+  this->shadows_.allocate(integers, width, height, 0, "the planes' shadows");
   glBindFramebuffer(GL_FRAMEBUFFER, this->shadowFramebuffer_.create());
   glFramebufferTexture2D(
     GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->shadows_.name(), 0);
-  this->width_ = width;
-  this->height_ = height;
 }
 
 //------------------------------------------------------------------------------
-/// Update the tables that map VTK's primitives to planes.
-void Planar::sendPlanes(const LayerInput& input)
+/// Find the plane of each pixel's receiver, from the triangle that VTK drew there.
+/// @return the number of receivers on none of the chosen planes
+std::int64_t Planar::findPlanesOfPixels(const LayerInput& input)
 {
-  if (this->sentVersion_ != this->planes_.version())
-  {
-    this->planesOfPrimitives_.set(this->planes_.planeOfDrawn(), "a table of planes");
-    this->sentVersion_ = this->planes_.version();
-  }
-  std::vector<glm::uvec4> blocks;
-  for (std::size_t drawn = 0; drawn < input.drawnSurfaces.size(); ++drawn)
-  {
-    for (const DrawnSurface::Block& block : input.drawnSurfaces[drawn].blocks)
+  ReceiverImages images;
+  input.receivers.read(images);
+  std::vector<GLuint> planes(images.fragments.size());
+  constexpr std::size_t pixelsOfTask = 4096;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planes.size(), pixelsOfTask),
+    [&](const tbb::blocked_range<std::size_t>& range)
     {
-      if (!input.occluders.surfaces[block.surface].isInstanced()) // instances have no planes
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
       {
-        blocks.emplace_back(drawn, block.firstPrimitive, this->planes_.drawnBegin(block.surface),
-          block.primitiveCount);
+        const glm::vec2 fragment = images.fragments[i];
+        if (i > range.begin() && fragment == images.fragments[i - 1])
+        {
+          planes[i] = planes[i - 1];
+          continue;
+        }
+        const std::uint32_t triangle =
+          findTriangle(fragment.x, fragment.y, input.drawnSurfaces, input.occluders).triangle;
+        planes[i] = !(fragment.x > 0.0f) ? noReceiver
+          : triangle == notFound         ? offPlanes
+                                         : offPlanes + this->planes_.planeOfTriangle()[triangle];
       }
-    }
-  }
-  this->blockCount_ = static_cast<int>(blocks.size());
-  this->blocks_.set(std::move(blocks), "a table of surfaces");
+    });
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, this->planesOfPixels_.name());
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, this->shadows_.width(), this->shadows_.height(),
+    GL_RED_INTEGER, GL_UNSIGNED_INT, planes.data());
+  return std::count(planes.begin(), planes.end(), offPlanes);
 }
 
 //------------------------------------------------------------------------------
-void Planar::findPlanesOfPixels(const LayerInput& input)
-{
-  const GLuint program = ScreenPass::use(
-    input.shaders, ShaderLibrary::source("shadowtech/planar/planes_of_pixels.frag.glsl"));
-  ShaderLibrary::setUniforms(program,
-    { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },
-      { "blocks", TextureBinding{ GL_TEXTURE_2D, this->blocks_.texture() } },
-      { "blockCount", this->blockCount_ },
-      { "planesOfPrimitives",
-        TextureBinding{ GL_TEXTURE_2D, this->planesOfPrimitives_.texture() } } },
-    0, 0);
-  this->screenPass_.fill({ { this->planesOfPixels_.name() } }, this->width_, this->height_);
-}
-
-//------------------------------------------------------------------------------
-Planar::Batch Planar::makeBatch(const LayerInput& input, std::size_t first) const
-{
-  Batch batch;
-  batch.first = first;
-  batch.count = std::min(this->samples_.size() - first, samplesPerBatch);
-  batch.last = first + batch.count == this->samples_.size();
-  for (const ReceiverPlane& plane : this->planes_.planes())
-  {
-    batch.planes.push_back(turnedTo(input.camera, plane.plane));
-    batch.facing.push_back(standsBefore(batch.planes.back(), plane.thickness, this->centre_));
-  }
-  return batch;
-}
-
-//------------------------------------------------------------------------------
-void Planar::drawShadows(const LayerInput& input, const Batch& batch)
+void Planar::drawShadows(const LayerInput& input, const Sight& sight, const Batch& batch)
 {
   const std::string fragmentGlsl =
     ShaderLibrary::source("shadowtech/planar/planar_shadow.frag.glsl");
   const glm::dmat4 clipFromCentred = input.camera.clipFromCentred();
-  beginShadows(this->shadowFramebuffer_.name(), this->width_, this->height_);
+  beginShadows(this->shadowFramebuffer_.name(), this->shadows_.width(), this->shadows_.height());
   for (std::size_t i = 0; i < this->planes_.planes().size(); ++i)
   {
     const ReceiverPlane& receiver = this->planes_.planes()[i];
-    if (!batch.facing[i] || !mayShow(clipFromCentred, receiver.boundsCentred))
+    if (!sight.facing[i] || !mayShow(clipFromCentred, receiver.boundsCentred))
     {
       continue;
     }
     for (std::size_t bit = 0; bit < batch.count; ++bit)
     {
-      const glm::dvec4& plane = batch.planes[i];
+      const glm::dvec4& plane = sight.planes[i];
       const glm::dvec4 sample =
-        sampleBefore(plane, receiver.thickness, this->samples_[batch.first + bit], this->centre_);
+        sampleBefore(plane, receiver.thickness, sight.samples[batch.first + bit], sight.centre);
       CasterPicture picture;
       picture.clipFromCentred = clipFromCentred * planarProjection(plane, sample);
       picture.keptFromCentred =
@@ -254,7 +248,7 @@ void Planar::drawShadows(const LayerInput& input, const Batch& batch)
       drawCasters(picture, input.buffers, input.shaders,
         { fragmentGlsl, {},
           { { "planesOfPixels", TextureBinding{ GL_TEXTURE_2D, this->planesOfPixels_.name() } },
-            { "plane", static_cast<int>(i) + firstPlane },
+            { "plane", static_cast<int>(i + firstPlane) },
             { "sampleBit", static_cast<int>(bit) } } });
     }
   }
@@ -262,7 +256,7 @@ void Planar::drawShadows(const LayerInput& input, const Batch& batch)
 
 //------------------------------------------------------------------------------
 /// Add a batch to the sum. After the last one, fill the light's layer.
-void Planar::sumUp(const LayerInput& input, const Batch& batch)
+void Planar::sumUp(const LayerInput& input, const Sight& sight, const Batch& batch)
 {
   const glm::dmat4& viewFromCentred = input.camera.viewFromCentred;
   std::vector<std::string> defines = lightReachDefines(input.light);
@@ -275,17 +269,17 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
     { "planesOfPixels", TextureBinding{ GL_TEXTURE_2D, this->planesOfPixels_.name() } },
     { "shadows", TextureBinding{ GL_TEXTURE_2D, this->shadows_.name() } },
     { "sampleCount", static_cast<int>(batch.count) },
-    { "lightView", glm::vec4(viewFromCentred * this->centre_) },
-    { "sampleCountOfAll", batch.last ? static_cast<int>(this->samples_.size()) : 0 }
+    { "lightView", glm::vec4(viewFromCentred * sight.centre) },
+    { "sampleCountOfAll", batch.last ? static_cast<int>(sight.samples.size()) : 0 }
   };
   for (const std::vector<Uniform>& more : { this->lit_.before(),
          lightReachUniforms(input.light, input.occluders.frame.centre, viewFromCentred) })
   {
     uniforms.insert(uniforms.end(), more.begin(), more.end());
   }
-  for (std::size_t i = 0; i < batch.facing.size(); ++i)
+  for (std::size_t i = 0; i < sight.facing.size(); ++i)
   {
-    uniforms.push_back({ "planesFacingLight[" + std::to_string(i) + "]", batch.facing[i] ? 1 : 0 });
+    uniforms.push_back({ glslElement("planesFacingLight", i), sight.facing[i] ? 1 : 0 });
   }
   ShaderLibrary::setUniforms(program, uniforms, 0, 0);
   if (batch.last)
@@ -317,21 +311,9 @@ void Planar::noteWhatIsLeftOut(const LayerInput& input) const
 }
 
 //------------------------------------------------------------------------------
-std::int64_t Planar::countPixelsOffPlanes() const
-{
-  std::vector<GLuint> planes(
-    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
-  readTexture(this->planesOfPixels_.name(), GL_RED_INTEGER, GL_UNSIGNED_INT, planes.data());
-  return std::count(planes.begin(), planes.end(), offPlanes);
-}
-
-//------------------------------------------------------------------------------
 std::size_t Planar::bytesOfMaps() const
 {
-  const auto pixels =
-    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
-  return 2 * pixels * sizeof(float) + this->lit_.bytes() + this->planesOfPrimitives_.bytes() +
-    this->blocks_.bytes();
+  return this->planesOfPixels_.bytes() + this->shadows_.bytes() + this->lit_.bytes();
 }
 
 } // namespace gnomon

@@ -416,8 +416,7 @@ private:
 //------------------------------------------------------------------------------
 void ReceiverPlanes::update(const Occluders& occluders, std::size_t wanted)
 {
-  if (this->version_ > 0 && this->wanted_ == wanted &&
-    this->topologyVersion_ == occluders.topologyVersion &&
+  if (this->wanted_ == wanted && this->topologyVersion_ == occluders.topologyVersion &&
     this->positionsVersion_ == occluders.positionsVersion)
   {
     return;
@@ -425,22 +424,7 @@ void ReceiverPlanes::update(const Occluders& occluders, std::size_t wanted)
   PlaneSearch search(occluders, wanted);
   this->planes_ = search.run();
   this->area_ = search.area();
-  this->planeOfDrawn_.clear();
-  this->drawnBegin_.clear();
-  for (const Surface& surface : occluders.surfaces)
-  {
-    this->drawnBegin_.push_back(this->planeOfDrawn_.size());
-    const std::uint8_t* planes = search.planeOfTriangle().data() + surface.firstTriangle;
-    if (surface.triangleOfDrawn.empty())
-    {
-      this->planeOfDrawn_.insert(this->planeOfDrawn_.end(), planes, planes + surface.triangleCount);
-    }
-    for (const std::uint32_t triangle : surface.triangleOfDrawn)
-    {
-      this->planeOfDrawn_.push_back(triangle < surface.triangleCount ? planes[triangle] : 0);
-    }
-  }
-  ++this->version_;
+  this->planeOfTriangle_ = search.planeOfTriangle();
   this->wanted_ = wanted;
   this->topologyVersion_ = occluders.topologyVersion;
   this->positionsVersion_ = occluders.positionsVersion;

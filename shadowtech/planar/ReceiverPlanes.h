@@ -49,21 +49,14 @@ public:
   /// Return the area of all receiving triangles.
   double area() const { return this->area_; }
 
-  /// Return for every triangle that VTK draws 0, or 1 + its plane. A surface's triangles begin at
-  /// drawnBegin().
-  const std::vector<std::uint8_t>& planeOfDrawn() const { return this->planeOfDrawn_; }
-  std::size_t drawnBegin(std::size_t surface) const { return this->drawnBegin_[surface]; }
-
-  /// Return a number that changes with any of these values; 0 before the first update.
-  std::uint64_t version() const { return this->version_; }
+  /// Return for each triangle of the snapshot 0, or 1 + its plane.
+  const std::vector<std::uint8_t>& planeOfTriangle() const { return this->planeOfTriangle_; }
 
 private:
   std::vector<ReceiverPlane> planes_;
-  std::vector<std::uint8_t> planeOfDrawn_;
-  std::vector<std::size_t> drawnBegin_;
+  std::vector<std::uint8_t> planeOfTriangle_;
   double area_ = 0.0;
-  std::uint64_t version_ = 0;
-  std::size_t wanted_ = 0;
+  std::size_t wanted_ = 0; ///< 0 before the first update
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;
 };

@@ -3,7 +3,7 @@
 
 #include "shadowtech/base/cutout.glsl"
 
-uniform usampler2D planesOfPixels; // output of planes_of_pixels.frag.glsl
+uniform usampler2D planesOfPixels; // 0: no receiver; 1: on none of the planes; n + 2: on the n-th
 uniform int plane;                 // the shadow's plane, as planesOfPixels counts
 uniform int sampleBit;
 

@@ -8,8 +8,9 @@
 
 uniform sampler2D receiverFragments; // zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
-uniform usampler2D planesOfPixels;   // output of planes_of_pixels.frag.glsl
-uniform usampler2D shadows;          // a bit for each sample in shadow
+// 0: receives no shadow; 1: on none of the planes; n + 2: on the n-th.
+uniform usampler2D planesOfPixels;
+uniform usampler2D shadows; // a bit for each sample in shadow
 uniform int sampleCount;
 uniform vec4 lightView;                // of the centre: (position, 1) or (towards the light, 0)
 uniform int planesFacingLight[PLANES]; // 1 if the plane's visible side faces the light's centre

@@ -82,15 +82,8 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
       noise = 4.0f * storageNoise(normal, glm::abs(position) + glm::abs(glm::vec3(eyeCentred)));
     }
     const double depth = glm::dot(glm::dvec3(position) - eyeCentred, lookCentred);
-    this->receivers_.surface[i] = hit->surface;
-    this->receivers_.positionX[i] = position.x;
-    this->receivers_.positionY[i] = position.y;
-    this->receivers_.positionZ[i] = position.z;
-    this->receivers_.normalX[i] = normal.x;
-    this->receivers_.normalY[i] = normal.y;
-    this->receivers_.normalZ[i] = normal.z;
-    this->receivers_.offset[i] =
-      shadowRayOffset(noise, static_cast<float>(pixelSide.x + pixelSide.y * depth));
+    this->receivers_.put(i, position, normal,
+      shadowRayOffset(noise, static_cast<float>(pixelSide.x + pixelSide.y * depth)), hit->surface);
   };
   tbb::parallel_for(std::size_t(0), count, lookAt);
 }
@@ -107,10 +100,8 @@ WrongProbes Probes::wrongOf(const PointwiseTechnique& technique, const ShadowLig
   {
     if (this->receivers_.surface[i] != ReceiverPixels::notCovered)
     {
-      const glm::dvec4 position(this->receivers_.positionX[i], this->receivers_.positionY[i],
-        this->receivers_.positionZ[i], 1.0);
-      const glm::dvec4 normal(
-        this->receivers_.normalX[i], this->receivers_.normalY[i], this->receivers_.normalZ[i], 0.0);
+      const glm::dvec4 position(this->receivers_.position(i), 1.0);
+      const glm::dvec4 normal(this->receivers_.normal(i), 0.0);
       const glm::vec3 positionView(viewFromCentred * position);
       const glm::vec3 normalView(viewFromCentred * normal);
       fragments[i] = glm::vec4(1.0f, 0.0f, normalView.x, normalView.y);

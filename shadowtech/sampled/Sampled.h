@@ -2,7 +2,7 @@
 
 #include "shadowtech/base/RunningSum.h"
 #include "shadowtech/base/Technique.h"
-#include "shadowtech/depth_map/Compare.h"
+#include "shadowtech/depth_map/Pcf.h"
 
 #include <glm/glm.hpp>
 

@@ -170,8 +170,8 @@ Chain::Look Chain::lookAt(const ReceiverPixels& receivers, std::size_t i) const
   {
     return look;
   }
-  const glm::vec3 position(receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
-  const glm::vec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
+  const glm::vec3 position = receivers.position(i);
+  const glm::vec3 normal = receivers.normal(i);
   look.normal = normal;
   look.toCentre = this->rayLight_.kind == LightKind::Directional
     ? this->rayLight_.toLight

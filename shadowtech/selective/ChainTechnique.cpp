@@ -1,19 +1,82 @@
 #include "shadowtech/selective/ChainTechnique.h"
 
+#include "lights/LightSamples.h"
 #include "lights/LightSpace.h"
 #include "shadowtech/selective/LightInCaster.h"
 
 namespace gnomon
 {
+namespace
+{
 
-//------------------------------------------------------------------------------
-TechniqueInfo ChainTechnique::infoOf(const std::string& name)
+TechniqueInfo infoOfChain(const char* name)
 {
   TechniqueInfo info;
   info.name = name;
   info.settings = { &viewSettings(), &coherenceSettings() };
   info.classes = classesOfChain();
   return info;
+}
+
+std::string refusedByCoherence(const ShadowLight& light)
+{
+  return light.coherence.texels == 0
+    ? "'coherence' decides pixels by texels that agree, and without that traces all of them, as "
+      "'raytraced' does; its setting 'coherence' takes 4 or 9"
+    : "";
+}
+
+std::string refusedBySelective(const ShadowLight& light)
+{
+  if (light.chain.contourPixels == 0 && light.chain.outside == OutsideContour::Check)
+  {
+    return "nothing is outside a 'contour' that is the whole image; 'outside' needs a contour of "
+           "2, 4 or 6 pixels";
+  }
+  return light.chain.leftovers == Leftovers::Lit && light.coherence.texels == 0 &&
+      light.chain.neighbourTexels == 0 && light.chain.adjacency == Adjacency::Off
+    ? "without 'coherence', 'neighbours' and 'adjacency' nothing decides pixels of the contour, "
+      "and with 'leftovers' lit all of them would be lit"
+    : "";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+ChainEntry coherence()
+{
+  TechniqueInfo info = infoOfChain("coherence");
+  info.settings.insert(info.settings.end(), { &lightSampleSettings(), &lightSeedSettings() });
+  info.seesTextures = true;
+  info.refused = { refusedByCoherence, refusedSamples };
+  return { std::move(info),
+    [](const ShadowSettings& settings)
+    {
+      ChainStages stages;
+      stages.coherenceTexels = settings.coherence.texels;
+      stages.rimPoints = 7;
+      return stages;
+    } };
+}
+
+//------------------------------------------------------------------------------
+ChainEntry selective()
+{
+  TechniqueInfo info = infoOfChain("selective");
+  info.settings.push_back(&chainSettings());
+  info.refused = { refusedBySelective };
+  return { std::move(info),
+    [](const ShadowSettings& settings)
+    {
+      ChainStages stages;
+      stages.contourPixels = settings.chain.contourPixels;
+      stages.outside = settings.chain.outside;
+      stages.coherenceTexels = settings.coherence.texels;
+      stages.neighbourTexels = settings.chain.neighbourTexels;
+      stages.adjacency = settings.chain.adjacency;
+      stages.leftovers = settings.chain.leftovers;
+      return stages;
+    } };
 }
 
 //------------------------------------------------------------------------------
@@ -64,7 +127,7 @@ bool ChainTechnique::lightLiesInCaster(const ScreenInput& input, bool soft)
 void ChainTechnique::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts)
 {
-  ChainStages stages = this->stagesOf(input.light);
+  ChainStages stages = this->stagesOf_(input.light);
   const bool soft = input.light.area && stages.rimPoints > 0;
   if (this->lightLiesInCaster(input, soft))
   {

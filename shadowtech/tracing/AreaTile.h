@@ -63,10 +63,8 @@ public:
         static_cast<std::uint32_t>(tile.firstRow + row));
       const ReceiverPixels& receivers = tile.receivers;
       const std::size_t from = row * columns + column;
-      const AreaRays rays = areaRays(light,
-        { receivers.positionX[from], receivers.positionY[from], receivers.positionZ[from] },
-        { receivers.normalX[from], receivers.normalY[from], receivers.normalZ[from] },
-        { traced.directionX[pixel], traced.directionY[pixel], traced.directionZ[pixel] });
+      const AreaRays rays =
+        areaRays(light, receivers.position(from), receivers.normal(from), traced.direction(pixel));
       for (glm::length_t axis = 0; axis < 3; ++axis)
       {
         const auto i = static_cast<std::size_t>(axis);

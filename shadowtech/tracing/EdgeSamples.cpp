@@ -1,5 +1,6 @@
 #include "shadowtech/tracing/EdgeSamples.h"
 
+#include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 #include "shadowtech/tracing/SamplePlacing.h"
 #include "shadowtech/tracing/TracedPicture.h"
@@ -279,9 +280,9 @@ void EdgeSamples::dropHidden(const ReceiverImages& images, const EmbreeTracer& h
     [&](const tbb::blocked_range<std::size_t>& range)
     {
       constexpr std::size_t mostSamples = SampleBlocks::mostSamples;
-      std::array<float, mostSamples> fromX, fromY, fromZ, toX, toY, toZ;
+      std::array<float, mostSamples> fromX, fromY, fromZ, wayX, wayY, wayZ;
       std::array<std::size_t, mostSamples> tested;
-      std::array<std::uint8_t, mostSamples> isSeen;
+      std::array<std::uint8_t, mostSamples> isHidden;
       for (std::size_t pixel = range.begin(); pixel != range.end(); ++pixel)
       {
         std::size_t count = 0;
@@ -293,24 +294,22 @@ void EdgeSamples::dropHidden(const ReceiverImages& images, const EmbreeTracer& h
           {
             continue;
           }
-          const glm::vec3 normal(samples.normalX[i], samples.normalY[i], samples.normalZ[i]);
-          const glm::vec3 from =
-            glm::vec3(samples.positionX[i], samples.positionY[i], samples.positionZ[i]) +
-            samples.offset[i] * normal;
-          const glm::vec3 to(images.rays.origin(centre.x + places[n].x, centre.y + places[n].y));
+          const glm::vec3 from = samples.position(i) + samples.offset[i] * samples.normal(i);
+          const glm::vec3 way =
+            glm::vec3(images.rays.origin(centre.x + places[n].x, centre.y + places[n].y)) - from;
           fromX[count] = from.x;
           fromY[count] = from.y;
           fromZ[count] = from.z;
-          toX[count] = to.x;
-          toY[count] = to.y;
-          toZ[count] = to.z;
+          wayX[count] = way.x;
+          wayY[count] = way.y;
+          wayZ[count] = way.z;
           tested[count++] = n;
         }
-        hiders.areFree(count, { fromX.data(), fromY.data(), fromZ.data() },
-          { toX.data(), toY.data(), toZ.data() }, isSeen.data());
+        hiders.areBlocked(count, { fromX.data(), fromY.data(), fromZ.data() },
+          { wayX.data(), wayY.data(), wayZ.data() }, shadowRayFarAtLight, isHidden.data());
         for (std::size_t k = 0; k < count; ++k)
         {
-          this->hidden_[pixel] |= std::uint64_t(isSeen[k] == 0) << tested[k];
+          this->hidden_[pixel] |= std::uint64_t(isHidden[k]) << tested[k];
         }
       }
     });

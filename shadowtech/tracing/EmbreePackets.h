@@ -164,10 +164,10 @@ private:
 
 /// Trace rays as packets in their order.
 /// @param load fills the origins and directions of lanes with rays: load(rays, first, count)
-/// @param ofBlocked the answer, 0 or 1, for a blocked ray; other rays get the other
+/// @param blocked set to 1 for blocked rays, else 0
 template <typename Rays, typename Load>
-void traceRays(RTCScene scene, std::size_t count, float rayFar, const Load& load,
-  std::uint8_t ofBlocked, std::uint8_t* answers)
+void traceRays(
+  RTCScene scene, std::size_t count, float rayFar, const Load& load, std::uint8_t* blocked)
 {
   EmbreePacket<Rays> packet;
   for (std::size_t first = 0; first < count; first += packet.lanes)
@@ -177,8 +177,7 @@ void traceRays(RTCScene scene, std::size_t count, float rayFar, const Load& load
     packet.trace(scene, taken, rayFar);
     for (std::size_t lane = 0; lane < taken; ++lane)
     {
-      answers[first + lane] =
-        static_cast<std::uint8_t>(packet.isBlocked(lane) ? ofBlocked : 1 - ofBlocked);
+      blocked[first + lane] = packet.isBlocked(lane) ? 1 : 0;
     }
   }
 }

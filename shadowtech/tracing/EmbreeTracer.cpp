@@ -96,10 +96,9 @@ bool isTurnedBlocked(const EmbreeCasters& casters, const TracedPicture& picture,
   const auto& [pixel, i] = turned;
   const ReceiverPixels& receivers = *tile.receivers;
   const ReceiverPixels::Curve& curve = receivers.curves[i];
-  const glm::vec3 origin(tile.originX[pixel], tile.originY[pixel], tile.originZ[pixel]);
-  const glm::vec3 direction(tile.directionX[pixel], tile.directionY[pixel], tile.directionZ[pixel]);
-  const LiftedRay lifted = liftedRay(picture.light(),
-    { receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] }, origin, direction,
+  const glm::vec3 origin = tile.origin(pixel);
+  const glm::vec3 direction = tile.direction(pixel);
+  const LiftedRay lifted = liftedRay(picture.light(), receivers.position(i), origin, direction,
     curve.normal, curve.height + receivers.offset[i]);
   own.until = lifted.leaves;
   // True if a ray meets the own surface, on either side.
@@ -134,14 +133,6 @@ glm::vec3 normalOf(const EmbreeCasters& casters, const RTCHit& hit)
     RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &centredFromSource[0][0]);
   // The matrix is regular (Surface::centredFromSource).
   return glm::normalize(glm::inverseTranspose(glm::mat3(centredFromSource)) * normal);
-}
-
-template <typename Packet>
-void loadOrigins(Packet& packet, const PointArrays& origins, std::size_t first, std::size_t count)
-{
-  std::copy_n(origins.x + first, count, packet.org_x);
-  std::copy_n(origins.y + first, count, packet.org_y);
-  std::copy_n(origins.z + first, count, packet.org_z);
 }
 
 } // namespace
@@ -196,7 +187,7 @@ std::size_t EmbreeTracer::traceTurned(const TracedPicture& picture, TracedTile& 
   std::size_t count = 0;
   for (const TurnedPixel& turned : tile.turned)
   {
-    if (tile.needed[turned.pixel] == 0)
+    if (tile.needed[turned.pixel] == 0 || casters.casters.empty())
     {
       continue;
     }
@@ -215,49 +206,26 @@ std::size_t EmbreeTracer::traceTurned(const TracedPicture& picture, TracedTile& 
 }
 
 //------------------------------------------------------------------------------
-bool EmbreeTracer::hasCasters() const
+void EmbreeTracer::areBlocked(std::size_t count, const PointArrays& origins,
+  const PointArrays& directions, float rayFar, std::uint8_t* blocked) const
 {
-  return !this->impl_->casters.empty();
-}
-
-//------------------------------------------------------------------------------
-void EmbreeTracer::areFree(
-  std::size_t count, const PointArrays& from, const PointArrays& to, std::uint8_t* free) const
-{
-  if (!this->hasCasters())
+  if (this->impl_->casters.empty())
   {
-    std::fill_n(free, count, 1);
+    std::fill_n(blocked, count, 0);
     return;
   }
   const auto load = [&](auto& packet, std::size_t first, std::size_t taken)
   {
-    loadOrigins(packet, from, first, taken);
-    for (std::size_t lane = 0; lane < taken; ++lane)
-    {
-      packet.dir_x[lane] = to.x[first + lane] - from.x[first + lane];
-      packet.dir_y[lane] = to.y[first + lane] - from.y[first + lane];
-      packet.dir_z[lane] = to.z[first + lane] - from.z[first + lane];
-    }
-  };
-  const RTCScene scene = this->impl_->scene.get();
-  this->impl_->lanes16 ? traceRays<RTCRay16>(scene, count, shadowRayFarAtLight, load, 0, free)
-                       : traceRays<RTCRay8>(scene, count, shadowRayFarAtLight, load, 0, free);
-}
-
-//------------------------------------------------------------------------------
-void EmbreeTracer::areBlocked(std::size_t count, const PointArrays& origins,
-  const PointArrays& directions, float rayFar, std::uint8_t* blocked) const
-{
-  const auto load = [&](auto& packet, std::size_t first, std::size_t taken)
-  {
-    loadOrigins(packet, origins, first, taken);
+    std::copy_n(origins.x + first, taken, packet.org_x);
+    std::copy_n(origins.y + first, taken, packet.org_y);
+    std::copy_n(origins.z + first, taken, packet.org_z);
     std::copy_n(directions.x + first, taken, packet.dir_x);
     std::copy_n(directions.y + first, taken, packet.dir_y);
     std::copy_n(directions.z + first, taken, packet.dir_z);
   };
   const RTCScene scene = this->impl_->scene.get();
-  this->impl_->lanes16 ? traceRays<RTCRay16>(scene, count, rayFar, load, 1, blocked)
-                       : traceRays<RTCRay8>(scene, count, rayFar, load, 1, blocked);
+  this->impl_->lanes16 ? traceRays<RTCRay16>(scene, count, rayFar, load, blocked)
+                       : traceRays<RTCRay8>(scene, count, rayFar, load, blocked);
 }
 
 //------------------------------------------------------------------------------

@@ -85,12 +85,6 @@ public:
     return rays;
   }
 
-  /// Test segments between points. Called from several threads at once.
-  /// @param from, to centred
-  /// @param free set to 1 for each pair without a caster in between, else 0
-  void areFree(
-    std::size_t count, const PointArrays& from, const PointArrays& to, std::uint8_t* free) const;
-
   /// Test which rays are blocked; each ray has the same answer as in a picture (trace()). Called
   /// from several threads at once.
   /// @param origins, directions centred; directions of any length
@@ -108,11 +102,10 @@ public:
   std::size_t bytesOfTable() const;
 
 protected:
-  bool hasCasters() const;
   /// Trace the rays of a tile's turned pixels, which are not needed afterwards.
   /// @param names the casters' patches, if several processes share the picture; else null
   /// @param take called with each of these pixels and whether this process's casters block its ray
-  /// @return their number
+  /// @return their number; 0 without casters
   std::size_t traceTurned(const TracedPicture& picture, TracedTile& tile, const PatchNames* names,
     const std::function<void(std::size_t pixel, bool isBlocked)>& take) const;
   /// @return the number of rays traced

@@ -166,8 +166,7 @@ private:
     {
       return std::nullopt;
     }
-    return Shown{ { receivers->positionX[i], receivers->positionY[i], receivers->positionZ[i] },
-      { receivers->normalX[i], receivers->normalY[i], receivers->normalZ[i] } };
+    return Shown{ receivers->position(i), receivers->normal(i) };
   }
 
   std::size_t pixelAt(const glm::ivec2& at) const
@@ -322,16 +321,7 @@ private:
       projectSolid(seen, this->drawn_.images.rays, { place.x, place.y, 1, i }, this->samples_);
       return;
     }
-    ReceiverPixels& samples = this->samples_;
-    samples.positionX[i] = static_cast<float>(met.position.x);
-    samples.positionY[i] = static_cast<float>(met.position.y);
-    samples.positionZ[i] = static_cast<float>(met.position.z);
-    samples.normalX[i] = seen.normal.x;
-    samples.normalY[i] = seen.normal.y;
-    samples.normalZ[i] = seen.normal.z;
-    samples.offset[i] = met.offset;
-    samples.surface[i] = seen.surface;
-    samples.curved[i] = 0;
+    this->samples_.put(i, met.position, seen.normal, met.offset, seen.surface);
   }
 
   const Drawn& drawn_;

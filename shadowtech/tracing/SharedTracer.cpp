@@ -44,8 +44,7 @@ std::size_t SharedTracer::traceOwn(
         &this->blocked_[tile.number * wordsOfTileSamples + wordsOfTile * asked[tile.number]++];
       const auto take = [bits](std::size_t pixel, bool isBlocked)
       { bits[pixel / bitsOfWord] |= std::uint64_t(isBlocked) << pixel % bitsOfWord; };
-      const std::size_t turned =
-        this->hasCasters() ? this->traceTurned(picture, tile, this->names_, take) : 0;
+      const std::size_t turned = this->traceTurned(picture, tile, this->names_, take);
       TracedTile::Plane<float> rays[6]; // the needed ones, closed up
       TracedTile::Plane<std::uint16_t> pixels;
       TracedTile::Plane<std::uint8_t> isBlocked;
@@ -64,14 +63,11 @@ std::size_t SharedTracer::traceOwn(
           ++count;
         }
       }
-      if (this->hasCasters())
+      this->areBlocked(count, { rays[0].data(), rays[1].data(), rays[2].data() },
+        { rays[3].data(), rays[4].data(), rays[5].data() }, rayFar, isBlocked.data());
+      for (std::size_t i = 0; i < count; ++i)
       {
-        this->areBlocked(count, { rays[0].data(), rays[1].data(), rays[2].data() },
-          { rays[3].data(), rays[4].data(), rays[5].data() }, rayFar, isBlocked.data());
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          take(pixels[i], isBlocked[i] != 0);
-        }
+        take(pixels[i], isBlocked[i] != 0);
       }
       return turned + count;
     });

@@ -288,9 +288,7 @@ void TracedPicture::findTurned(const MakeRay& makeRay, TracedTile& traced) const
     const std::size_t pixel = i / columns * TracedTile::columns + i % columns;
     if (receivers.curved[i] != 0 && this->receives_[receivers.surface[i] + 1u] != 0 &&
       traced.classes[pixel] == static_cast<std::uint8_t>(TracedClass::Unreached) &&
-      makeRay({ receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] },
-        receivers.curves[i].normal, receivers.offset[i])
-        .traced)
+      makeRay(receivers.position(i), receivers.curves[i].normal, receivers.offset[i]).traced)
     {
       traced.turned.push_back({ pixel, i });
       traced.needed[pixel] = 1;

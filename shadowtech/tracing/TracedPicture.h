@@ -71,6 +71,14 @@ struct alignas(64) TracedTile
   std::size_t firstPixel;       ///< index in the picture
   std::size_t columnsOfPicture; ///< width of the picture
 
+  glm::vec3 origin(std::size_t pixel) const
+  {
+    return { this->originX[pixel], this->originY[pixel], this->originZ[pixel] };
+  }
+  glm::vec3 direction(std::size_t pixel) const
+  {
+    return { this->directionX[pixel], this->directionY[pixel], this->directionZ[pixel] };
+  }
   /// Return the picture's index of a pixel of the tile.
   std::size_t pixelOfPicture(std::size_t pixel) const
   {

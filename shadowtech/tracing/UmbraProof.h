@@ -34,21 +34,8 @@ struct RayEnds
 };
 
 /// Proves that casters block all shadow rays from a box to a light, so that tracing them would find
-/// the same (docs/theory/blockers.md).
-///
-/// Embree's robust test lets a ray O + t D pass a directed edge from A to B on its left if F(A, B)
-/// = (B
-/// - A) x D . (A - O) is not negative. The ray hits a triangle if it passes all three edges on one
-///   side, and t is in the ray's interval. F is affine in O and in the light's point. So F is
-///   positive for all rays if it exceeds rounding for the rays between corners. The same holds for
-///   the distances to the triangle's plane, from which t follows.
-///
-/// A blocker is one triangle, or n triangles of a surface joined along n - 1 edges that they share
-/// bit by bit.
-/// If all rays pass all other edges on their left, each ray hits one of the triangles. As F(B, A)
-/// rounds to -F(A, B), a ray passes a joint on the right for at most one of its two triangles. So
-/// one triangle remains that the ray passes nowhere on the right. A blocker need be neither flat
-/// nor convex.
+/// the same. A blocker is one triangle, or several of a surface that share edges bit by bit. It need
+/// be neither flat nor convex. docs/theory/blockers.md is the proof; F below is its edge function.
 class UmbraProof
 {
 public:

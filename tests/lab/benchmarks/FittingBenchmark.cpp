@@ -11,7 +11,7 @@
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/depth_map/Compare.h"
+#include "shadowtech/depth_map/Pcf.h"
 #include "shadowtech/fitting/ReceiverFit.h"
 
 #include <glm/gtc/constants.hpp>

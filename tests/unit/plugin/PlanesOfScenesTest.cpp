@@ -107,19 +107,14 @@ public:
   template <typename Visit>
   void forEach(const Visit& visit) const
   {
-    for (std::size_t i = 0; i < this->occluders().surfaces.size(); ++i)
+    for (const Surface& surface : this->occluders().surfaces)
     {
-      const Surface& surface = this->occluders().surfaces[i];
-      for (std::uint32_t drawn = 0; drawn < surface.drawnCount(); ++drawn)
+      const bool counts = surface.receives && !surface.isInstanced();
+      for (std::uint32_t i = 0; counts && i < surface.triangleCount; ++i)
       {
-        const std::uint32_t triangle =
-          surface.triangleOfDrawn.empty() ? drawn : surface.triangleOfDrawn[drawn];
-        if (surface.receives && !surface.isInstanced() && triangle != Surface::noTriangle)
-        {
-          Receiver receiver = this->receiver(surface.firstTriangle + triangle);
-          receiver.ofPlane = this->planes.planeOfDrawn()[this->planes.drawnBegin(i) + drawn];
-          visit(receiver);
-        }
+        Receiver receiver = this->receiver(surface.firstTriangle + i);
+        receiver.ofPlane = this->planes.planeOfTriangle()[surface.firstTriangle + i];
+        visit(receiver);
       }
     }
   }

@@ -93,10 +93,8 @@ INSTANTIATE_TEST_SUITE_P(TextureMemory, MapsWithoutRoom,
       { { "blur", "sat" }, { "mip_maps", "off" } }, "" },
     MapsOf{ "momentsInMipMaps", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO },
       { { "blur", "box" }, { "mip_maps", "on" } }, "" },
-    MapsOf{ "layersInMips", { "montecarlo", vtkGnomonShadowPass::ROUTE_AUTO },
-      { { "light_radius", "0.2" }, { "mc_pyramid", "mips" } }, "" },
-    MapsOf{ "layersInNBuffers", { "montecarlo", vtkGnomonShadowPass::ROUTE_AUTO },
-      { { "light_radius", "0.2" }, { "mc_pyramid", "nbuffer" } }, "" },
+    MapsOf{ "depthLayers", { "montecarlo", vtkGnomonShadowPass::ROUTE_AUTO },
+      { { "light_radius", "0.2" } }, "" },
     MapsOf{ "cellsOnTheCpu", { "crsm", vtkGnomonShadowPass::ROUTE_AUTO }, {}, sixOnCpu }),
   [](const testing::TestParamInfo<MapsOf>& maps) { return std::string(maps.param.name); });
 

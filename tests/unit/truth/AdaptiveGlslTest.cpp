@@ -1,13 +1,12 @@
-// adaptive_estimator.glsl on given maps: its discs, and the texels that it reads.
+// pcf_estimator.glsl on given maps: the jittered disc of `adaptive`, and the texels that it reads.
 
 #include "EstimatorGlsl.h"
 #include "HalfPlane.h"
 
-#include "shadowtech/adaptive/Adaptive.h"
-#include "shadowtech/adaptive/JitteredDiscs.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Kernel.h"
-#include "shadowtech/depth_map/DepthBounds.h"
+#include "shadowtech/depth_map/KernelPoints.h"
+#include "shadowtech/depth_map/Pcf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +90,8 @@ std::vector<float> runAdaptive(
   const ShadowLight& light, const Map& map, const std::vector<glm::dvec2>& places)
 {
   const BakedDiscs baked(light, map);
-  return runGlsl(Adaptive(), light, sunViews(light), map, places, baked.uniforms());
+  return runGlsl(
+    Pcf(Pcf::Kernel::JitteredDisc), light, sunViews(light), map, places, baked.uniforms());
 }
 
 using AdaptiveGlsl = GlslTest;
@@ -105,7 +105,7 @@ bool patches(const glm::ivec2& texel)
   return patch != (texel.x % 13 == 5 && texel.y % 11 == 7);
 }
 
-/// Return the hidden share of the disc as Adaptive.h states it for a place.
+/// Return the hidden share of the disc as Pcf.h states it for a place.
 double hiddenShareOfDisc(const ShadowLight& light, const Map& map, const glm::dvec2& place)
 {
   const auto& settings = light.adaptive;
@@ -234,12 +234,16 @@ TEST_F(AdaptiveGlsl, theRingIsBlindToAHoleThatTheExactEarlyOutSees)
 }
 
 /// Returns the number of texels of the map and of its bounds that the shader reads.
-class CountingAdaptive : public Adaptive
+class CountingAdaptive : public Pcf
 {
 public:
+  CountingAdaptive()
+    : Pcf(Kernel::JitteredDisc)
+  {
+  }
   std::string visibilityGlsl(const ShadowLight& light) const override
   {
-    std::string text = this->Adaptive::visibilityGlsl(light);
+    std::string text = this->Pcf::visibilityGlsl(light);
     replaceOnce(text, "float depthAt_LIGHT(int view, ivec2 texel)\n{",
       "int reads_LIGHT = 0;\nfloat depthAt_LIGHT(int view, ivec2 texel)\n{\n  ++reads_LIGHT;");
     const std::string bounds = "texelFetch(depthBounds_LIGHT";

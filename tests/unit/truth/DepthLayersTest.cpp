@@ -61,8 +61,8 @@ public:
     for (std::size_t i = 0; i < pages.size(); ++i)
     {
       std::vector<glm::dvec2>& slabs = this->slabs_[i % this->texels()];
-      slabs.emplace_back(pages[i].x, pages[i].y);
-      slabs.emplace_back(pages[i].z, pages[i].w);
+      slabs.emplace_back(pages[i].x, -pages[i].y);
+      slabs.emplace_back(pages[i].z, -pages[i].w);
     }
   }
 

@@ -5,11 +5,10 @@
 #include "SyntheticScene.h"
 
 #include "lights/KernelShape.h"
-#include "shadowtech/adaptive/Adaptive.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/depth_map/Compare.h"
 #include "shadowtech/depth_map/DepthMapTechnique.h"
+#include "shadowtech/depth_map/Pcf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -191,10 +190,14 @@ TEST_F(DepthMap, holdsTheSurfaceThatIsAskedFor)
 }
 
 /// Gives access to the pyramid.
-class OpenAdaptive : public Adaptive
+class OpenAdaptive : public Pcf
 {
 public:
-  using Adaptive::map;
+  OpenAdaptive()
+    : Pcf(Kernel::JitteredDisc)
+  {
+  }
+  using Pcf::map;
 };
 
 /// Count the casters' fragments that are written into the map.

@@ -252,9 +252,14 @@ public:
 private:
   void upload()
   {
+    std::vector<glm::vec4> pages; // as slabs.glsl has them
+    for (const glm::vec4& slabs : this->slabs_)
+    {
+      pages.emplace_back(slabs.x, -slabs.y, slabs.z, -slabs.w);
+    }
     allocateMap(this->texture_, { GL_RGBA32F, GL_RGBA, 4 }, this->side_, 1);
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, this->side_, this->side_, 1, GL_RGBA, GL_FLOAT,
-      this->slabs_.data());
+      pages.data());
   }
 
   int side_;
@@ -268,41 +273,31 @@ TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
   for (const auto& [side, whole] : { std::pair(64, 64), { 100, 128 }, { 1024, 1024 } })
   {
     SlabMap map(side, 12, this->random_);
-    SlabBounds mips, nBuffer;
-    mips.build(map.texture(), 1, side, 1, SlabHierarchy::Mips, this->library_);
-    nBuffer.build(map.texture(), 1, side, 1, SlabHierarchy::NBuffer, this->library_);
+    SlabBounds bounds;
+    bounds.build(map.texture(), 1, side, 1, this->library_);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    EXPECT_EQ(1 << nBuffer.topLevel(), whole);
-    ASSERT_EQ(mips.topLevel(), nBuffer.topLevel());
-    const auto texels = [](int width) { return static_cast<std::size_t>(width * width); };
-    std::vector<glm::vec4> windows(
-      texels(whole) * static_cast<std::size_t>(nBuffer.topLevel() + 1));
-    glBindTexture(GL_TEXTURE_2D_ARRAY, nBuffer.texture());
-    glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_FLOAT, windows.data());
-    glBindTexture(GL_TEXTURE_2D_ARRAY, mips.texture());
-    for (int level = 0; level <= nBuffer.topLevel(); ++level)
+    ASSERT_EQ(1 << bounds.topLevel(), whole);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, bounds.texture());
+    for (int level = 0; level <= bounds.topLevel(); ++level)
     {
       const int size = 1 << level;
       const int cells = whole / size;
-      const int offset = level == 0 ? 0 : size / 2 - 1;
-      std::vector<glm::vec4> ofMips(texels(cells));
-      glGetTexImage(GL_TEXTURE_2D_ARRAY, level, GL_RGBA, GL_FLOAT, ofMips.data());
-      const auto first = windows.begin() + level * static_cast<std::ptrdiff_t>(texels(whole));
+      std::vector<glm::vec4> found(static_cast<std::size_t>(cells * cells));
+      glGetTexImage(GL_TEXTURE_2D_ARRAY, level, GL_RGBA, GL_FLOAT, found.data());
       const int trials = std::clamp(10000000 / (size * size), 10, 2000);
       for (int i = 0; i < trials; ++i)
       {
         // Including the corners.
-        const auto place = [&](int end)
+        const auto place = [&]
         {
-          return i % 5 == 0 ? (this->random_() % 2 ? end - 1 : 0)
-                            : static_cast<int>(this->random_() % static_cast<unsigned>(end));
+          return i % 5 == 0 ? (this->random_() % 2 ? cells - 1 : 0)
+                            : static_cast<int>(this->random_() % static_cast<unsigned>(cells));
         };
-        const glm::ivec2 at(place(whole), place(whole)), cell(place(cells), place(cells));
-        ASSERT_EQ(first[at.y * whole + at.x], map.bounds(at - offset, size, whole))
-          << "N-buffer of " << side << ", level " << level << " at " << at.x << ", " << at.y;
-        ASSERT_EQ(ofMips[static_cast<std::size_t>(cell.y * cells + cell.x)],
+        const int x = place();
+        const glm::ivec2 cell(x, place());
+        ASSERT_EQ(found[static_cast<std::size_t>(cell.y * cells + cell.x)],
           map.bounds(cell * size, size, whole))
-          << "mips of " << side << ", level " << level << " at " << cell.x << ", " << cell.y;
+          << side << ", level " << level << " at " << cell.x << ", " << cell.y;
       }
     }
   }
@@ -353,35 +348,28 @@ std::vector<Uniform> searchUniforms(GLuint slabs, int side, const SlabBounds& bo
     { "topLevel", bounds.topLevel() } };
 }
 
-/// Results of the hierarchical searches.
+/// Results of the hierarchical search.
 struct Searched
 {
-  std::string kind;
   int topLevel;
   std::vector<glm::uvec2> found; ///< x: 1 if there is a slab; y: visited cells
   double meanVisits = 0.0;
   unsigned int mostVisits = 0;
 };
-std::vector<Searched> searchBoth(
+Searched searchAll(
   ShaderLibrary& library, GLuint slabs, int side, int pages, const std::vector<RayLine>& lines)
 {
-  std::vector<Searched> both;
-  for (const auto& [kind, hierarchy] :
-    { std::pair("MIPS", SlabHierarchy::Mips), { "NBUFFER", SlabHierarchy::NBuffer } })
+  SlabBounds bounds;
+  bounds.build(slabs, pages, side, 1, library);
+  Searched searched{ bounds.topLevel(),
+    runCompute<glm::uvec2>(library, searchGlsl("cellsVisited"), lines,
+      searchUniforms(slabs, side, bounds), { "PAGES " + std::to_string(pages) }) };
+  for (const glm::uvec2& each : searched.found)
   {
-    SlabBounds bounds;
-    bounds.build(slabs, pages, side, 1, hierarchy, library);
-    Searched searched{ kind, bounds.topLevel(),
-      runCompute<glm::uvec2>(library, searchGlsl("cellsVisited"), lines,
-        searchUniforms(slabs, side, bounds), { kind, "PAGES " + std::to_string(pages) }) };
-    for (const glm::uvec2& each : searched.found)
-    {
-      searched.meanVisits += static_cast<double>(each.y) / static_cast<double>(lines.size());
-      searched.mostVisits = std::max(searched.mostVisits, each.y);
-    }
-    both.push_back(searched);
+    searched.meanVisits += static_cast<double>(each.y) / static_cast<double>(lines.size());
+    searched.mostVisits = std::max(searched.mostVisits, each.y);
   }
-  return both;
+  return searched;
 }
 
 TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
@@ -394,22 +382,20 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
     const auto hits = static_cast<std::size_t>(std::count(truth.begin(), truth.end(), true));
     EXPECT_GT(hits, lines.size() / 50);
     EXPECT_LT(hits, lines.size() * 49 / 50);
-    for (const Searched& searched : searchBoth(this->library_, map.texture(), map.side(), 1, lines))
+    const Searched searched = searchAll(this->library_, map.texture(), map.side(), 1, lines);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i)
     {
-      std::size_t differing = 0;
-      for (std::size_t i = 0; i < lines.size(); ++i)
+      if ((searched.found[i].x == 1u) != truth[i])
       {
-        if ((searched.found[i].x == 1u) != truth[i])
-        {
-          ++differing;
-          EXPECT_FALSE(map.isDecided(lines[i])) << i;
-        }
+        ++differing;
+        EXPECT_FALSE(map.isDecided(lines[i])) << i;
       }
-      EXPECT_LE(differing, lines.size() / 10000) << searched.kind << ", " << boxes << " boxes";
-      // Sixty boxes, each a sixth of the map wide on average, form a maze.
-      EXPECT_LT(searched.meanVisits, boxes == 6 ? 4.0 : 16.0) << searched.kind << ", " << boxes;
-      EXPECT_LT(searched.mostVisits, (64u + 8u * 128u) / 4u) << "far from where it gives up";
     }
+    EXPECT_LE(differing, lines.size() / 10000) << boxes << " boxes";
+    // Sixty boxes, each a sixth of the map wide on average, form a maze.
+    EXPECT_LT(searched.meanVisits, boxes == 6 ? 4.0 : 16.0) << boxes;
+    EXPECT_LT(searched.mostVisits, (64u + 8u * 128u) / 4u) << "far from where it gives up";
   }
 }
 
@@ -430,14 +416,11 @@ TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
     }
   }
   ASSERT_GT(lines.size(), 10000u);
-  for (const Searched& searched : searchBoth(this->library_, map.texture(), map.side(), 1, lines))
-  {
-    EXPECT_TRUE(std::all_of(searched.found.begin(), searched.found.end(),
-      [](const glm::uvec2& each) { return each.x == 1u; }))
-      << searched.kind;
-    EXPECT_LE(searched.mostVisits, static_cast<unsigned int>(searched.topLevel) + 1u)
-      << "it only descends";
-  }
+  const Searched searched = searchAll(this->library_, map.texture(), map.side(), 1, lines);
+  EXPECT_TRUE(std::all_of(searched.found.begin(), searched.found.end(),
+    [](const glm::uvec2& each) { return each.x == 1u; }));
+  EXPECT_LE(searched.mostVisits, static_cast<unsigned int>(searched.topLevel) + 1u)
+    << "it only descends";
 }
 
 //------------------------------------------------------------------------------
@@ -489,12 +472,9 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
       lines.push_back(cut);
     }
   }
-  for (const Searched& searched :
-    searchBoth(this->library_, layers.slabs(), side, layers.pages(), lines))
-  {
-    EXPECT_LT(searched.meanVisits, 8.0) << searched.kind;
-    EXPECT_LT(searched.mostVisits, 64u + 4u * 9u) << searched.kind;
-  }
+  const Searched searched = searchAll(this->library_, layers.slabs(), side, layers.pages(), lines);
+  EXPECT_LT(searched.meanVisits, 8.0);
+  EXPECT_LT(searched.mostVisits, 64u + 4u * 9u);
 }
 
 //------------------------------------------------------------------------------

@@ -2,8 +2,8 @@
 
 #include "EstimatorGlsl.h"
 
+#include "shadowtech/depth_map/KernelPoints.h"
 #include "shadowtech/depth_map/Pcf.h"
-#include "shadowtech/depth_map/PoissonDisc.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/depth_map/DepthBounds.h"
+#include "shadowtech/depth_map/KernelPoints.h"
 #include "shadowtech/depth_map/PcssPoints.h"
-#include "shadowtech/depth_map/PoissonSquare.h"
 #include "shadowtech/pcss/Pcss.h"
 
 #include <algorithm>
