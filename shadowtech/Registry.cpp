@@ -8,7 +8,7 @@
 #include "shadowtech/pcss/Pcss.h"
 #include "shadowtech/penumbra/Penumbra.h"
 #include "shadowtech/planar/Planar.h"
-#include "shadowtech/published/PublishedCrsm.h"
+#include "shadowtech/published/PublishedMap.h"
 #include "shadowtech/published/PublishedPcss.h"
 #include "shadowtech/raytraced/Raytraced.h"
 #include "shadowtech/sampled/Sampled.h"

@@ -1,9 +1,13 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 
+#include "lights/LightSpace.h"
 #include "shadowtech/base/GlslText.h"
+
+#include <cmath>
 
 namespace gnomon
 {
+
 namespace
 {
 
@@ -67,6 +71,34 @@ std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
     uniforms.push_back({ glslElement("viewOfFace_LIGHT", face), views.viewOfFace[face] });
   }
   return uniforms;
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::string> lightReachDefines(const ShadowLight& light)
+{
+  std::vector<std::string> defines;
+  if (light.kind == LightKind::Spot)
+  {
+    defines.emplace_back("SPOT");
+  }
+  if (light.box)
+  {
+    defines.emplace_back("BOX");
+  }
+  return defines;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Uniform> lightReachUniforms(
+  const ShadowLight& light, const glm::dvec3& centreWorld, const glm::dmat4& viewFromCentred)
+{
+  const glm::dmat4 lightFromView =
+    lightFromCentred(light, centreWorld) * glm::inverse(viewFromCentred);
+  const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
+  const LightBox box = light.box.value_or(LightBox());
+  return { { "lightFromView", glm::mat4(lightFromView) },
+    { "lightCone", static_cast<float>(tangent * tangent) },
+    { "lightBox", glm::vec3(0.5 * box.width, 0.5 * box.height, box.depth) } };
 }
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/LightViews.h"
+#include "lights/ShadowLight.h"
 #include "shadowtech/base/Technique.h"
 
 #include <glm/glm.hpp>
@@ -20,5 +21,13 @@ std::string lightViewsDefines(const ShadowLight& light, bool asksPixels = false)
 /// @param viewFits the fits found on the GPU, if views await them (MapInput::viewFits)
 std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
   const ReceiverSpace& space, const TextureBinding& viewFits = {});
+
+/// Return the defines of light_reach.glsl, which select a light's bounds: SPOT or BOX.
+std::vector<std::string> lightReachDefines(const ShadowLight& light);
+
+/// Return its uniforms, for points in the camera's view coordinates.
+/// @param viewFromCentred of the camera, rigid
+std::vector<Uniform> lightReachUniforms(
+  const ShadowLight& light, const glm::dvec3& centreWorld, const glm::dmat4& viewFromCentred);
 
 } // namespace gnomon

@@ -1,5 +1,5 @@
 // Tests whether a light's cone or box contains a point, for shaders that draw all pixels of one
-// light (LightReach.h). SPOT and BOX select the test.
+// light (LightViewsGlsl.h). SPOT and BOX select the test.
 
 #include "shadowtech/base/shadow_ray.glsl"
 

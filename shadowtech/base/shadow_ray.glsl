@@ -1,18 +1,8 @@
-// The twin of ShadowRay.h, which documents these functions. Several lights' sources may include it
-// into one shader.
+// The twin of functions of ShadowRay.h, which documents them. Several lights' sources may include
+// it into one shader.
 
 #ifndef GNOMON_SHADOW_RAY
 #define GNOMON_SHADOW_RAY
-
-float planeNoise(vec3 normal, vec3 largest, vec3 extent, float doubleArea)
-{
-  float storage =
-    abs(normal.x) * largest.x + abs(normal.y) * largest.y + abs(normal.z) * largest.z;
-  float longest = max(extent.x, max(extent.y, extent.z));
-  float intersection = extent.x * (extent.y * extent.z / doubleArea);
-  return 1.1920929e-7 * storage +                             // 2^-23
-    min(1.9073486e-6 * intersection, 9.765625e-4 * longest);  // 2^-19, 2^-10
-}
 
 float shadowRayOffset(float noise, float footprint)
 {

@@ -1,8 +1,8 @@
 // Percentage closer filtering (Reeves, Salesin and Cook 1987): the share of the light's kernel that
 // nothing hides. Pcf.h describes the kernels; PCF_TEXELS_LIGHT is their width. Macros select how
 // the map is read:
-// - PCF_DISC_LIGHT: DISC_POINTS_LIGHT points of a disc, of which the first DISC_RING_LIGHT lie on its
-//   rim, and fewer where the whole disc is lit or hidden;
+// - PCF_DISC_LIGHT: DISC_POINTS_LIGHT points of a disc, of which the first DISC_RING_LIGHT lie on
+//   its rim, and fewer where the whole disc is lit or hidden;
 // - PCF_ROWS_LIGHT: the bilinear kernel in units of texels;
 // - PCF_WEIGHTED_LIGHT: all texels of a bilinear or Castano's kernel;
 // - PCF_POISSON_LIGHT: points of a disc;

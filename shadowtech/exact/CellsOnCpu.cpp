@@ -1,12 +1,246 @@
 #include "shadowtech/exact/CellsOnCpu.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <limits>
 #include <tuple>
 #include <vector>
 
 namespace gnomon
 {
+
+namespace
+{
+
+/// Limit of triangles followed around a corner, to either side; most corners have fewer.
+constexpr int mostAroundCorner = 12;
+
+} // namespace
+
+//------------------------------------------------------------------------------
+MapCasters::MapCasters(const CasterScene& scene, const CasterEdges& edges, Covering covering,
+  const std::function<void(const BandItem&, const MapPolygon&)>& found)
+  : scene_(scene)
+  , edges_(edges)
+  , covering_(covering)
+  , placements_(scene.occluders)
+{
+  this->facing_.resize(this->placements_.triangleCount());
+  std::atomic<bool> blind{ false };
+  tbb::enumerable_thread_specific<double> margins(0.0);
+  this->placements_.visitTriangles(
+    [&](std::uint32_t number, std::uint32_t triangle)
+    {
+      const MapPolygon polygon = this->polygon({ number, triangle });
+      this->facing_[this->placements_.numberOf(this->placements_[number], triangle)] =
+        polygon.role.present ? static_cast<std::int8_t>(polygon.facing) : absentFacing;
+      if (!polygon.role.present)
+      {
+        return;
+      }
+      // NaN must count as blind.
+      if (!(polygon.margin < std::numeric_limits<double>::infinity()))
+      {
+        blind = true;
+        return;
+      }
+      if (!polygon.role.poison)
+      {
+        double& margin = margins.local();
+        margin = std::max(margin, polygon.margin);
+      }
+      found({ number, triangle }, polygon);
+    });
+  this->blind_ = blind;
+  for (const double margin : margins)
+  {
+    this->margin_ = std::max(this->margin_, margin);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::int8_t MapCasters::facingOf(const Placement& placement, std::uint32_t triangle) const
+{
+  return triangle == CasterEdge::none
+    ? absentFacing
+    : this->facing_[this->placements_.numberOf(placement, triangle)];
+}
+
+//------------------------------------------------------------------------------
+EdgeKind MapCasters::kindWithinSurface(const Placement& placement, const CasterEdge& edge) const
+{
+  return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
+    this->facingOf(placement, edge.triangles[1]));
+}
+
+//------------------------------------------------------------------------------
+/// Return the kind of an edge by its number. The surface may continue there as another one.
+EdgeKind MapCasters::kindOf(const Placement& placement, std::uint32_t number) const
+{
+  CasterEdge edge = this->edges_.of(placement.surface).edges[number];
+  const Seam* const seam = edge.triangles[1] == CasterEdge::none
+    ? this->edges_.seams().at(placement.surface, number)
+    : nullptr;
+  if (!seam)
+  {
+    return this->kindWithinSurface(placement, edge);
+  }
+  edge.sameDirection = seam->sameDirection;
+  edge.sharp = seam->sharp;
+  return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
+    this->facingOf(this->placements_.placementOf(seam->otherSurface), seam->otherTriangle));
+}
+
+//------------------------------------------------------------------------------
+CasterPart MapCasters::partOf(const Placement& placement, std::uint32_t triangle) const
+{
+  return this->covering_ == Covering::Silhouette
+    ? CasterPart(placement.instance) << 32 | this->edges_.partOf(triangle)
+    : noPart;
+}
+
+//------------------------------------------------------------------------------
+CasterPart MapCasters::partOfTriangle(const BandItem& triangle) const
+{
+  return this->partOf(this->placements_[triangle.placement], triangle.index);
+}
+
+//------------------------------------------------------------------------------
+CasterPart MapCasters::partOfEdge(const BandItem& edge) const
+{
+  const Placement& placement = this->placements_[edge.placement];
+  return this->partOf(placement, this->edges_.of(placement.surface).edges[edge.index].triangles[0]);
+}
+
+//------------------------------------------------------------------------------
+bool MapCasters::segment(const BandItem& edge, MapSegment& result) const
+{
+  const Placement& placement = this->placements_[edge.placement];
+  const CasterEdge& found = this->edges_.of(placement.surface).edges[edge.index];
+  if (this->facingOf(placement, found.triangles[0]) == absentFacing &&
+    this->facingOf(placement, found.triangles[1]) == absentFacing)
+  {
+    return false;
+  }
+  const EdgeKind kind = this->kindOf(placement, edge.index);
+  result.part = this->partOf(placement, found.triangles[0]);
+  return kind != EdgeKind::Inner &&
+    segmentOf(this->scene_, this->placements_.surfaceOf(placement), placement.instance, found, kind,
+      result);
+}
+
+//------------------------------------------------------------------------------
+MapPolygon MapCasters::polygon(const BandItem& triangle) const
+{
+  const Placement& placement = this->placements_[triangle.placement];
+  MapPolygon polygon = polygonOf(
+    this->scene_, this->placements_.surfaceOf(placement), placement.instance, triangle.index);
+  polygon.part = this->partOf(placement, triangle.index);
+  return polygon;
+}
+
+//------------------------------------------------------------------------------
+/// Return the triangle across an edge where the casters' surface continues; `none` where it ends.
+std::uint32_t MapCasters::across(
+  const Placement& placement, const CasterEdge& edge, std::uint32_t triangle) const
+{
+  const EdgeKind kind = this->kindWithinSurface(placement, edge);
+  return kind == EdgeKind::Inner || kind == EdgeKind::Sharp ? edge.other(triangle)
+                                                            : CasterEdge::none;
+}
+
+//------------------------------------------------------------------------------
+/// Return a triangle, followed by those that continue its surface around its corners.
+std::vector<std::uint32_t> MapCasters::fanOf(
+  const Placement& placement, std::uint32_t triangle) const
+{
+  const SurfaceEdges& edges = this->edges_.of(placement.surface);
+  const std::uint32_t first = this->placements_.surfaceOf(placement).firstTriangle;
+  std::vector<std::uint32_t> fan{ triangle };
+  // Walk around the corner that two sides share, starting across the first of them.
+  const auto walk = [&](std::uint32_t side, std::uint32_t otherSide)
+  {
+    const CasterEdge& start = edges.edges[side];
+    const bool atFrom = edges.edges[otherSide].meets(start.from);
+    const std::uint32_t corner = atFrom ? start.from : start.to;
+    std::uint32_t current = triangle;
+    for (int i = 0; i < mostAroundCorner; ++i)
+    {
+      current = this->across(placement, edges.edges[side], current);
+      if (current == CasterEdge::none || current == triangle)
+      {
+        return;
+      }
+      if (std::find(fan.begin(), fan.end(), current) == fan.end())
+      {
+        fan.push_back(current);
+      }
+      const auto& sides = edges.ofTriangle[current - first];
+      side = *std::find_if(sides.begin(), sides.end(),
+        [&](std::uint32_t next) { return next != side && edges.edges[next].meets(corner); });
+    }
+  };
+  const auto& sides = edges.ofTriangle[triangle - first];
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    walk(sides[k], sides[(k + 1) % 3]);
+    walk(sides[k], sides[(k + 2) % 3]);
+  }
+  return fan;
+}
+
+//------------------------------------------------------------------------------
+/// Return a triangle, followed by those that continue its surface across its edges.
+std::vector<std::uint32_t> MapCasters::edgeNeighboursOf(
+  const Placement& placement, std::uint32_t triangle) const
+{
+  const SurfaceEdges& edges = this->edges_.of(placement.surface);
+  std::vector<std::uint32_t> ring{ triangle };
+  for (const std::uint32_t side :
+    edges.ofTriangle[triangle - this->placements_.surfaceOf(placement).firstTriangle])
+  {
+    const std::uint32_t other = this->across(placement, edges.edges[side], triangle);
+    if (other != CasterEdge::none)
+    {
+      ring.push_back(other);
+    }
+  }
+  return ring;
+}
+
+//------------------------------------------------------------------------------
+MapRing MapCasters::ring(const BandItem& item, const MapPolygon& middle) const
+{
+  const Placement& placement = this->placements_[item.placement];
+  const std::uint32_t triangle = item.index;
+  MapRing ring;
+  const Surface& surface = this->placements_.surfaceOf(placement);
+  const SurfaceEdges& edges = this->edges_.of(placement.surface);
+  const std::vector<std::uint32_t> members = this->covering_ == Covering::Fan
+    ? this->fanOf(placement, triangle)
+    : this->edgeNeighboursOf(placement, triangle);
+  for (const std::uint32_t member : members)
+  {
+    ring.triangles.push_back(
+      member == triangle ? middle : polygonOf(this->scene_, surface, placement.instance, member));
+    for (const std::uint32_t number : edges.ofTriangle[member - surface.firstTriangle])
+    {
+      const CasterEdge& edge = edges.edges[number];
+      const std::uint32_t other = this->across(placement, edge, member);
+      MapSegment segment;
+      if (std::find(members.begin(), members.end(), other) == members.end() &&
+        segmentOf(this->scene_, surface, placement.instance, edge, EdgeKind::End, segment))
+      {
+        ring.border.push_back(segment);
+      }
+    }
+  }
+  return ring;
+}
+
 namespace
 {
 

@@ -3,7 +3,7 @@
 #include "lights/LightView.h"
 #include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/Occluders.h"
-#include "shadowtech/exact/MapCasters.h"
+#include "shadowtech/exact/CellsOnCpu.h"
 #include "shadowtech/mesh/CasterShapes.h"
 
 #include <glm/glm.hpp>

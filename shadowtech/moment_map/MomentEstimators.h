@@ -15,13 +15,13 @@ constexpr double exponentNegative = 5.0;
 // docs/theory/moment_maps.md says what each bounds, and where receivers are compared on slopes.
 
 /// `single_exponential`: exponential shadow maps with one moment, as in vtkShadowMapPass (Annen,
-/// Mertens, Seidel, Flerackers and Kautz 2008, "Exponential Shadow Maps", section 3). Light leaks at
-/// contacts, within a few percent of the map's depth range.
+/// Mertens, Seidel, Flerackers and Kautz 2008, "Exponential Shadow Maps", section 3). Light leaks
+/// at contacts, within a few percent of the map's depth range.
 MomentEstimator singleExponential();
 
-/// `variance`: variance shadow maps (Donnelly and Lauritzen 2006, "Variance Shadow Maps"). The bound
-/// is exact if one plane shadows another, both across the light. If a third plane lies between them,
-/// light bleeds through it. Bounds below the setting `bleeding` count as shadow.
+/// `variance`: variance shadow maps (Donnelly and Lauritzen 2006, "Variance Shadow Maps"). The
+/// bound is exact if one plane shadows another, both across the light. If a third plane lies
+/// between them, light bleeds through it. Bounds below the setting `bleeding` count as shadow.
 ///
 /// **The variance's floor.** On a flat part of the map, the receiver's depth z and the mean differ
 /// by rounding. The difference d is less than 2^-20 of the depth range (CasterDrawing.cpp). A
@@ -33,8 +33,8 @@ MomentEstimator variance();
 /// `exponential`: exponential variance shadow maps (Lauritzen and McCool 2008, "Layered Variance
 /// Shadow Maps", section 7): variance shadow maps of two functions of depth, exp(c d) and -exp(-c
 /// d), of which the lesser bound counts. The first shrinks depths near the light, so less light
-/// bleeds through. The second bounds light that the first lets through where a receiver's own depths
-/// differ within the kernel.
+/// bleeds through. The second bounds light that the first lets through where a receiver's own
+/// depths differ within the kernel.
 ///
 /// **No exponent overflows.** For d in [-1, 1] the largest number is the first function's mean
 /// square, exp(2 c) with c = 40, and twice that on slopes: 1e35. Float ends at 3e38, and c at 44.

@@ -18,7 +18,7 @@ float warpedBound_LIGHT(vec2 moments, float warped, float exponent)
 }
 
 // Bounds how much nearer to the light a receiver must be compared. At that depth, the second
-// function has its mean over the receiver's own plane (MomentEstimators.h).
+// function has its mean over the receiver's own plane (docs/theory/moment_maps.md).
 float concaveBias_LIGHT(ViewPoint point)
 {
   float exponent = 2.0 * exponentNegative; // for depths in [0, 1]

@@ -4,7 +4,7 @@
 #include "lights/SettingsTable.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/GlslText.h"
-#include "shadowtech/base/LightReach.h"
+#include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/ShaderLibrary.h"

@@ -1,5 +1,5 @@
-// Writes the slab from the nearest to the farthest surface of a texel, or (ENDLESS) from the nearest
-// one on. The blend equation GL_MIN finds both in one pass over both sides of all casters.
+// Writes the slab from the nearest to the farthest surface of a texel, or (ENDLESS) from the
+// nearest one on. The blend equation GL_MIN finds both in one pass over both sides of all casters.
 
 #include "shadowtech/base/cutout.glsl"
 #include "shadowtech/montecarlo/layer_depth.glsl"

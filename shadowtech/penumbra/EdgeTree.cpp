@@ -19,8 +19,8 @@ namespace
 constexpr double mostSlender = 16384.0;
 
 /// Bounds rounding of v . N, for a triangle's normal N, and v a direction or a vector from one of
-/// its corners. It is twice ShadowRay.h's bound, which is 11u YZ per unit of x, with Y and Z sides
-/// of its box.
+/// its corners. It is twice the bound of docs/theory/shadow_ray.md, which is 11u YZ per unit of x,
+/// with Y and Z sides of its box.
 constexpr double noiseOfExtent = 22.0 / 16777216.0;
 
 /// Levels of the tree whose halves are fitted in parallel.

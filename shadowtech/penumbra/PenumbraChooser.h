@@ -3,7 +3,6 @@
 #include "shadowtech/base/vtkGnomonPixelClass.h"
 #include "shadowtech/penumbra/EdgeTree.h"
 #include "shadowtech/penumbra/LightShaft.h"
-#include "shadowtech/tracing/SampleRays.h"
 #include "shadowtech/tracing/TracedPicture.h"
 
 #include <atomic>

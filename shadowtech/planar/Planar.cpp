@@ -5,7 +5,7 @@
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/GlslText.h"
-#include "shadowtech/base/LightReach.h"
+#include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"

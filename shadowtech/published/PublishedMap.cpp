@@ -14,6 +14,7 @@
 
 namespace gnomon
 {
+
 namespace
 {
 
@@ -287,6 +288,33 @@ MapRule publishedRule(PublishedLayers layers)
     }
     return ConservativeMap(view, hasBox, lookUpOf(scene, view), std::move(texels));
   };
+}
+
+namespace
+{
+
+TechniqueInfo infoOfPublished(const std::string& name)
+{
+  TechniqueInfo info = infoOfExact(name);
+  info.settings = { &viewSettings(), &publishedSettings() };
+  info.asPublished = name;
+  info.exact = false;
+  info.mapIsOptional = false;
+  return info;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const std::vector<ConservativeEntry>& publishedCrsm()
+{
+  static const std::vector<ConservativeEntry> entries = {
+    { infoOfPublished("crsm_as_published"),
+      [](const ShadowSettings&) { return publishedRule(PublishedLayers::Crsm); } },
+    { infoOfPublished("crsma_as_published"),
+      [](const ShadowSettings&) { return publishedRule(PublishedLayers::Crsma); } },
+  };
+  return entries;
 }
 
 } // namespace gnomon

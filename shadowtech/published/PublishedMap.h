@@ -1,11 +1,13 @@
 #pragma once
 
 #include "shadowtech/exact/ConservativeMap.h"
+#include "shadowtech/exact/ConservativeTechnique.h"
 #include "shadowtech/mesh/CasterShapes.h"
 #include "shadowtech/mesh/TexelRows.h"
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace gnomon
 {
@@ -74,5 +76,9 @@ enum class PublishedLayers
 /// Surfaces with holes are in the dilated layer only. One-sided surfaces are in neither, as they
 /// face the light where they cast. A map with a caster at the light itself decides nothing.
 MapRule publishedRule(PublishedLayers layers);
+
+/// Return `crsm` and `crsma` exactly as published (Morais 2016, chapter 4). They are not exact
+/// (PublishedMap.h).
+const std::vector<ConservativeEntry>& publishedCrsm();
 
 } // namespace gnomon

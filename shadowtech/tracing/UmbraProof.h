@@ -34,8 +34,9 @@ struct RayEnds
 };
 
 /// Proves that casters block all shadow rays from a box to a light, so that tracing them would find
-/// the same. A blocker is one triangle, or several of a surface that share edges bit by bit. It need
-/// be neither flat nor convex. docs/theory/blockers.md is the proof; F below is its edge function.
+/// the same. A blocker is one triangle, or several of a surface that share edges bit by bit. It
+/// need be neither flat nor convex. docs/theory/blockers.md is the proof; F below is its edge
+/// function.
 class UmbraProof
 {
 public:
