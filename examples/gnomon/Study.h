@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ComparisonRun.h"
-#include "StudyRows.h"
+#include "Report.h"
 
 #include <functional>
 #include <string>
@@ -28,14 +28,7 @@ struct StudyPlan
 /// finished cases.
 /// @param progress receives the finished share of the work, and the current step, for users
 /// @throws BadInput, Failure as runComparison(), with the case's name
-std::vector<StudyRow> runStudy(const StudyPlan& plan, const std::string& folder,
+Rows runStudy(const StudyPlan& plan, const std::string& folder,
   const std::function<void(double share, const std::string& step)>& progress);
-
-/// Return a table with a line per row: text as in RFC 4180, times in milliseconds.
-std::string toCsv(const std::vector<StudyRow>& rows);
-
-/// Return the page: one HTML file that needs neither a network nor other files.
-/// @param machine description of the machine that was measured
-std::string studyPage(const std::vector<StudyRow>& rows, const std::string& machine);
 
 } // namespace gnomon::tool

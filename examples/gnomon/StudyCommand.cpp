@@ -3,7 +3,6 @@
 #include "Files.h"
 #include "Machine.h"
 #include "Progress.h"
-#include "Report.h"
 #include "SettingOptions.h"
 #include "Study.h"
 
@@ -15,7 +14,6 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <set>
 #include <string>
@@ -66,7 +64,6 @@ std::string timeLeft(std::chrono::steady_clock::time_point start, double share)
                         : ", about " + std::to_string(std::lround(seconds / 60.0)) + " min left";
 }
 
-/// Return a list without duplicates.
 template <typename Value>
 void dropRepeated(std::vector<Value>& values)
 {
@@ -97,7 +94,7 @@ void study(StudyOptions options)
   Progress progress("reading scenes");
   const auto start = std::chrono::steady_clock::now();
   double shareBefore = -1.0; // share of cases that were finished earlier
-  const std::vector<StudyRow> rows = runStudy(options.plan, options.folder,
+  const Rows rows = runStudy(options.plan, options.folder,
     [&](double share, const std::string& step)
     {
       shareBefore = shareBefore < 0.0 ? share : shareBefore;
@@ -107,8 +104,9 @@ void study(StudyOptions options)
   progress.begin("writing the page");
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->Initialize();
-  writeWholeFile(options.folder + "/study.csv", toCsv(rows));
-  writeWholeFile(options.folder + "/study.html", studyPage(rows, machineLine(window)));
+  writeWholeFile(options.folder + "/study.csv", csvOf(rows));
+  writeWholeFile(options.folder + "/study.html",
+    pageOf(rows, processorName() + "; OpenGL: " + openGlName(window)));
   progress.print("Study: " + options.folder + "/study.html", std::cout);
 }
 
@@ -132,45 +130,45 @@ void addStudyCommand(CLI::App& app)
     [](const std::string& name) { return ofAreaLights.count(name) == 0; });
   comparison.mapSizesTexels = { 512, 1024, 2048 };
   comparison.frames = 11;
-  command->add_option("-o,--output", options->folder, "Folder for the study")->required();
+  CLI::Option* const output =
+    command->add_option("-o,--output", options->folder, "Folder for the study")->required();
   const auto addList = [&](const char* name, auto& values, const std::string& meaning)
   { return command->add_option(name, values, meaning)->delimiter(',')->capture_default_str(); };
   CLI::Option* const quick =
     command->add_flag("--quick", options->quick, "A small study, of a few minutes");
   addList("--scenes", options->plan.scenes,
-    "Scenes: built-in names, scene files or model files, separated by commas")
-    ->excludes(quick);
+    "Scenes: built-in names, scene files or model files, separated by commas");
   addList("--techniques", options->techniques,
     "Techniques, as for gnomon compare. By default all, except, for point lights, " +
-      listOf({ ofAreaLights.begin(), ofAreaLights.end() }))
-    ->excludes(quick);
+      listOf({ ofAreaLights.begin(), ofAreaLights.end() }));
   addList("--map-sizes", comparison.mapSizesTexels, "Sides of the shadow maps in texels")
-    ->check(CLI::Range(16, 16384))
-    ->excludes(quick);
+    ->check(CLI::Range(16, 16384));
   addList("--samples", options->plan.lightSamples, "Samples of area lights")
-    ->check(CLI::Range(1, 65536))
-    ->excludes(quick);
+    ->check(CLI::Range(1, 65536));
   command
     ->add_option("--views", options->plan.views,
       "Views of each scene: its camera, turned about its target by 25 degrees to one side and to "
       "the "
       "other side, by 50, and so on")
     ->check(CLI::Range(1, 8))
-    ->capture_default_str()
-    ->excludes(quick);
+    ->capture_default_str();
   command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT")
-    ->capture_default_str()
-    ->excludes(quick);
+    ->capture_default_str();
   command->add_option("--frames", comparison.frames, "Timed frames per variant and motion")
     ->check(CLI::Range(1, 10000))
-    ->capture_default_str()
-    ->excludes(quick);
+    ->capture_default_str();
   command
     ->add_option("--truth-samples", comparison.truthSamples,
       "Samples per area light and pixel of the ray-traced truth")
     ->check(CLI::Range(1, 65536))
-    ->capture_default_str()
-    ->excludes(quick);
+    ->capture_default_str();
+  for (CLI::Option* const other : command->get_options())
+  {
+    if (other != quick && other != output && other->nonpositional())
+    {
+      quick->excludes(other);
+    }
+  }
   command->callback([options] { study(*options); });
 }
 

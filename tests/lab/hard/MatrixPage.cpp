@@ -1,13 +1,15 @@
 #include "MatrixPage.h"
 
-#include "CsvRow.h"
 #include "Errors.h"
 #include "Files.h"
 #include "HardScenes.h"
-#include "Html.h"
+#include "Report.h"
 #include "Text.h"
 
 #include "lights/SettingsTable.h"
+
+#include <kainjow/mustache.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -69,21 +71,23 @@ std::string svgOf(const std::vector<Cell>& cells)
   for (std::size_t i = 0; i < columns().size(); ++i)
   {
     svg << "<text transform=\"translate(" << left + side * static_cast<int>(i) + 11 << ","
-        << top - 6 << ") rotate(-50)\">" << tool::escape(columns()[i].name) << "</text>\n";
+        << top - 6 << ") rotate(-50)\">" << kainjow::mustache::html_escape(columns()[i].name)
+        << "</text>\n";
   }
   for (std::size_t i = 0; i < rows().size(); ++i)
   {
     svg << "<text x=\"" << left - 6 << "\" y=\"" << top + side * static_cast<int>(i) + 12
-        << "\" text-anchor=\"end\">" << tool::escape(rows()[i].name) << "</text>\n<text x=\""
-        << width - right + 6 << "\" y=\"" << top + side * static_cast<int>(i) + 12
-        << "\" font-size=\"9\">" << tool::escape(listOf(rows()[i].cases)) << "</text>\n";
+        << "\" text-anchor=\"end\">" << kainjow::mustache::html_escape(rows()[i].name)
+        << "</text>\n<text x=\"" << width - right + 6 << "\" y=\""
+        << top + side * static_cast<int>(i) + 12 << "\" font-size=\"9\">"
+        << kainjow::mustache::html_escape(listOf(rows()[i].cases)) << "</text>\n";
   }
   for (const Cell& cell : cells)
   {
     svg << "<rect x=\"" << left + side * static_cast<int>(cell.column - columns().data())
         << "\" y=\"" << top + side * static_cast<int>(cell.row - rows().data()) << "\" width=\""
         << side - 1 << "\" height=\"" << side - 1 << "\" fill=\"" << lookOf(cell.outcome).colour
-        << "\"><title>" << tool::escape(findingOf(cell)) << "</title></rect>\n";
+        << "\"><title>" << kainjow::mustache::html_escape(findingOf(cell)) << "</title></rect>\n";
   }
   svg << "</svg>\n";
   return svg.str();
@@ -167,11 +171,8 @@ std::string csvHeading()
 //------------------------------------------------------------------------------
 std::string csvLine(const Cell& cell)
 {
-  tool::CsvRow line;
-  line << cell.row->name << cell.column->name << std::string(lookOf(cell.outcome).name)
-       << cell.counted << cell.wrong << cell.beyond << cell.error << cell.bound
-       << tool::oneLine(cell.message);
-  return line.line();
+  return tool::csvLine({ cell.row->name, cell.column->name, lookOf(cell.outcome).name, cell.counted,
+    cell.wrong, cell.beyond, cell.error, cell.bound, tool::oneLine(cell.message) });
 }
 
 //------------------------------------------------------------------------------
