@@ -1,10 +1,8 @@
 #include "Commands.h"
 #include "ComparisonRun.h"
-#include "Errors.h"
 #include "Progress.h"
 #include "Report.h"
 #include "SettingOptions.h"
-#include "VtkMessages.h"
 
 #include "lights/SettingsTable.h"
 #include "plugin/vtkGnomonShadowPass.h"
@@ -71,12 +69,7 @@ void compare(CompareOptions options)
     writePicture(sideBySide(panels), path);
     progress.print("First picture: " + path, std::cout);
   };
-  const VtkMessages messages;
   const ComparisonResults results = runComparison(scene, planOf(options, scene), events);
-  if (!messages.errors().empty())
-  {
-    throw Failure("rendering " + scene.name + ": " + messages.errors().front());
-  }
   progress.begin("writing the report");
   writeReport(results, options.folder);
   for (const std::string note : results.json.at("notes"))

@@ -25,19 +25,6 @@ glm::dvec3 unitOrZero(const glm::dvec3& v)
   return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
 
-void requireSameImages(const VisibilityImages& technique, const VisibilityImages& truth)
-{
-  const auto hasAllPixels = [&](const std::vector<float>& plane)
-  { return plane.size() == truth.coverage.size(); };
-  if (technique.width != truth.width || technique.height != truth.height ||
-    technique.sceneIndices != truth.sceneIndices || technique.channels != truth.channels ||
-    technique.visibility.size() != truth.visibility.size() ||
-    !std::all_of(technique.visibility.begin(), technique.visibility.end(), hasAllPixels))
-  {
-    throw std::invalid_argument("visibility images differ in size or lights");
-  }
-}
-
 /// True if a point lies in a light's box, or if the light has no box.
 /// @param fromLight the point minus the light's position
 bool inBox(const SceneLight& light, const glm::dvec3& axis, const glm::dvec3& fromLight)
@@ -87,7 +74,15 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
   const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts,
   std::vector<float>* differences)
 {
-  requireSameImages(technique, truth);
+  const auto hasAllPixels = [&](const std::vector<float>& plane)
+  { return plane.size() == truth.coverage.size(); };
+  if (technique.width != truth.width || technique.height != truth.height ||
+    technique.sceneIndices != truth.sceneIndices || technique.channels != truth.channels ||
+    technique.visibility.size() != truth.visibility.size() ||
+    !std::all_of(technique.visibility.begin(), technique.visibility.end(), hasAllPixels))
+  {
+    throw std::invalid_argument("visibility images differ in size or lights");
+  }
   std::vector<PixelVerdict> ownVerdicts;
   std::vector<float> ownDifferences;
   std::vector<PixelVerdict>& found = verdicts ? *verdicts : ownVerdicts;

@@ -6,6 +6,7 @@
 #include "Machine.h"
 #include "PictureVisibility.h"
 #include "SettingOptions.h"
+#include "VtkMessages.h"
 
 #include "lights/LightManager.h"
 #include "shadowtech/Registry.h"
@@ -540,6 +541,7 @@ std::vector<std::string> usualTechniques(bool soft)
 ComparisonResults runComparison(
   const Scene& original, const ComparisonPlan& plan, const ComparisonEvents& events)
 {
+  const VtkMessages messages;
   const Scene scene = sceneOf(plan, original);
   std::vector<std::string> leftOut;
   const std::vector<VariantSpec> specs = listVariants(plan, scene, leftOut);
@@ -602,6 +604,10 @@ ComparisonResults runComparison(
   for (const std::unique_ptr<Variant>& variant : variants)
   {
     results.json["variants"].push_back(variant->json);
+  }
+  if (!messages.errors().empty())
+  {
+    throw Failure("rendering " + scene.name + ": " + messages.errors().front());
   }
   return results;
 }

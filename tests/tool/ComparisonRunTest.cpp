@@ -411,6 +411,10 @@ std::vector<std::string> comparedRows(const std::string& options)
   const TestFolder folder;
   compare(
     options + " --size 32x32 --map-sizes 64 --frames 0 --truth-samples 4 -o " + folder.path());
+  for (const char* name : { "first.png", "report.html", "results.json", "raytraced-classes.png" })
+  {
+    EXPECT_GT(readBytes(folder / name).size(), 0u) << name;
+  }
   std::istringstream table(readBytes(folder / "results.csv"));
   std::vector<std::string> names;
   for (std::string line; std::getline(table, line);)
@@ -460,19 +464,6 @@ TEST(CompareCommand, RefusesBadInputBeforeDrawing)
       "cube --all --techniques nsm" + report, std::string("cube") })
   {
     EXPECT_THROW(compare(options), CLI::ParseError) << options;
-  }
-}
-
-TEST(CompareCommand, WritesAReport)
-{
-  const TestFolder folder;
-  compare("cube --techniques nsm --map-sizes 64,128 --size 64x48 --frames 1 --route image -o " +
-    folder / "report");
-  for (const char* name :
-    { "first.png", "report.html", "results.csv", "results.json", "chart.svg", "nsm-64-image.png",
-      "nsm-128-image-errors.png", "vtkShadowMapPass-128.png", "raytraced-classes.png" })
-  {
-    EXPECT_TRUE(std::filesystem::exists(folder / "report/" + name)) << name;
   }
 }
 
