@@ -28,13 +28,9 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   RenderingLOD
   RenderingOpenGL2
   RenderingUI
-  ChartsCore
-  RenderingContext2D
-  RenderingContextOpenGL2
   RenderingFreeType
   RenderingVolume
   RenderingVolumeOpenGL2
-  ViewsContext2D
   OPTIONAL_COMPONENTS
   ParallelMPI
   glew
@@ -57,6 +53,7 @@ if(GNOMON_BUILD_EXAMPLES)
   find_package(OpenEXR 3 REQUIRED)
   find_package(PNG REQUIRED)
   find_package(ZLIB REQUIRED)
+  find_path(GNOMON_MUSTACHE_INCLUDE_DIR kainjow/mustache.hpp REQUIRED)
 endif()
 
 # What tests use where it is there: VTK's widget for Qt 5 or 6. Debian's VTK names the module also

@@ -1,6 +1,6 @@
 #include "Commands.h"
 #include "Files.h"
-#include "FrameTiming.h"
+#include "FrameVariant.h"
 #include "Progress.h"
 
 #include "plugin/plan/CostModel.h"
@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -198,21 +197,8 @@ private:
   /// Measure frames of all windows, interleaved.
   void measure(Moved moved, int frames)
   {
-    std::vector<std::vector<double>> times(this->windows_.size());
-    for (int frame = -warmUpFrames; frame < frames; ++frame)
-    {
-      for (std::size_t i = 0; i < this->windows_.size(); ++i)
-      {
-        const double milliseconds = this->windows_[i]->draw(moved, frame + warmUpFrames + 1);
-        if (frame >= 0)
-        {
-          times[i].push_back(milliseconds);
-        }
-      }
-    }
-    std::vector<double> medians;
-    std::transform(times.begin(), times.end(), std::back_inserter(medians), median);
-    this->medians_.push_back(std::move(medians));
+    this->medians_.push_back(timeFrames(this->windows_.size(), frames,
+      [&](std::size_t window, int step) { return this->windows_[window]->draw(moved, step); }));
   }
 
   std::vector<std::unique_ptr<MeasuredWindow>> windows_;

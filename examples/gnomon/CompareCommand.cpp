@@ -1,12 +1,11 @@
 #include "Commands.h"
 #include "ComparisonRun.h"
-#include "Errors.h"
 #include "Progress.h"
 #include "Report.h"
 #include "SettingOptions.h"
-#include "VtkMessages.h"
 
 #include "lights/SettingsTable.h"
+#include "plugin/vtkGnomonShadowPass.h"
 
 #include <CLI/CLI.hpp>
 
@@ -29,41 +28,28 @@ struct CompareOptions
   bool all = false;  ///< true: compare all techniques
 };
 
-std::string writeFirstPicture(const std::vector<Panel>& panels, const std::string& folder)
-{
-  const std::string path = folder + "/first.png";
-  writePicture(sideBySide(panels), path);
-  return path;
-}
-
-ComparisonResults measure(
-  const CompareOptions& options, const ComparisonPlan& plan, const Scene& scene, Progress& progress)
-{
-  ComparisonEvents events;
-  events.progress = [&](double share, const std::string& step) { progress.begin(step, share); };
-  events.firstPanels = [&](const std::vector<Panel>& panels)
-  { progress.print("First picture: " + writeFirstPicture(panels, options.folder), std::cout); };
-  const VtkMessages messages;
-  ComparisonResults results = runComparison(scene, plan, events);
-  if (!messages.errors().empty())
-  {
-    throw Failure("rendering " + scene.name + ": " + messages.errors().front());
-  }
-  return results;
-}
-
 /// Return the plan with the options' techniques and routes.
 ComparisonPlan planOf(const CompareOptions& options, const Scene& scene)
 {
   ComparisonPlan plan = options.plan;
+  for (const auto& [name, value] : options.plan.settings)
+  {
+    if (value.empty()) // not given
+    {
+      plan.settings.erase(name);
+    }
+  }
   const bool usual = plan.techniques.empty() && !options.all;
   if (plan.techniques.empty())
   {
     plan.techniques = usual ? usualTechniques(castsSoftShadows(plan, scene)) : allTechniques();
   }
-  plan.usualRoute = usual && options.route.empty();
-  plan.inlineRoute = options.route != "image";
-  plan.imageRoute = options.route != "inline";
+  constexpr int routeInline = vtkGnomonShadowPass::ROUTE_INLINE;
+  constexpr int routeImage = vtkGnomonShadowPass::ROUTE_IMAGE;
+  plan.routes = options.route == "inline" ? std::vector<int>{ routeInline }
+    : options.route == "image"            ? std::vector<int>{ routeImage }
+    : usual && options.route.empty()      ? std::vector<int>{}
+                                          : std::vector<int>{ routeInline, routeImage };
   return plan;
 }
 
@@ -75,14 +61,22 @@ void compare(CompareOptions options)
   prepareReportFolder(options.folder);
   Progress progress("reading " + options.scene);
   const Scene scene = loadScene(options.scene);
-  const ComparisonResults results = measure(options, planOf(options, scene), scene, progress);
+  ComparisonEvents events;
+  events.progress = [&](double share, const std::string& step) { progress.begin(step, share); };
+  events.firstPanels = [&](const std::vector<Panel>& panels)
+  {
+    const std::string path = options.folder + "/first.png";
+    writePicture(sideBySide(panels), path);
+    progress.print("First picture: " + path, std::cout);
+  };
+  const ComparisonResults results = runComparison(scene, planOf(options, scene), events);
   progress.begin("writing the report");
   writeReport(results, options.folder);
-  for (const std::string& note : results.notes)
+  for (const std::string note : results.json.at("notes"))
   {
     progress.print(note, std::cout);
   }
-  progress.print(std::to_string(results.variants.size()) + " variants of " + results.scene +
+  progress.print(std::to_string(results.pictures.size()) + " variants of " + scene.name +
       " compared: " + options.folder + "/report.html",
     std::cout);
 }

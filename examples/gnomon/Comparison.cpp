@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -22,48 +23,6 @@ glm::dvec3 unitOrZero(const glm::dvec3& v)
 {
   const double length = glm::length(v);
   return length > 0.0 ? v / length : glm::dvec3(0.0);
-}
-
-void requireSameImages(const VisibilityImages& technique, const VisibilityImages& truth)
-{
-  const std::size_t pixelCount =
-    static_cast<std::size_t>(truth.width) * static_cast<std::size_t>(truth.height);
-  if (technique.width != truth.width || technique.height != truth.height)
-  {
-    throw std::invalid_argument("visibility images of different sizes cannot be compared");
-  }
-  if (technique.sceneIndices != truth.sceneIndices || technique.channels != truth.channels)
-  {
-    throw std::invalid_argument("visibility images of different lights cannot be compared");
-  }
-  for (const VisibilityImages* images : { &technique, &truth })
-  {
-    if (images->visibility.size() != images->sceneIndices.size())
-    {
-      throw std::invalid_argument("visibility images do not have one image per light");
-    }
-    for (const std::vector<float>& plane : images->visibility)
-    {
-      if (plane.size() != pixelCount)
-      {
-        throw std::invalid_argument("visibility images do not have one value per pixel");
-      }
-    }
-  }
-}
-
-/// Append the names of numbers that the list lacks.
-template <typename Number>
-void addNames(
-  const std::vector<std::pair<std::string, Number>>& numbers, std::vector<std::string>& names)
-{
-  for (const auto& [name, number] : numbers)
-  {
-    if (std::find(names.begin(), names.end(), name) == names.end())
-    {
-      names.push_back(name);
-    }
-  }
 }
 
 /// True if a point lies in a light's box, or if the light has no box.
@@ -115,15 +74,21 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
   const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts,
   std::vector<float>* differences)
 {
-  requireSameImages(technique, truth);
-  if (differences)
+  const auto hasAllPixels = [&](const std::vector<float>& plane)
+  { return plane.size() == truth.coverage.size(); };
+  if (technique.width != truth.width || technique.height != truth.height ||
+    technique.sceneIndices != truth.sceneIndices || technique.channels != truth.channels ||
+    technique.visibility.size() != truth.visibility.size() ||
+    !std::all_of(technique.visibility.begin(), technique.visibility.end(), hasAllPixels))
   {
-    differences->assign(truth.coverage.size(), 0.0f);
+    throw std::invalid_argument("visibility images differ in size or lights");
   }
-  if (verdicts)
-  {
-    verdicts->assign(truth.coverage.size(), PixelVerdict::NotCounted);
-  }
+  std::vector<PixelVerdict> ownVerdicts;
+  std::vector<float> ownDifferences;
+  std::vector<PixelVerdict>& found = verdicts ? *verdicts : ownVerdicts;
+  std::vector<float>& greatest = differences ? *differences : ownDifferences;
+  found.assign(truth.coverage.size(), PixelVerdict::NotCounted);
+  greatest.assign(truth.coverage.size(), 0.0f);
   VisibilityError error;
   double sumOfAbsolutes = 0.0;
   double sumOfSquares = 0.0;
@@ -140,30 +105,28 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
       const float value = technique.visibility[k][i];
       // NaN counts as a full error.
       const float difference = std::isnan(value) ? -1.0f : value - truth.visibility[k][i];
-      PixelVerdict verdict = PixelVerdict::Right;
+      const bool isLit = difference > 0.5f;
+      const bool isDark = difference < -0.5f;
       ++error.facingPixels;
-      if (difference > 0.5f)
-      {
-        ++error.falseLight;
-        verdict = PixelVerdict::FalseLight;
-      }
-      else if (difference < -0.5f)
-      {
-        ++error.falseShadow;
-        verdict = PixelVerdict::FalseShadow;
-      }
+      error.falseLight += isLit;
+      error.falseShadow += isDark;
       error.betweenPixels +=
         value > VisibilityError::darkBelow && value < VisibilityError::litAbove;
       sumOfAbsolutes += std::fabs(difference);
       sumOfSquares += static_cast<double>(difference) * difference;
-      if (differences)
-      {
-        (*differences)[i] = std::max((*differences)[i], std::fabs(difference));
-      }
-      if (verdicts)
-      {
-        (*verdicts)[i] = std::max((*verdicts)[i], verdict);
-      }
+      greatest[i] = std::max(greatest[i], std::fabs(difference));
+      found[i] = std::max(found[i],
+        isLit      ? PixelVerdict::FalseLight
+          : isDark ? PixelVerdict::FalseShadow
+                   : PixelVerdict::Right);
+    }
+  }
+  for (const ClassImage& image : technique.classes)
+  {
+    for (std::size_t i = 0; i < image.ofPixels.size(); ++i)
+    {
+      found[i] = image.classes[image.ofPixels[i]].traced ? std::max(found[i], PixelVerdict::Traced)
+                                                         : found[i];
     }
   }
   if (error.facingPixels > 0)
@@ -176,108 +139,30 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
 }
 
 //------------------------------------------------------------------------------
-std::vector<unsigned char> tracedMask(const VisibilityImages& images)
+Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& verdicts)
 {
-  std::vector<unsigned char> traced(images.coverage.size(), 0);
-  for (const ClassImage& image : images.classes)
-  {
-    for (std::size_t i = 0; i < image.ofPixels.size(); ++i)
-    {
-      traced[i] |= image.classes[image.ofPixels[i]].traced ? 1 : 0;
-    }
-  }
-  return traced;
-}
-
-//------------------------------------------------------------------------------
-Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& verdicts,
-  const std::vector<unsigned char>* traced)
-{
-  if (verdicts.size() != picture.pixelCount() || (traced && traced->size() != verdicts.size()))
-  {
-    throw std::invalid_argument("a picture and its errors have different sizes");
-  }
   Picture result = picture;
   for (std::size_t i = 0; i < verdicts.size(); ++i)
   {
     unsigned char* const pixel = &result.rgb[3 * i];
-    const auto paint = [pixel](unsigned char red, unsigned char green, unsigned char blue)
-    {
-      pixel[0] = red;
-      pixel[1] = green;
-      pixel[2] = blue;
-    };
     // Dimmed to grey, so only errors have colours.
-    const auto grey =
-      static_cast<unsigned char>((pixel[0] * 54 + pixel[1] * 183 + pixel[2] * 19) / 256 * 2 / 5);
+    const int grey = (pixel[0] * 54 + pixel[1] * 183 + pixel[2] * 19) / 256 * 2 / 5;
+    std::array<int, 3> colour = { grey, grey, grey };
     if (verdicts[i] == PixelVerdict::FalseLight)
     {
-      paint(64, 128, 255);
+      colour = { 64, 128, 255 };
     }
     else if (verdicts[i] == PixelVerdict::FalseShadow)
     {
-      paint(255, 48, 48);
+      colour = { 255, 48, 48 };
     }
-    else if (traced && (*traced)[i])
+    else if (verdicts[i] == PixelVerdict::Traced)
     {
-      // The picture stays visible, as whole regions may be traced.
-      paint(static_cast<unsigned char>(grey / 2 + 78), static_cast<unsigned char>(grey / 2 + 10),
-        static_cast<unsigned char>(grey / 2 + 105));
+      colour = { grey / 2 + 78, grey / 2 + 10, grey / 2 + 105 }; // shows the picture beneath
     }
-    else
-    {
-      paint(grey, grey, grey);
-    }
+    std::copy(colour.begin(), colour.end(), pixel);
   }
   return result;
-}
-
-//------------------------------------------------------------------------------
-const char* motionName(Motion motion)
-{
-  static constexpr std::array names = { "static", "camera moving", "light moving" };
-  return names[static_cast<std::size_t>(motion)];
-}
-
-//------------------------------------------------------------------------------
-std::string motionKey(Motion motion)
-{
-  std::string key = motionName(motion);
-  std::replace(key.begin(), key.end(), ' ', '_');
-  return key;
-}
-
-//------------------------------------------------------------------------------
-std::vector<Motion> timedMotions(const ComparisonResults& results)
-{
-  return results.frames > 0 ? std::vector<Motion>(allMotions.begin(), allMotions.end())
-                            : std::vector<Motion>();
-}
-
-//------------------------------------------------------------------------------
-std::vector<std::string> classNames(const ComparisonResults& results)
-{
-  std::vector<std::string> names;
-  for (const VariantResult& variant : results.variants)
-  {
-    addNames(variant.classes, names);
-  }
-  return names;
-}
-
-//------------------------------------------------------------------------------
-std::vector<std::string> stageNames(
-  const ComparisonResults& results, const std::vector<Motion>& motions)
-{
-  std::vector<std::string> names;
-  for (const VariantResult& variant : results.variants)
-  {
-    for (const Motion motion : motions)
-    {
-      addNames(variant.timings[static_cast<std::size_t>(motion)].stages, names);
-    }
-  }
-  return names;
 }
 
 } // namespace gnomon::tool

@@ -1,11 +1,12 @@
 #include "ComparisonRun.h"
 
 #include "Errors.h"
-#include "FrameTiming.h"
+#include "Files.h"
 #include "FrameVariant.h"
 #include "Machine.h"
 #include "PictureVisibility.h"
 #include "SettingOptions.h"
+#include "VtkMessages.h"
 
 #include "lights/LightManager.h"
 #include "shadowtech/Registry.h"
@@ -14,14 +15,16 @@
 #include <vtkVersion.h>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 
 namespace gnomon::tool
 {
 namespace
 {
+
+using Json = nlohmann::ordered_json;
 
 /// Return the scene with lights as the plan defines them. The variants decide the rest.
 Scene sceneOf(const ComparisonPlan& plan, const Scene& original)
@@ -29,25 +32,15 @@ Scene sceneOf(const ComparisonPlan& plan, const Scene& original)
   Scene scene = withoutShadowSettings(original);
   for (const auto& [name, value] : plan.settings)
   {
-    if (!value.empty() && isOfLight(*findSetting(name)))
+    for (SceneLight& light : scene.lights)
     {
-      for (SceneLight& light : scene.lights)
+      if (isOfLight(*findSetting(name)))
       {
         light.settings[name] = value;
       }
     }
   }
   return scene;
-}
-
-/// Compose a variant's technique for each of the scene's lights.
-/// @throws CompositionError if a light refuses the variant's settings
-void requireComposition(const VariantSpec& spec, vtkRenderer* renderer)
-{
-  for (ShadowLight light : LightManager().collect(renderer, settingsOf(spec)).lights)
-  {
-    compose(light);
-  }
 }
 
 /// Add the plan's settings that a variant's technique has, unless the variant sets them itself.
@@ -64,8 +57,7 @@ const TechniqueInfo& addSettings(const ComparisonPlan& plan, VariantSpec& spec)
     for (const auto& [name, value] : plan.settings)
     {
       const Setting& setting = *findSetting(name);
-      if (!value.empty() && choosesEstimator(setting) == choosing && !isOfLight(setting) &&
-        has(info, name))
+      if (choosesEstimator(setting) == choosing && !isOfLight(setting) && has(info, name))
       {
         spec.settings.emplace(name, value);
       }
@@ -82,8 +74,7 @@ void requireUse(const ComparisonPlan& plan, const std::vector<VariantSpec>& spec
   {
     const auto hasIt = [&name = name](const VariantSpec& spec)
     { return spec.settings.count(name); };
-    if (!value.empty() && !isOfLight(*findSetting(name)) &&
-      std::none_of(specs.begin(), specs.end(), hasIt))
+    if (!isOfLight(*findSetting(name)) && std::none_of(specs.begin(), specs.end(), hasIt))
     {
       throw BadInput(
         optionOf(name) + ": " + whoHas(*findSetting(name)) + ", none of which is compared");
@@ -97,8 +88,7 @@ void requireUse(const ComparisonPlan& plan, const std::vector<VariantSpec>& spec
 std::vector<VariantSpec> listVariants(
   const ComparisonPlan& plan, const Scene& scene, std::vector<std::string>& leftOut)
 {
-  std::vector<VariantSpec> specs;
-  specs.push_back({ plainTechnique });
+  std::vector<VariantSpec> specs = { { plainTechnique } };
   for (int size : plan.mapSizesTexels)
   {
     specs.push_back({ shadowMapPassTechnique, size });
@@ -117,7 +107,10 @@ std::vector<VariantSpec> listVariants(
     try
     {
       info = &addSettings(plan, spec);
-      requireComposition(spec, renderer);
+      for (ShadowLight light : LightManager().collect(renderer, settingsOf(spec)).lights)
+      {
+        compose(light);
+      }
     }
     catch (const CompositionError& error)
     {
@@ -129,20 +122,16 @@ std::vector<VariantSpec> listVariants(
       continue;
     }
     spec.pointwise = info->isPointwise();
+    const int usualRoute =
+      info->isSlow ? vtkGnomonShadowPass::ROUTE_IMAGE : vtkGnomonShadowPass::ROUTE_INLINE;
     for (int size : info->bakesMap() ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {
-      spec.mapSizeTexels = size;
-      const bool takesInline = plan.usualRoute ? !info->isSlow : plan.inlineRoute;
-      const bool takesImage = plan.usualRoute ? info->isSlow : plan.imageRoute;
-      if (info->isPointwise() && takesInline)
+      for (int route : !info->isPointwise() ? std::vector<int>{ vtkGnomonShadowPass::ROUTE_AUTO }
+          : plan.routes.empty()             ? std::vector<int>{ usualRoute }
+                                            : plan.routes)
       {
-        spec.route = vtkGnomonShadowPass::ROUTE_INLINE;
-        specs.push_back(spec);
-      }
-      if (!info->isPointwise() || takesImage)
-      {
-        spec.route =
-          info->isPointwise() ? vtkGnomonShadowPass::ROUTE_IMAGE : vtkGnomonShadowPass::ROUTE_AUTO;
+        spec.mapSizeTexels = size;
+        spec.route = route;
         specs.push_back(spec);
       }
     }
@@ -156,14 +145,17 @@ struct Variant : FrameVariant
 {
   Variant(const VariantSpec& spec, const Scene& scene, const ComparisonPlan& plan)
     : FrameVariant(spec, scene, plan.width, plan.height)
+    , json{ { "name", spec.name() }, { "technique", spec.technique }, { "route", spec.routeName() },
+      { "map_size", spec.mapSizeTexels }, { "error", Json::object() }, { "traced_pixels", 0 } }
   {
-    this->result.name = spec.name();
-    this->result.technique = spec.technique;
-    this->result.route = spec.routeName();
-    this->result.mapSizeTexels = spec.mapSizeTexels;
+    if (plan.frames > 0)
+    {
+      this->json["times"] = Json::object();
+    }
   }
 
-  VariantResult result;
+  Json json;
+  VariantPictures pictures;
 };
 
 using Variants = std::vector<std::unique_ptr<Variant>>;
@@ -175,93 +167,22 @@ double sumOfStages(const std::vector<StageTime>& stages)
   double sum = 0.0;
   for (const StageTime& stage : stages)
   {
-    const std::size_t colon = stage.name.find(": ");
-    const bool included = colon != std::string::npos &&
-      std::any_of(stages.begin(), stages.end(),
-        [&stage, colon](const StageTime& other)
-        { return other.name == stage.name.substr(0, colon); });
+    const std::string whole = stage.name.substr(0, stage.name.find(": "));
+    const bool included = whole != stage.name &&
+      std::any_of(
+        stages.begin(), stages.end(), [&](const StageTime& other) { return other.name == whole; });
     sum += included ? 0.0 : stage.milliseconds;
   }
   return sum;
 }
 
-/// Collects the stage times of measured frames.
-class StageSamples
-{
-public:
-  void add(const std::vector<StageTime>& stages, double wallMilliseconds)
-  {
-    for (const StageTime& stage : stages)
-    {
-      if (this->samples_.find(stage.name) == this->samples_.end())
-      {
-        this->order_.push_back(stage.name);
-      }
-      this->samples_[stage.name].push_back(stage.milliseconds);
-    }
-    if (!stages.empty())
-    {
-      this->shares_.push_back(sumOfStages(stages) / wallMilliseconds);
-    }
-  }
-
-  void store(MotionTiming& timing) const
-  {
-    for (const std::string& name : this->order_)
-    {
-      std::vector<double> times = this->samples_.at(name);
-      times.resize(this->shares_.size(), 0.0); // 0 for frames without the stage
-      timing.stages.emplace_back(name, median(times));
-    }
-    timing.stageShare = median(this->shares_);
-  }
-
-private:
-  std::vector<std::string> order_;
-  std::map<std::string, std::vector<double>> samples_;
-  std::vector<double> shares_;
-};
-
-/// The side of a variant's worst place, in pixels.
-constexpr int worstPlacePixels = 64;
-
-/// Counts steps of work with similar durations.
-class StepCounter
-{
-public:
-  StepCounter(std::size_t total, const ComparisonEvents& events)
-    : total_(total)
-    , events_(events)
-  {
-  }
-  /// Count a finished step and report it.
-  /// @param step the step, for users
-  void advance(const std::string& step)
-  {
-    ++this->done_;
-    if (this->events_.progress)
-    {
-      this->events_.progress(
-        static_cast<double>(this->done_) / static_cast<double>(this->total_), step);
-    }
-  }
-
-private:
-  std::size_t total_;
-  std::size_t done_ = 0;
-  const ComparisonEvents& events_;
-};
+/// Counts a finished step of work and reports it. Steps have similar durations.
+using Advance = std::function<void(const std::string& step)>;
 
 /// Return a text such as "3 of 8 rows".
 std::string countOfRows(std::size_t count, std::size_t all)
 {
   return std::to_string(count) + " of " + std::to_string(all) + " rows";
-}
-
-/// Return a text such as "timing 8 rows, camera moving".
-std::string timingStep(const Variants& variants, Motion motion)
-{
-  return "timing " + std::to_string(variants.size()) + " rows, " + motionName(motion);
 }
 
 /// Return the number of frames per motion whose stages are timed.
@@ -270,49 +191,54 @@ int measuredFrames(const ComparisonPlan& plan)
   return std::clamp(plan.frames / 3, 1, 9);
 }
 
-/// Return the number of frames per variant and motion, warm-up frames included.
-std::size_t framesPerMotion(const ComparisonPlan& plan)
+/// Time whole frames, and then others by stage.
+void timeMotion(
+  Variants& variants, Motion motion, const ComparisonPlan& plan, const Advance& advance)
 {
-  return plan.frames > 0
-    ? static_cast<std::size_t>(warmUpFrames + plan.frames + measuredFrames(plan))
-    : 0;
-}
-
-void timeWholeFrames(
-  Variants& variants, Motion motion, const ComparisonPlan& plan, StepCounter& steps)
-{
-  std::vector<FrameVariant*> drawn;
-  std::transform(variants.begin(), variants.end(), std::back_inserter(drawn),
-    [](const std::unique_ptr<Variant>& variant) { return variant.get(); });
-  const std::vector<double> medians =
-    timeFrames(drawn, motion, plan.frames, [&] { steps.advance(timingStep(variants, motion)); });
-  for (std::size_t i = 0; i < variants.size(); ++i)
-  {
-    variants[i]->result.timings[static_cast<std::size_t>(motion)].milliseconds = medians[i];
-  }
-}
-
-void timeStages(Variants& variants, Motion motion, const ComparisonPlan& plan, StepCounter& steps)
-{
-  std::vector<StageSamples> samples(variants.size());
-  const int firstStep = warmUpFrames + plan.frames + 1;
+  const auto index = static_cast<std::size_t>(motion);
+  const auto roundDone = [&]
+  { advance("timing " + std::to_string(variants.size()) + " rows, " + motionNames[index]); };
+  const std::vector<double> medians = timeFrames(
+    variants.size(), plan.frames,
+    [&](std::size_t i, int step) { return variants[i]->drawFrame(motion, step); }, roundDone);
+  using Stages = nlohmann::ordered_map<std::string, std::vector<double>>;
+  std::vector<Stages> stages(variants.size());
+  std::vector<std::vector<double>> shares(variants.size());
   for (int frame = 0; frame < measuredFrames(plan); ++frame)
   {
     for (std::size_t i = 0; i < variants.size(); ++i)
     {
-      if (vtkGnomonShadowPass* const pass = variants[i]->pass())
+      vtkGnomonShadowPass* const pass = variants[i]->pass();
+      if (!pass)
       {
-        pass->MeasureStagesOn();
-        const double milliseconds = variants[i]->drawFrame(motion, firstStep + frame);
-        samples[i].add(pass->GetReport().stages, milliseconds);
-        pass->MeasureStagesOff();
+        continue;
       }
+      pass->MeasureStagesOn();
+      const double milliseconds =
+        variants[i]->drawFrame(motion, warmUpFrames + plan.frames + 1 + frame);
+      const std::vector<StageTime>& measured = pass->GetReport().stages;
+      for (const StageTime& stage : measured)
+      {
+        stages[i][stage.name].push_back(stage.milliseconds);
+      }
+      if (!measured.empty())
+      {
+        shares[i].push_back(sumOfStages(measured) / milliseconds);
+      }
+      pass->MeasureStagesOff();
     }
-    steps.advance(timingStep(variants, motion));
+    roundDone();
   }
   for (std::size_t i = 0; i < variants.size(); ++i)
   {
-    samples[i].store(variants[i]->result.timings[static_cast<std::size_t>(motion)]);
+    Json& timing = variants[i]->json["times"][motionKeys[index]];
+    timing["frame_ms"] = medians[i];
+    for (auto& [name, times] : stages[i])
+    {
+      times.resize(shares[i].size(), 0.0); // 0 for frames without the stage
+      timing["stages_ms"][name] = median(times);
+      timing["stage_share"] = median(shares[i]);
+    }
   }
 }
 
@@ -332,17 +258,13 @@ void warmUp(Variant& variant)
     variant.drawFrame(Motion::Camera, frame);
   }
   variant.drawFrame(Motion::Static, 0);
-  VariantResult& result = variant.result;
-  result.memory.residentGrowth = residentBytes() - before;
-  if (variant.pass())
-  {
-    const FrameReport& report = variant.pass()->GetReport();
-    result.memory.occluders = report.bytesOccluders;
-    result.memory.bvh = report.bytesBvh;
-    result.memory.maps = report.bytesMaps;
-    result.memory.images = report.bytesImages;
-    result.notes = report.notes;
-  }
+  const FrameReport report = variant.pass() ? variant.pass()->GetReport() : FrameReport();
+  // The growth includes software OpenGL's buffers, but not memory reused from earlier variants.
+  variant.json["memory_bytes"] = { { "occluders", report.bytesOccluders },
+    { "bvh", report.bytesBvh }, { "maps", report.bytesMaps }, { "images", report.bytesImages },
+    { "resident_growth", residentBytes() - before } };
+  variant.json["class_pixels"] = Json::object();
+  variant.json["notes"] = report.notes;
 }
 
 /// Return the visibility that a variant exports for the scene at rest.
@@ -358,78 +280,67 @@ VisibilityImages keptVisibility(Variant& variant)
   return images;
 }
 
-/// True if one of the casting lights has an area, and so has soft shadows.
-bool hasSoftShadows(vtkRenderer* renderer, const ShadowSettings& settings)
+/// Return the truth of area lights. Ray-traced shadows have a sampling error, so the truth uses
+/// evenly spread samples that no variant uses.
+VisibilityImages truthOfAreas(
+  Variant& variant, const Variants& variants, int samples, std::vector<std::string>& notes)
 {
-  const std::vector<ShadowLight> lights = LightManager().collect(renderer, settings).lights;
-  return std::any_of(
-    lights.begin(), lights.end(), [](const ShadowLight& light) { return light.area.has_value(); });
-}
-
-bool isSoft(const Variant& variant)
-{
-  return hasSoftShadows(variant.renderer(), settingsOf(variant.spec()));
-}
-
-/// Return the first seed, from 1, that no variant uses.
-std::string unusedSeed(const Variants& variants)
-{
-  const auto has = [](const std::unique_ptr<Variant>& variant, int seed)
-  { return variant->pass() && variant->pass()->GetSetting("light_seed") == std::to_string(seed); };
+  std::set<std::string> usedSeeds;
+  for (const std::unique_ptr<Variant>& other : variants)
+  {
+    usedSeeds.insert(other->pass() ? other->pass()->GetSetting("light_seed") : "");
+  }
   int seed = 1;
-  while (std::any_of(variants.begin(), variants.end(),
-    [&](const std::unique_ptr<Variant>& variant) { return has(variant, seed); }))
+  while (usedSeeds.count(std::to_string(seed)) != 0)
   {
     ++seed;
   }
-  return std::to_string(seed);
-}
-
-/// Return the truth for all variants. Ray-traced shadows of area lights have a sampling error, so
-/// the truth uses evenly spread samples that no variant uses.
-VisibilityImages truthOf(
-  Variant& variant, const Variants& variants, int samples, std::vector<std::string>& notes)
-{
-  if (!isSoft(variant))
-  {
-    return keptVisibility(variant);
-  }
-  const std::map<std::string, std::string> ofTruth = truthSettings(samples, unusedSeed(variants));
-  std::map<std::string, std::string> ofVariant;
-  for (const auto& [name, value] : ofTruth)
-  {
-    ofVariant[name] = variant.pass()->GetSetting(name.c_str());
-    variant.pass()->SetSetting(name.c_str(), value.c_str());
-  }
-  VisibilityImages truth = keptVisibility(variant);
-  for (const auto& [name, value] : ofVariant)
-  {
-    variant.pass()->SetSetting(name.c_str(), value.c_str());
-  }
-  notes.push_back("The truth has " + ofTruth.at("light_samples") +
-    " samples of each area light for every pixel, with light_seed " + ofTruth.at("light_seed") +
+  std::map<std::string, std::string> settings = truthSettings(samples, std::to_string(seed));
+  notes.push_back("The truth has " + settings.at("light_samples") +
+    " samples of each area light for every pixel, with light_seed " + settings.at("light_seed") +
     ".");
+  const auto exchange = [&]
+  {
+    for (auto& [name, value] : settings)
+    {
+      const std::string other = variant.pass()->GetSetting(name.c_str());
+      variant.pass()->SetSetting(name.c_str(), value.c_str());
+      value = other;
+    }
+  };
+  exchange();
+  VisibilityImages truth = keptVisibility(variant);
+  exchange();
   return truth;
 }
 
-VisibilityImages withoutShadows(const VisibilityImages& truth)
-{
-  VisibilityImages images = truth;
-  for (std::vector<float>& plane : images.visibility)
-  {
-    std::fill(plane.begin(), plane.end(), 1.0f);
-  }
-  return images;
-}
-
-/// Return the visibility of a variant that shades with it but does not export it.
-VisibilityImages visibilityFromItsPictures(
-  Variant& variant, const Scene& scene, const VisibilityImages& truth)
+/// Return a variant's visibility.
+/// @param source receives its source, as a sentence
+VisibilityImages visibilityOf(Variant& variant, const Scene& scene, const VisibilityImages& truth,
+  bool soft, std::string& source)
 {
   const VariantSpec& spec = variant.spec();
+  if (spec.technique == plainTechnique)
+  {
+    source = "By definition: it lights everything, so its visibility is 1.";
+    VisibilityImages images = truth;
+    images.classes.clear();
+    for (std::vector<float>& plane : images.visibility)
+    {
+      plane.assign(plane.size(), 1.0f);
+    }
+    return images;
+  }
+  if (spec.isGnomon() && spec.route != vtkGnomonShadowPass::ROUTE_INLINE)
+  {
+    source = spec.technique == truthTechnique && !soft
+      ? "It is the truth."
+      : "From its visibility image, one number per pixel and light.";
+    return keptVisibility(variant);
+  }
   PictureVisibility found = measureVisibility(
     scene, truth, [&spec](vtkRenderer* renderer) { renderer->SetPass(makePass(spec)); });
-  variant.result.errorSource =
+  source =
     "Measured from its pictures of the scene with white surfaces, without ambient light and gloss, "
     "under one light at a time. Visibility is the quotient of a picture with shadows and one "
     "without. Four exposures keep faintly lit surfaces above the steps of 8 bits. " +
@@ -438,133 +349,110 @@ VisibilityImages visibilityFromItsPictures(
   return std::move(found.images);
 }
 
-VisibilityImages visibilityOf(Variant& variant, const Scene& scene, const VisibilityImages& truth)
+/// Store the classes of a variant's pixels.
+void takeClasses(Variant& variant, const VisibilityImages& images)
 {
-  const VariantSpec& spec = variant.spec();
-  if (spec.technique == plainTechnique)
+  std::int64_t traced = 0;
+  nlohmann::ordered_map<std::string, std::int64_t> classes;
+  for (const LightReport& light : variant.pass()->GetReport().lights)
   {
-    variant.result.errorSource = "By definition: it lights everything, so its visibility is 1.";
-    return withoutShadows(truth);
-  }
-  if (!spec.isGnomon() || spec.route == vtkGnomonShadowPass::ROUTE_INLINE)
-  {
-    return visibilityFromItsPictures(variant, scene, truth);
-  }
-  variant.result.errorSource = spec.technique == truthTechnique && !isSoft(variant)
-    ? "It is the truth."
-    : "From its visibility image, one number per pixel and light.";
-  return keptVisibility(variant);
-}
-
-/// Store the classes of a variant's pixels in its result.
-void takeClasses(VariantResult& result, const FrameReport& report, const VisibilityImages& images)
-{
-  for (const LightReport& light : report.lights)
-  {
-    result.tracedPixels += light.tracedPixels;
+    traced += light.tracedPixels;
     for (const ClassCount& of : light.classes)
     {
-      const auto same = std::find_if(result.classes.begin(), result.classes.end(),
-        [&](const auto& entry) { return entry.first == of.name; });
-      if (same == result.classes.end())
-      {
-        result.classes.emplace_back(of.name, of.pixels);
-      }
-      else
-      {
-        same->second += of.pixels;
-      }
+      classes[of.name] += of.pixels;
     }
   }
+  variant.json["traced_pixels"] = traced;
+  variant.json["class_pixels"] = Json(classes);
   const auto told = std::find_if(images.classes.begin(), images.classes.end(),
     [](const ClassImage& image) { return !image.classes.empty(); });
   if (told != images.classes.end())
   {
-    result.classPicture =
+    variant.pictures.classes =
       classPicture(images, static_cast<std::size_t>(told - images.classes.begin()));
   }
 }
 
-void measureErrors(
-  Variants& variants, const Scene& scene, const VisibilityImages& truth, StepCounter& steps)
+/// Measure a variant's error, and take its pictures.
+void measureVariant(Variant& variant, const Scene& scene, const VisibilityImages& truth, bool soft)
 {
-  std::size_t done = 0;
-  for (const std::unique_ptr<Variant>& variant : variants)
+  if (variant.pass() && has(estimatorOf(settingsOf(variant.spec())).info, "bake"))
   {
-    VariantResult& result = variant->result;
-    if (variant->pass() && has(estimatorOf(settingsOf(variant->spec())).info, "bake"))
-    {
-      // Counts are those of techniques with their maps, even if baking these does not pay.
-      variant->pass()->SetSetting("bake", "always");
-    }
-    variant->drawFrame(Motion::Static, 0);
-    result.picture = capture(variant->window());
-    const VisibilityImages visibility = visibilityOf(*variant, scene, truth);
-    std::vector<PixelVerdict> verdicts;
-    std::vector<float> differences;
-    result.error = measureError(visibility, truth, scene.lights, &verdicts, &differences);
-    result.worst = worstPlace(differences, truth.width, truth.height, worstPlacePixels);
-    std::vector<unsigned char> traced(verdicts.size(), 0);
-    if (variant->pass() && result.route != "inline")
-    {
-      takeClasses(result, variant->pass()->GetReport(), visibility);
-      traced = tracedMask(visibility);
-    }
-    result.errors = errorPicture(result.picture, verdicts, &traced);
-    steps.advance(countOfRows(++done, variants.size()) + " done");
+    // Counts are those of techniques with their maps, even if baking these does not pay.
+    variant.pass()->SetSetting("bake", "always");
+  }
+  variant.drawFrame(Motion::Static, 0);
+  variant.pictures.picture = capture(variant.window());
+  std::string source;
+  const VisibilityImages images = visibilityOf(variant, scene, truth, soft, source);
+  std::vector<PixelVerdict> verdicts;
+  std::vector<float> differences;
+  const VisibilityError error = measureError(images, truth, scene.lights, &verdicts, &differences);
+  variant.json["error"] = { { "source", source }, { "facing_pixels", error.facingPixels },
+    { "wrong_pixels", error.wrongPixels() }, { "wrong_share", error.share(error.wrongPixels()) },
+    { "false_light_pixels", error.falseLight }, { "false_shadow_pixels", error.falseShadow },
+    { "mean_absolute_error", error.meanAbsolute }, { "rms_error", error.rootMeanSquare },
+    { "between_pixels", error.betweenPixels },
+    { "between_share", error.share(error.betweenPixels) } };
+  if (variant.pass() && variant.spec().route != vtkGnomonShadowPass::ROUTE_INLINE)
+  {
+    takeClasses(variant, images);
+  }
+  constexpr int placePixels = 64;
+  variant.pictures.worst = worstPlace(differences, truth.width, truth.height, placePixels);
+  variant.pictures.errors = errorPicture(variant.pictures.picture, verdicts);
+  const std::string stem = fileStem(variant.spec().name());
+  variant.json["picture"] = stem + ".png";
+  variant.json["error_picture"] = stem + "-errors.png";
+  if (variant.pictures.classes.pixelCount() > 0)
+  {
+    variant.json["class_picture"] = stem + "-classes.png";
   }
 }
 
-void requireCastingLights(const Scene& scene, const FrameReport& report)
+/// Return the notes about a scene.
+/// @param castingLights receives their number
+/// @throws BadInput if no light casts a shadow
+std::vector<std::string> notesOf(const Scene& scene, const FrameReport& report, int& castingLights)
 {
+  std::vector<std::string> notes = scene.notes;
   std::string reasons;
   for (const LightReport& light : report.lights)
   {
-    if (light.casts)
-    {
-      return;
-    }
-    reasons += "; light " + std::to_string(light.sceneIndex) + ": " + light.reason;
-  }
-  throw BadInput(
-    scene.name + ": no light casts a shadow, expected at least one to compare" + reasons);
-}
-
-void describeScene(ComparisonResults& results, const Scene& scene, const FrameReport& report)
-{
-  results.triangles = report.triangles;
-  results.notes = scene.notes;
-  for (const LightReport& light : report.lights)
-  {
-    results.lights += light.casts;
+    const std::string number = std::to_string(light.sceneIndex);
+    castingLights += light.casts;
     if (!light.casts)
     {
-      results.notes.push_back(
-        "Light " + std::to_string(light.sceneIndex) + " casts no shadow: " + light.reason + ".");
+      notes.push_back("Light " + number + " casts no shadow: " + light.reason + ".");
+      reasons += "; light " + number + ": " + light.reason;
     }
+  }
+  if (castingLights == 0)
+  {
+    throw BadInput(
+      scene.name + ": no light casts a shadow, expected at least one to compare" + reasons);
   }
   if (std::any_of(scene.models.begin(), scene.models.end(),
         [](const SceneModel& model) { return !model.casts || !model.receives || model.oneSided; }))
   {
-    results.notes.push_back(
-      "Some models of the scene do not cast, do not receive or are one-sided. "
-      "vtkShadowMapPass has no such settings and shadows them all alike.");
+    notes.push_back("Some models of the scene do not cast, do not receive or are one-sided. "
+                    "vtkShadowMapPass has no such settings and shadows them all alike.");
   }
+  return notes;
 }
 
-/// Return the settings that the numbers depend on.
-std::vector<std::pair<std::string, std::string>> listSettings(
-  const ComparisonPlan& plan, vtkRenderWindow* window)
+/// Return the settings that the numbers depend on, for users.
+Json settingsOf(const ComparisonPlan& plan, vtkRenderWindow* window)
 {
-  std::vector<std::pair<std::string, std::string>> settings = {
+  Json settings = {
     { "Window",
       std::to_string(plan.width) + " x " + std::to_string(plan.height) +
         " pixels, one sample per pixel" },
     { "Timed frames",
       plan.frames > 0 ? std::to_string(plan.frames) + " per variant and motion, after " +
           std::to_string(warmUpFrames) + " for warming up, and " +
-          std::to_string(measuredFrames(plan)) + " by stage; " +
-          "camera and lights turn by 0.05 degrees per frame"
+          std::to_string(measuredFrames(plan)) +
+          " by stage; camera and lights turn by 0.05 degrees per frame"
                       : "none" },
     { "Gnomon", GNOMON_VERSION },
     { "VTK", vtkVersion::GetVTKVersion() },
@@ -572,21 +460,16 @@ std::vector<std::pair<std::string, std::string>> listSettings(
     { "Processor", processorName() },
     { "Resident set at the end", std::to_string(residentBytes() / (1024 * 1024)) + " MB" },
   };
+  std::string ofLights;
   for (const auto& [name, value] : plan.settings)
   {
-    if (!value.empty() && isOfLight(*findSetting(name)))
-    {
-      settings.emplace_back("Of all lights", name + " " + value);
-    }
+    ofLights += isOfLight(*findSetting(name)) ? ", " + name + " " + value : "";
+  }
+  if (!ofLights.empty())
+  {
+    settings["Of all lights"] = ofLights.substr(2);
   }
   return settings;
-}
-
-std::string firstPanelTitle(const std::string& technique)
-{
-  return technique == plainTechnique ? technique + ": no shadows"
-    : technique == truthTechnique    ? "the truth: Gnomon's " + technique
-                                     : "VTK's own: " + technique;
 }
 
 /// Return small pictures of the peers and the truth.
@@ -608,7 +491,10 @@ std::vector<Panel> drawFirstPanels(const ComparisonPlan& plan, const Scene& scen
     {
       variant.drawFrame(Motion::Static, 0);
     } while (variant.pass() && variant.pass()->GetProgress() < 1.0);
-    panels.push_back({ firstPanelTitle(spec.technique), capture(variant.window()) });
+    const std::string title = spec.technique == plainTechnique ? spec.technique + ": no shadows"
+      : spec.isGnomon() ? "the truth: Gnomon's " + spec.technique
+                        : "VTK's own: " + spec.technique;
+    panels.push_back({ title, capture(variant.window()) });
   }
   return panels;
 }
@@ -636,9 +522,11 @@ std::map<std::string, std::string> truthSettings(int samples, const std::string&
 //------------------------------------------------------------------------------
 bool castsSoftShadows(const ComparisonPlan& plan, const Scene& scene)
 {
-  const Scene compared = sceneOf(plan, scene);
-  return hasSoftShadows(
-    makeRenderer(compared, static_cast<double>(plan.width) / plan.height), ShadowSettings());
+  const vtkSmartPointer<vtkRenderer> renderer =
+    makeRenderer(sceneOf(plan, scene), static_cast<double>(plan.width) / plan.height);
+  const std::vector<ShadowLight> lights = LightManager().collect(renderer, ShadowSettings()).lights;
+  return std::any_of(
+    lights.begin(), lights.end(), [](const ShadowLight& light) { return light.area.has_value(); });
 }
 
 //------------------------------------------------------------------------------
@@ -653,10 +541,23 @@ std::vector<std::string> usualTechniques(bool soft)
 ComparisonResults runComparison(
   const Scene& original, const ComparisonPlan& plan, const ComparisonEvents& events)
 {
+  const VtkMessages messages;
   const Scene scene = sceneOf(plan, original);
   std::vector<std::string> leftOut;
   const std::vector<VariantSpec> specs = listVariants(plan, scene, leftOut);
-  StepCounter steps(2 * specs.size() + allMotions.size() * framesPerMotion(plan), events);
+  const int roundsPerMotion =
+    plan.frames > 0 ? warmUpFrames + plan.frames + measuredFrames(plan) : 0;
+  const double steps = 2.0 * static_cast<double>(specs.size()) +
+    static_cast<double>(allMotions.size()) * roundsPerMotion;
+  int done = 0;
+  const Advance advance = [&](const std::string& step)
+  {
+    ++done;
+    if (events.progress)
+    {
+      events.progress(done / steps, step);
+    }
+  };
   if (events.firstPanels)
   {
     events.firstPanels(drawFirstPanels(plan, scene));
@@ -672,31 +573,41 @@ ComparisonResults runComparison(
     {
       truthVariant = variants.back().get();
     }
-    steps.advance("set up " + countOfRows(variants.size(), specs.size()));
+    advance("set up " + countOfRows(variants.size(), specs.size()));
+  }
+  const FrameReport report = truthVariant->pass()->GetReport();
+  int castingLights = 0;
+  std::vector<std::string> notes = notesOf(scene, report, castingLights);
+  notes.insert(notes.end(), leftOut.begin(), leftOut.end());
+  for (const Motion motion : allMotions)
+  {
+    if (plan.frames > 0)
+    {
+      timeMotion(variants, motion, plan, advance);
+    }
   }
   ComparisonResults results;
-  requireCastingLights(scene, truthVariant->pass()->GetReport());
-  describeScene(results, scene, truthVariant->pass()->GetReport());
-  results.notes.insert(results.notes.end(), leftOut.begin(), leftOut.end());
-
-  results.frames = plan.frames;
-  for (Motion motion : timedMotions(results))
-  {
-    timeWholeFrames(variants, motion, plan, steps);
-    timeStages(variants, motion, plan, steps);
-  }
-  const VisibilityImages truth = truthOf(*truthVariant, variants, plan.truthSamples, results.notes);
-  measureErrors(variants, scene, truth, steps);
-
-  results.scene = scene.name;
-  results.width = plan.width;
-  results.height = plan.height;
-  results.truth = truthVariant->result.name;
-  results.soft = isSoft(*truthVariant);
-  results.settings = listSettings(plan, truthVariant->window());
+  results.soft = castsSoftShadows(plan, original);
+  const VisibilityImages truth = results.soft
+    ? truthOfAreas(*truthVariant, variants, plan.truthSamples, notes)
+    : keptVisibility(*truthVariant);
   for (const std::unique_ptr<Variant>& variant : variants)
   {
-    results.variants.push_back(std::move(variant->result));
+    measureVariant(*variant, scene, truth, results.soft);
+    results.pictures.push_back(std::move(variant->pictures));
+    advance(countOfRows(results.pictures.size(), variants.size()) + " done");
+  }
+  results.json = { { "scene", scene.name }, { "width", plan.width }, { "height", plan.height },
+    { "frames", plan.frames }, { "triangles", report.triangles },
+    { "casting_lights", castingLights }, { "truth", truthVariant->spec().name() },
+    { "settings", settingsOf(plan, truthVariant->window()) }, { "notes", notes } };
+  for (const std::unique_ptr<Variant>& variant : variants)
+  {
+    results.json["variants"].push_back(variant->json);
+  }
+  if (!messages.errors().empty())
+  {
+    throw Failure("rendering " + scene.name + ": " + messages.errors().front());
   }
   return results;
 }

@@ -1,10 +1,13 @@
 #pragma once
 
 #include "Comparison.h"
-#include "Panels.h"
 #include "Scene.h"
 
+#include <nlohmann/json.hpp>
+
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,19 +20,35 @@ struct ComparisonPlan
   /// Names of the registry, with optional settings: "nsm", "pcf:kernel=box:projection=lispsm". A
   /// missing truth is added.
   std::vector<std::string> techniques;
-  /// Settings of all lights, for techniques that have them and do not set them themselves. Empty
-  /// values do not count.
+  /// Settings of all lights, for techniques that have them and do not set them themselves.
   std::map<std::string, std::string> settings;
   std::vector<int> mapSizesTexels; ///< for each variant with a map
-  /// True: pointwise techniques take only their usual route: inline, or image if they are slow.
-  /// False: they take the routes below.
-  bool usualRoute = false;
-  bool inlineRoute = true; ///< for pointwise techniques
-  bool imageRoute = true;  ///< for pointwise techniques
+  /// Routes of pointwise techniques; empty: the usual one, inline, or image if they are slow.
+  std::vector<int> routes;
   int width = 1024;
   int height = 1024;
   int frames = 21;         ///< timed frames per variant and motion; 0: errors only
   int truthSamples = 4096; ///< samples per area light and pixel of the truth
+};
+
+/// The pictures of a variant.
+struct VariantPictures
+{
+  Picture picture;
+  Picture errors; ///< see errorPicture()
+  /// The classes of the first light that has them, in their colours; without pixels if none has.
+  Picture classes;
+  std::optional<Place> worst; ///< its most wrong place; none if it is right everywhere
+};
+
+/// The interface between measuring and writing.
+struct ComparisonResults
+{
+  /// All numbers, as results.json has them: shares as fractions, times in milliseconds, memory in
+  /// bytes.
+  nlohmann::ordered_json json;
+  bool soft = false; ///< true if a casting light has an area
+  std::vector<VariantPictures> pictures;
 };
 
 /// The technique whose visibility is the truth. For area lights, the truth has

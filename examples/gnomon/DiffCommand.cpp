@@ -5,15 +5,54 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 
 namespace gnomon::tool
 {
 namespace
 {
+
+/// Read the channels of an .exr unchanged, or of a .png as R, G and B in [0, 255].
+ChannelImage readComparable(const std::string& path)
+{
+  if (lowerExtension(path) == ".exr")
+  {
+    return readChannels(path);
+  }
+  const Picture picture = readPicture(path);
+  ChannelImage image;
+  image.width = picture.width;
+  image.height = picture.height;
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+  {
+    image.channels[std::array{ "R", "G", "B" }[i % 3]].push_back(picture.rgb[i]);
+  }
+  return image;
+}
+
+/// Return an image's size and channels: "10 x 5 pixels with R, G, B".
+std::string shapeOf(const ChannelImage& image)
+{
+  std::string names;
+  for (const auto& [name, plane] : image.channels)
+  {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels with " +
+    (names.empty() ? "no channel" : names);
+}
+
+/// True if a is larger than b. NaN counts as larger than any number.
+bool larger(double a, double b)
+{
+  return a > b || (std::isnan(a) && !std::isnan(b));
+}
 
 struct DiffOptions
 {
@@ -35,14 +74,12 @@ void diff(const DiffOptions& options)
     throw BadInput("the formats differ: " + options.fileA + " and " + options.fileB +
       " have different units, expected two .png or two .exr files");
   }
-  const ChannelImage a = readComparable(options.fileA);
-  const ChannelImage b = readComparable(options.fileB);
-  const ImageDifference difference =
-    compareImages(a, options.fileA, b, options.fileB, options.maxDifference);
-  std::cout << describe(difference, options.maxDifference) << std::endl;
+  const ImageDifference difference = compareImages(readComparable(options.fileA), options.fileA,
+    readComparable(options.fileB), options.fileB, options.maxDifference);
+  std::cout << difference.text << std::endl;
   if (!options.output.empty())
   {
-    writePicture(differencePicture(difference, options.maxDifference), options.output);
+    writePicture(difference.picture, options.output);
   }
   if (difference.differingPixels > options.maxPixels)
   {
@@ -52,6 +89,66 @@ void diff(const DiffOptions& options)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+ImageDifference compareImages(const ChannelImage& a, const std::string& nameA,
+  const ChannelImage& b, const std::string& nameB, double maxDifference)
+{
+  if (shapeOf(a) != shapeOf(b))
+  {
+    throw BadInput("the sizes or channels differ: " + nameA + " has " + shapeOf(a) + "; " + nameB +
+      " has " + shapeOf(b));
+  }
+  ImageDifference result;
+  result.picture.width = a.width;
+  result.picture.height = a.height;
+  std::vector<float> ofPixels(result.picture.pixelCount(), 0.0f);
+  float brightest = 0.0f; // the largest finite difference, shown as yellow
+  float largest = 0.0f;
+  std::size_t largestPixel = 0;
+  std::string largestChannel;
+  for (const auto& [name, planeA] : a.channels)
+  {
+    const std::vector<float>& planeB = b.channels.at(name);
+    for (std::size_t i = 0; i < planeA.size(); ++i)
+    {
+      // Infinities may be equal.
+      const float d = planeA[i] == planeB[i] ? 0.0f : std::fabs(planeA[i] - planeB[i]);
+      ofPixels[i] = larger(d, ofPixels[i]) ? d : ofPixels[i];
+      brightest = std::isfinite(d) ? std::max(brightest, d) : brightest;
+      if (larger(d, largest))
+      {
+        largest = d;
+        largestPixel = i;
+        largestChannel = name;
+      }
+    }
+  }
+  for (const float d : ofPixels)
+  {
+    const bool differs = larger(d, maxDifference);
+    result.differingPixels += differs;
+    const float share = std::isfinite(d) && differs ? d / brightest : 1.0f;
+    const unsigned char grey = d > 0.0f ? 80 : 0;
+    const auto green = static_cast<unsigned char>(80.0f + 175.0f * share);
+    const std::array<unsigned char, 3> colour = std::isnan(d)
+      ? std::array<unsigned char, 3>{ 255, 0, 255 }
+      : differs ? std::array<unsigned char, 3>{ 255, green, 0 }
+                : std::array<unsigned char, 3>{ grey, grey, grey };
+    result.picture.rgb.insert(result.picture.rgb.end(), colour.begin(), colour.end());
+  }
+  std::ostringstream text;
+  text << result.differingPixels << " of " << ofPixels.size() << " pixels differ by more than "
+       << maxDifference << "; largest difference " << largest;
+  if (!largestChannel.empty())
+  {
+    const auto columns = static_cast<std::size_t>(a.width);
+    text << " in channel " << largestChannel << " at pixel (" << largestPixel % columns << ", "
+         << largestPixel / columns << "), counted from the top left";
+  }
+  result.text = text.str();
+  return result;
+}
 
 //------------------------------------------------------------------------------
 void addDiffCommand(CLI::App& app)

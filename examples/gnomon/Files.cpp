@@ -160,6 +160,19 @@ void writeWholeFile(const std::string& path, const std::string& bytes)
 }
 
 //------------------------------------------------------------------------------
+std::string fileStem(const std::string& name)
+{
+  constexpr const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+  std::string stem = name;
+  for (std::size_t other = stem.find_first_not_of(plain); other != std::string::npos;
+       other = stem.find_first_not_of(plain, other))
+  {
+    stem[other] = '-';
+  }
+  return stem;
+}
+
+//------------------------------------------------------------------------------
 std::string lowerExtension(const std::string& path)
 {
   std::string extension = std::filesystem::path(path).extension().string();

@@ -28,6 +28,9 @@ void requireWritableFile(
 /// @throws Failure
 void writeWholeFile(const std::string& path, const std::string& bytes);
 
+/// Return a name as a part of a file's name: "nsm-1024-inline" for "nsm 1024 inline".
+std::string fileStem(const std::string& name);
+
 /// Return a path's extension with its dot, in lower case.
 std::string lowerExtension(const std::string& path);
 

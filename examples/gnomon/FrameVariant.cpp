@@ -89,6 +89,8 @@ VariantSpec parseTechnique(const std::string& text)
     throw BadInput(
       "--techniques: found \"" + spec.technique + "\", expected some of: " + techniqueNames());
   }
+  const auto refuse = [&](const std::string& why)
+  { throw BadInput("--techniques: " + text + ": " + why); };
   for (std::string part; std::getline(parts, part, ':');)
   {
     const std::size_t equals = part.find('=');
@@ -97,20 +99,18 @@ VariantSpec parseTechnique(const std::string& text)
     const Setting* const setting = findSetting(name);
     if (!setting || name == "technique" || name == "map_size")
     {
-      throw BadInput("--techniques: " + text + ": found the setting \"" + name +
-        "\", expected one of: " + settingNames() +
+      refuse("found the setting \"" + name + "\", expected one of: " + settingNames() +
         " (except technique, map_size and light_radius)");
     }
     if (isOfLight(*setting))
     {
-      throw BadInput("--techniques: " + text + ": found the setting \"" + name +
+      refuse("found the setting \"" + name +
         "\", which defines the lights of all techniques, expected in a light of the scene, or " +
         optionOf(name));
     }
     if (ShadowSettings scratch; !setting->set(scratch, value))
     {
-      throw BadInput("--techniques: " + text + ": " + name + ": found \"" + value +
-        "\", expected " + setting->expected());
+      refuse(name + ": found \"" + value + "\", expected " + setting->expected());
     }
     spec.settings[name] = value;
   }
@@ -119,7 +119,7 @@ VariantSpec parseTechnique(const std::string& text)
   {
     if (!has(info, name))
     {
-      throw BadInput("--techniques: " + text + ": " + whoHas(*findSetting(name)));
+      refuse(whoHas(*findSetting(name)));
     }
   }
   return spec;
@@ -169,74 +169,12 @@ Scene withoutShadowSettings(Scene scene)
 }
 
 //------------------------------------------------------------------------------
-Mover::Mover(vtkRenderer* renderer, const Scene& scene)
-  : renderer_(renderer)
-  , scene_(scene)
-{
-  this->camera_->DeepCopy(renderer->GetActiveCamera());
-}
-
-//------------------------------------------------------------------------------
-void Mover::apply(Motion motion, int step)
-{
-  this->turnCamera(motion == Motion::Camera ? step * stepDegrees : 0.0);
-  this->turnLights(motion == Motion::Light ? step * stepDegrees : 0.0);
-}
-
-//------------------------------------------------------------------------------
-void Mover::turnCamera(double degrees)
-{
-  if (degrees == this->cameraDegrees_)
-  {
-    return;
-  }
-  this->cameraDegrees_ = degrees;
-  vtkCamera* const camera = this->renderer_->GetActiveCamera();
-  camera->SetPosition(this->camera_->GetPosition());
-  camera->SetFocalPoint(this->camera_->GetFocalPoint());
-  camera->SetViewUp(this->camera_->GetViewUp());
-  camera->SetClippingRange(this->camera_->GetClippingRange());
-  if (degrees != 0.0)
-  {
-    camera->Azimuth(degrees);
-    camera->OrthogonalizeViewUp();
-    this->renderer_->ResetCameraClippingRange();
-  }
-}
-
-//------------------------------------------------------------------------------
-// Each light turns around its target about an axis across its direction, so the direction always
-// changes.
-void Mover::turnLights(double degrees)
-{
-  if (degrees == this->lightDegrees_)
-  {
-    return;
-  }
-  this->lightDegrees_ = degrees;
-  for (std::size_t i = 0; i < this->scene_.lights.size(); ++i)
-  {
-    const SceneLight& base = this->scene_.lights[i];
-    const glm::dvec3 target(base.target[0], base.target[1], base.target[2]);
-    const glm::dvec3 arm =
-      glm::dvec3(base.position[0], base.position[1], base.position[2]) - target;
-    const glm::dvec3 across = std::abs(arm.x) < 0.5 * glm::length(arm) ? glm::dvec3(1.0, 0.0, 0.0)
-                                                                       : glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dmat4 turn =
-      glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::cross(arm, across));
-    const glm::dvec3 position = target + glm::dvec3(turn * glm::dvec4(arm, 0.0));
-    vtkLight* const light =
-      vtkLight::SafeDownCast(this->renderer_->GetLights()->GetItemAsObject(static_cast<int>(i)));
-    light->SetPosition(position.x, position.y, position.z);
-  }
-}
-
-//------------------------------------------------------------------------------
 FrameVariant::FrameVariant(const VariantSpec& spec, const Scene& scene, int width, int height)
   : spec_(spec)
+  , scene_(scene)
   , renderer_(makeRenderer(scene, static_cast<double>(width) / height))
-  , mover_(renderer_, scene)
 {
+  this->camera_->DeepCopy(this->renderer_->GetActiveCamera());
   this->renderer_->SetPass(makePass(spec));
   this->window_->SetSize(width, height);
   this->window_->AddRenderer(this->renderer_);
@@ -264,13 +202,100 @@ double drawTimed(vtkRenderWindow* window)
 //------------------------------------------------------------------------------
 double FrameVariant::drawFrame(Motion motion, int step)
 {
-  this->mover_.apply(motion, step);
+  this->turnCamera(motion == Motion::Camera ? step * stepDegrees : 0.0);
+  this->turnLights(motion == Motion::Light ? step * stepDegrees : 0.0);
   if (this->pass())
   {
     this->pass()->SetInteractive(motion == Motion::Static ? vtkGnomonShadowPass::INTERACTIVE_OFF
                                                           : vtkGnomonShadowPass::INTERACTIVE_ON);
   }
   return drawTimed(this->window_);
+}
+
+//------------------------------------------------------------------------------
+void FrameVariant::turnCamera(double degrees)
+{
+  if (degrees == this->cameraDegrees_)
+  {
+    return;
+  }
+  this->cameraDegrees_ = degrees;
+  vtkCamera* const camera = this->renderer_->GetActiveCamera();
+  camera->SetPosition(this->camera_->GetPosition());
+  camera->SetFocalPoint(this->camera_->GetFocalPoint());
+  camera->SetViewUp(this->camera_->GetViewUp());
+  camera->SetClippingRange(this->camera_->GetClippingRange());
+  if (degrees != 0.0)
+  {
+    camera->Azimuth(degrees);
+    camera->OrthogonalizeViewUp();
+    this->renderer_->ResetCameraClippingRange();
+  }
+}
+
+//------------------------------------------------------------------------------
+// Each light turns around its target about an axis across its direction, so the direction always
+// changes.
+void FrameVariant::turnLights(double degrees)
+{
+  if (degrees == this->lightDegrees_)
+  {
+    return;
+  }
+  this->lightDegrees_ = degrees;
+  for (std::size_t i = 0; i < this->scene_.lights.size(); ++i)
+  {
+    const SceneLight& base = this->scene_.lights[i];
+    const glm::dvec3 target(base.target[0], base.target[1], base.target[2]);
+    const glm::dvec3 arm =
+      glm::dvec3(base.position[0], base.position[1], base.position[2]) - target;
+    const glm::dvec3 across = std::abs(arm.x) < 0.5 * glm::length(arm) ? glm::dvec3(1.0, 0.0, 0.0)
+                                                                       : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dmat4 turn =
+      glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::cross(arm, across));
+    const glm::dvec3 position = target + glm::dvec3(turn * glm::dvec4(arm, 0.0));
+    vtkLight* const light =
+      vtkLight::SafeDownCast(this->renderer_->GetLights()->GetItemAsObject(static_cast<int>(i)));
+    light->SetPosition(position.x, position.y, position.z);
+  }
+}
+
+//------------------------------------------------------------------------------
+double median(std::vector<double> values)
+{
+  if (values.empty())
+  {
+    return 0.0;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> timeFrames(std::size_t ways, int frames,
+  const std::function<double(std::size_t way, int step)>& draw,
+  const std::function<void()>& roundDone)
+{
+  std::vector<std::vector<double>> times(ways);
+  for (int frame = -warmUpFrames; frame < frames; ++frame)
+  {
+    for (std::size_t i = 0; i < ways; ++i)
+    {
+      const double milliseconds = draw(i, frame + warmUpFrames + 1);
+      if (frame >= 0)
+      {
+        times[i].push_back(milliseconds);
+      }
+    }
+    if (roundDone)
+    {
+      roundDone();
+    }
+  }
+  std::vector<double> medians(ways);
+  std::transform(times.begin(), times.end(), medians.begin(), median);
+  return medians;
 }
 
 } // namespace gnomon::tool

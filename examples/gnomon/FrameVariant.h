@@ -13,8 +13,11 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace gnomon::tool
 {
@@ -57,28 +60,6 @@ vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec);
 /// the pass, hence from the variant.
 Scene withoutShadowSettings(Scene scene);
 
-/// Turns a renderer's camera or lights slightly, from their places at construction.
-class Mover
-{
-public:
-  /// The turn of camera and lights per step, in degrees.
-  static constexpr double stepDegrees = 0.05;
-
-  /// @param renderer created from the scene, which must outlive this object
-  Mover(vtkRenderer* renderer, const Scene& scene);
-  void apply(Motion motion, int step);
-
-private:
-  void turnCamera(double degrees);
-  void turnLights(double degrees);
-
-  vtkRenderer* renderer_;
-  const Scene& scene_;
-  vtkNew<vtkCamera> camera_;
-  double cameraDegrees_ = 0.0;
-  double lightDegrees_ = 0.0;
-};
-
 /// Render a frame, wait for its end, and return its wall clock time in milliseconds.
 double drawTimed(vtkRenderWindow* window);
 
@@ -86,6 +67,9 @@ double drawTimed(vtkRenderWindow* window);
 class FrameVariant
 {
 public:
+  /// The turn of camera and lights per step, in degrees.
+  static constexpr double stepDegrees = 0.05;
+
   /// @param scene must outlive this object
   FrameVariant(const VariantSpec& spec, const Scene& scene, int width, int height);
 
@@ -101,14 +85,36 @@ public:
   /// True if a light's map will be baked after some more frames at rest.
   bool awaitsMap() const;
 
-  /// Render one frame, wait for its end, and return its wall clock time in milliseconds.
+  /// Render one frame, wait for its end, and return its wall clock time in milliseconds. Camera and
+  /// lights are those of the scene; the moving one is turned by `step` steps.
   double drawFrame(Motion motion, int step);
 
 private:
+  void turnCamera(double degrees);
+  void turnLights(double degrees);
+
   VariantSpec spec_;
+  const Scene& scene_;
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkNew<vtkGnomonEGLRenderWindow> window_;
-  Mover mover_;
+  vtkNew<vtkCamera> camera_; ///< the scene's
+  double cameraDegrees_ = 0.0;
+  double lightDegrees_ = 0.0;
 };
+
+/// The number of frames that are rendered but not counted after a change of motion.
+inline constexpr int warmUpFrames = 3;
+
+/// Return the median: the upper of two middle values, or 0 without values.
+double median(std::vector<double> values);
+
+/// Return the median wall clock time per frame of each of several ways to draw, in milliseconds.
+/// Their frames are interleaved, so other load of the machine affects all alike.
+/// @param frames number of counted frames, after warmUpFrames others
+/// @param draw renders a frame of a way, at a step from 1, and returns its milliseconds
+/// @param roundDone called after each round of one frame per way; may be empty
+std::vector<double> timeFrames(std::size_t ways, int frames,
+  const std::function<double(std::size_t way, int step)>& draw,
+  const std::function<void()>& roundDone = {});
 
 } // namespace gnomon::tool

@@ -2,6 +2,7 @@
 
 #include <vtkRenderWindow.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -13,26 +14,17 @@ namespace gnomon::tool
 namespace
 {
 
-/// Return the text after the colon of the first line that begins with `key`; empty without such a
-/// line.
-std::string valueOf(std::istream& text, const std::string& key)
+/// Return the text after the colon of the first line that begins with `key`.
+std::string valueOf(std::istream&& text, const std::string& key)
 {
   for (std::string line; std::getline(text, line);)
   {
     if (line.compare(0, key.size(), key) == 0)
     {
-      const std::size_t start = line.find_first_not_of(" \t", line.find(':') + 1);
-      return start == std::string::npos ? std::string() : line.substr(start);
+      return line.substr(std::min(line.find_first_not_of(" \t", line.find(':') + 1), line.size()));
     }
   }
-  return {};
-}
-
-std::string processorModel()
-{
-  std::ifstream file("/proc/cpuinfo");
-  const std::string model = valueOf(file, "model name");
-  return model.empty() ? "unknown" : model;
+  return "unknown";
 }
 
 } // namespace
@@ -44,31 +36,22 @@ std::int64_t residentBytes()
   std::int64_t total = 0;
   std::int64_t resident = 0;
   file >> total >> resident;
-  return file ? resident * sysconf(_SC_PAGESIZE) : 0;
+  return resident * sysconf(_SC_PAGESIZE);
 }
 
 //------------------------------------------------------------------------------
 std::string processorName()
 {
-  return processorModel() + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads";
+  return valueOf(std::ifstream("/proc/cpuinfo"), "model name") + ", " +
+    std::to_string(std::thread::hardware_concurrency()) + " threads";
 }
 
 //------------------------------------------------------------------------------
 std::string openGlName(vtkRenderWindow* window)
 {
   const std::string capabilities = window->ReportCapabilities();
-  std::istringstream forRenderer(capabilities);
-  std::istringstream forVersion(capabilities);
-  return valueOf(forRenderer, "OpenGL renderer string") + ", version " +
-    valueOf(forVersion, "OpenGL version string");
-}
-
-//------------------------------------------------------------------------------
-std::string machineLine(vtkRenderWindow* window)
-{
-  const std::string renderer = openGlName(window);
-  return processorModel() + ", " + std::to_string(std::thread::hardware_concurrency()) +
-    " processors; OpenGL by " + (renderer.find("llvmpipe") == 0 ? "software (llvmpipe)" : renderer);
+  return valueOf(std::istringstream(capabilities), "OpenGL renderer string") + ", version " +
+    valueOf(std::istringstream(capabilities), "OpenGL version string");
 }
 
 } // namespace gnomon::tool

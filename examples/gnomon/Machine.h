@@ -21,8 +21,4 @@ std::string processorName();
 /// Return renderer and version of a window's OpenGL.
 std::string openGlName(vtkRenderWindow* window);
 
-/// Return the machine's description for pages: "AMD EPYC, 2 processors; OpenGL by software
-/// (llvmpipe)".
-std::string machineLine(vtkRenderWindow* window);
-
 } // namespace gnomon::tool

@@ -31,10 +31,10 @@ constexpr std::array<double, 4> exposureFactors = { 1.0, 16.0, 256.0, 4096.0 };
 vtkSmartPointer<vtkTexture> whiteTexture(vtkTexture* source)
 {
   vtkImageData* image = source ? source->GetInput() : nullptr;
-  const int components = image ? image->GetNumberOfScalarComponents() : 0;
-  if (components % 2 != 0 || components == 0)
+  const int components = image ? image->GetNumberOfScalarComponents() : 1;
+  if (components % 2 != 0)
   {
-    return nullptr; // no alpha
+    return nullptr;
   }
   vtkNew<vtkImageData> white;
   white->DeepCopy(image);
@@ -99,23 +99,18 @@ std::vector<Picture> expose(vtkRenderer* renderer, int width, int height)
 
 //------------------------------------------------------------------------------
 std::vector<float> visibilityFromPictures(
-  const std::vector<ExposedPair>& exposures, std::size_t colour)
+  const std::vector<Picture>& lit, const std::vector<Picture>& shadowed, std::size_t colour)
 {
-  std::vector<float> visibility(exposures.empty() ? 0 : exposures.front().lit.pixelCount(),
-    std::numeric_limits<float>::quiet_NaN());
+  std::vector<float> visibility(lit.front().pixelCount(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < visibility.size(); ++i)
   {
-    for (const ExposedPair& pair : exposures)
+    const std::size_t byte = 3 * i + colour;
+    for (std::size_t k = 0; k < lit.size() && lit[k].rgb[byte] < 255; ++k)
     {
-      const int lit = pair.lit.rgb[3 * i + colour];
-      if (lit == 255)
-      {
-        break;
-      }
-      if (lit > 0)
+      if (lit[k].rgb[byte] > 0)
       {
         visibility[i] = std::min(
-          1.0f, static_cast<float>(pair.shadowed.rgb[3 * i + colour]) / static_cast<float>(lit));
+          1.0f, static_cast<float>(shadowed[k].rgb[byte]) / static_cast<float>(lit[k].rgb[byte]));
       }
     }
   }
@@ -128,6 +123,7 @@ PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& 
 {
   PictureVisibility result;
   result.images = truth;
+  result.images.classes.clear();
   const double aspect = static_cast<double>(truth.width) / truth.height;
   for (std::size_t k = 0; k < truth.sceneIndices.size(); ++k)
   {
@@ -136,26 +132,17 @@ PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& 
     const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(white, aspect);
     addShadows(renderer);
     const std::vector<Picture> shadowed = expose(renderer, truth.width, truth.height);
-    std::vector<ExposedPair> exposures;
-    for (std::size_t i = 0; i < lit.size(); ++i)
-    {
-      exposures.push_back({ lit[i], shadowed[i] });
-    }
     // A light without texture is white here, so all channels are equal.
     const LightChannel channel = truth.channels[k];
     const std::size_t colour = channel == LightChannel::Blue ? 2 : channel == LightChannel::Green;
-    const std::vector<float> found = visibilityFromPictures(exposures, colour);
+    const std::vector<float> found = visibilityFromPictures(lit, shadowed, colour);
     const std::vector<unsigned char> facing = facingPixels(truth, white.lights[0]);
     for (std::size_t i = 0; i < found.size(); ++i)
     {
-      if (!std::isnan(found[i]))
-      {
-        result.images.visibility[k][i] = found[i];
-      }
-      else
-      {
-        result.unreadable += facing[i];
-      }
+      const bool isUnreadable = std::isnan(found[i]);
+      result.unreadable += isUnreadable && facing[i];
+      float& visibility = result.images.visibility[k][i];
+      visibility = isUnreadable ? visibility : found[i];
     }
   }
   return result;

@@ -18,23 +18,16 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon::tool
 {
 
-/// Two pictures of the same white, diffuse, flat surfaces under one light, without and with
-/// shadows. The light's brightness is `exposure` times the plain one.
-struct ExposedPair
-{
-  Picture lit;
-  Picture shadowed;
-};
-
-/// Return visibility as the quotient of two pictures: the share of light that the shadows leave.
+/// Return visibility as the quotient of pictures of white, diffuse, flat surfaces under one light:
+/// the share of light that the shadows leave; NaN if no light arrives.
 ///
 /// A picture has only 8 bits and saturates at white, so several exposures go from dark to bright.
-/// Each pixel uses the brightest exposure that is not white without shadows. If even that one is
-/// black, no light arrives and the visibility is 0. Values above 1 (some passes brighten) count as
-/// 1.
+/// Each pixel uses the brightest exposure that is not white without shadows. Values above 1 (some
+/// passes brighten) count as 1.
+/// @param lit, shadowed the exposures without and with shadows
 /// @param colour channel of the pictures: 0 red, 1 green, 2 blue
 std::vector<float> visibilityFromPictures(
-  const std::vector<ExposedPair>& exposures, std::size_t colour);
+  const std::vector<Picture>& lit, const std::vector<Picture>& shadowed, std::size_t colour);
 
 /// The result of measureVisibility().
 struct PictureVisibility

@@ -4,46 +4,13 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <unistd.h>
 
 namespace gnomon::tool
 {
 
 //------------------------------------------------------------------------------
-Progress::ErrorBuffer::ErrorBuffer()
-  : descriptor_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1))
-{
-}
-
-//------------------------------------------------------------------------------
-Progress::ErrorBuffer::~ErrorBuffer()
-{
-  close(this->descriptor_);
-}
-
-//------------------------------------------------------------------------------
-/// Write a letter, unbuffered: lines are short and rare.
-int Progress::ErrorBuffer::overflow(int letter)
-{
-  const char byte = traits_type::to_char_type(letter);
-  return write(this->descriptor_, &byte, 1) == 1 ? letter : traits_type::eof();
-}
-
-//------------------------------------------------------------------------------
-Progress::Progress(std::string step)
-  : Progress(std::move(step), nullptr, isatty(STDERR_FILENO) != 0, silence)
-{
-}
-
-//------------------------------------------------------------------------------
-Progress::Progress(std::string step, std::ostream& stream, bool isTerminal, Duration silence)
-  : Progress(std::move(step), stream.rdbuf(), isTerminal, silence)
-{
-}
-
-//------------------------------------------------------------------------------
-Progress::Progress(std::string step, std::streambuf* buffer, bool isTerminal, Duration silence)
-  : stream_(buffer ? buffer : &this->standardError_)
+Progress::Progress(std::string step, int descriptor, bool isTerminal, Duration silence)
+  : descriptor_(fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1))
   , isTerminal_(isTerminal)
   , silence_(silence)
   , step_(std::move(step))
@@ -61,6 +28,7 @@ Progress::~Progress()
   }
   this->done_.notify_one();
   this->thread_.join();
+  close(this->descriptor_);
 }
 
 //------------------------------------------------------------------------------
@@ -91,15 +59,12 @@ void Progress::show()
   {
     pause = period;
     this->erase();
-    this->stream_ << "gnomon: " << this->step_;
-    if (this->share_)
-    {
-      this->stream_ << ", " << std::lround(100.0 * *this->share_) << " %";
-    }
+    const std::string share =
+      this->share_ ? ", " + std::to_string(std::lround(100.0 * *this->share_)) + " %" : "";
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(
       std::chrono::steady_clock::now() - this->start_);
-    this->stream_ << ", " << seconds.count() << " s" << (this->isTerminal_ ? "" : "\n")
-                  << std::flush;
+    dprintf(this->descriptor_, "gnomon: %s%s, %ld s%s", this->step_.c_str(), share.c_str(),
+      static_cast<long>(seconds.count()), this->isTerminal_ ? "" : "\n");
     this->isShown_ = this->isTerminal_;
   }
 }
@@ -110,7 +75,7 @@ void Progress::erase()
 {
   if (this->isShown_)
   {
-    this->stream_ << "\r\x1b[K" << std::flush;
+    dprintf(this->descriptor_, "\r\x1b[K");
     this->isShown_ = false;
   }
 }

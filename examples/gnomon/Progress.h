@@ -5,9 +5,10 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
-#include <streambuf>
 #include <string>
 #include <thread>
+
+#include <unistd.h>
 
 namespace gnomon::tool
 {
@@ -19,12 +20,13 @@ class Progress
 {
 public:
   using Duration = std::chrono::milliseconds;
-  static constexpr Duration silence{ 2000 }; ///< before the first line
 
   /// @param step the first step, such as "reading bunny.obj"
-  explicit Progress(std::string step);
-  /// @param isTerminal true if lines on the stream can be overwritten
-  Progress(std::string step, std::ostream& stream, bool isTerminal, Duration silence);
+  /// @param descriptor of the file for lines; a copy is written to, as readGuarded() catches what
+  /// standard error gets
+  /// @param silence before the first line
+  explicit Progress(std::string step, int descriptor = STDERR_FILENO,
+    bool isTerminal = isatty(STDERR_FILENO) != 0, Duration silence = Duration(2000));
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -37,31 +39,15 @@ public:
   void print(const std::string& line, std::ostream& stream = std::cerr);
 
 private:
-  /// Writes to a copy of standard error, as readGuarded() catches what its descriptor gets.
-  class ErrorBuffer : public std::streambuf
-  {
-  public:
-    ErrorBuffer();
-    ~ErrorBuffer() override;
-
-  private:
-    int overflow(int letter) override;
-
-    const int descriptor_;
-  };
-
-  /// @param buffer of the stream; null for standard error
-  Progress(std::string step, std::streambuf* buffer, bool isTerminal, Duration silence);
   void show();
   void erase();
 
-  ErrorBuffer standardError_;
-  std::ostream stream_;
+  const int descriptor_;
   const bool isTerminal_;
   const Duration silence_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
-  std::mutex mutex_; ///< guards all members below, and the stream
+  std::mutex mutex_; ///< guards all members below, and the file
   std::string step_;
   std::optional<double> share_;
   bool isShown_ = false; ///< true while a line is on the terminal

@@ -1,22 +1,25 @@
 #include "Commands.h"
-#include "Errors.h"
 #include "Files.h"
+#include "FrameVariant.h"
 #include "Machine.h"
 #include "Progress.h"
 #include "Report.h"
 #include "SettingOptions.h"
-#include "Study.h"
 
 #include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "shadowtech/Registry.h"
+
+#include <vtkTransform.h>
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <memory>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -30,8 +33,17 @@ struct StudyOptions
   std::string folder;
   std::string size = "1024x1024";
   bool quick = false;
-  std::vector<std::string> techniques; ///< empty: the plan's
-  StudyPlan plan;
+  std::vector<std::string> scenes = { "bunny", "posts", "plates", "terrain", "atrium", "bench-side",
+    "room", "soft-stack", "soft-panels", "soft-plates" };
+  int views = 3;                       ///< of each scene, by turning its camera
+  std::vector<std::string> techniques; ///< empty: those below
+  ///@{
+  /// For scenes with point lights, and scenes with area lights.
+  std::vector<std::string> hardTechniques;
+  std::vector<std::string> softTechniques = allTechniques();
+  ///@}
+  std::vector<int> lightSamples = { 16, 64 }; ///< of area lights, for techniques that sample them
+  ComparisonPlan comparison;                  ///< all except the techniques
 };
 
 /// Techniques for area lights. For point lights they equal other techniques, but are slower.
@@ -40,16 +52,16 @@ const std::set<std::string> ofAreaLights = { "montecarlo", "pcss", "penumbra", "
 /// Limit a study to five minutes on two cores.
 void makeQuick(StudyOptions& options)
 {
-  options.plan.scenes = { "bunny", "posts", "terrain", "soft-stack", "soft-panels" };
-  options.plan.views = 1;
-  options.plan.lightSamples = { 64 };
-  options.plan.hardTechniques = { "nsm", "pcf", "vsm", "lispsm", "pssm", "selective", "silhouette",
+  options.scenes = { "bunny", "posts", "terrain", "soft-stack", "soft-panels" };
+  options.views = 1;
+  options.lightSamples = { 64 };
+  options.hardTechniques = { "nsm", "pcf", "vsm", "lispsm", "pssm", "selective", "silhouette",
     truthTechnique };
-  options.plan.softTechniques = { "nsm", "pcf", "vsm", "pcss", "montecarlo", "penumbra",
+  options.softTechniques = { "nsm", "pcf", "vsm", "pcss", "montecarlo", "penumbra",
     truthTechnique };
-  options.plan.comparison.mapSizesTexels = { 512, 2048 };
-  options.plan.comparison.frames = 5;
-  options.plan.comparison.truthSamples = 1024;
+  options.comparison.mapSizesTexels = { 512, 2048 };
+  options.comparison.frames = 5;
+  options.comparison.truthSamples = 1024;
   options.size = "512x512";
 }
 
@@ -66,7 +78,6 @@ std::string timeLeft(std::chrono::steady_clock::time_point start, double share)
                         : ", about " + std::to_string(std::lround(seconds / 60.0)) + " min left";
 }
 
-/// Return a list without duplicates.
 template <typename Value>
 void dropRepeated(std::vector<Value>& values)
 {
@@ -76,39 +87,163 @@ void dropRepeated(std::vector<Value>& values)
     values.end());
 }
 
+/// A scene from a view.
+struct Case
+{
+  std::string scene;
+  int view = 1;
+  ComparisonPlan plan;
+
+  std::string name() const { return this->scene + ", view " + std::to_string(this->view); }
+
+  /// Return the settings that its numbers depend on.
+  nlohmann::ordered_json settings() const
+  {
+    return { { "scene", this->scene }, { "view", this->view }, { "version", GNOMON_VERSION },
+      { "techniques", this->plan.techniques }, { "settings", this->plan.settings },
+      { "map_sizes", this->plan.mapSizesTexels }, { "width", this->plan.width },
+      { "height", this->plan.height }, { "frames", this->plan.frames },
+      { "truth_samples", this->plan.truthSamples } };
+  }
+};
+
+/// Return a technique with each number of samples of area lights, if it samples them.
+std::vector<std::string> sampled(const std::string& technique, const std::vector<int>& lightSamples)
+{
+  const VariantSpec spec = parseTechnique(technique);
+  if (spec.settings.count("light_samples") != 0 ||
+    !has(estimatorOf(settingsOf(spec)).info, "light_samples"))
+  {
+    return { technique };
+  }
+  std::vector<std::string> techniques;
+  for (const int samples : lightSamples)
+  {
+    const bool isDefault = samples == ShadowSettings().lightSamples;
+    techniques.push_back(
+      technique + (isDefault ? "" : ":light_samples=" + std::to_string(samples)));
+  }
+  return techniques;
+}
+
+std::vector<Case> casesOf(const StudyOptions& options)
+{
+  std::vector<Case> cases;
+  for (const std::string& scene : options.scenes)
+  {
+    ComparisonPlan plan = options.comparison;
+    plan.techniques = options.techniques.empty() ? options.hardTechniques : options.techniques;
+    if (castsSoftShadows(plan, loadScene(scene)))
+    {
+      plan.techniques.clear();
+      for (const std::string& technique :
+        options.techniques.empty() ? options.softTechniques : options.techniques)
+      {
+        for (const std::string& each : sampled(technique, options.lightSamples))
+        {
+          plan.techniques.push_back(each);
+        }
+      }
+    }
+    for (int view = 1; view <= options.views; ++view)
+    {
+      cases.push_back({ scene, view, plan });
+    }
+  }
+  return cases;
+}
+
+/// Return a scene's camera, turned about its target: by 25 degrees to one side, to the other side,
+/// by 50 degrees, and so on.
+SceneCamera turnedTo(const SceneCamera& camera, int view)
+{
+  constexpr double stepDegrees = 25.0;
+  const double degrees = stepDegrees * (view / 2) * (view % 2 == 0 ? 1.0 : -1.0);
+  vtkNew<vtkTransform> turn;
+  turn->Translate(camera.target.data());
+  turn->RotateWXYZ(degrees, camera.up.data());
+  turn->Translate(-camera.target[0], -camera.target[1], -camera.target[2]);
+  SceneCamera turned = camera;
+  turn->TransformPoint(camera.position.data(), turned.position.data());
+  return turned;
+}
+
+/// Return the rows of a finished case; none if it is missing, damaged or of other settings.
+/// @param file of a case, or a damaged one, as after an interruption
+Rows finishedRows(const std::string& file, const Case& of)
+{
+  constexpr std::size_t largestBytes = 1 << 28;
+  try
+  {
+    const Row json = Row::parse(readWholeFile(file, largestBytes));
+    return json.at("how") == of.settings() ? json.at("rows").get<Rows>() : Rows();
+  }
+  catch (const std::exception&)
+  {
+    return {};
+  }
+}
+
+/// Run a case, and write its rows to a file.
+Rows runCase(const std::string& file, const Case& of, const ComparisonEvents& events)
+{
+  Scene scene = loadScene(of.scene);
+  scene.name = of.scene;
+  scene.camera = turnedTo(scene.camera, of.view);
+  Rows rows = rowsOf(runComparison(scene, of.plan, events), of.view);
+  for (Row& row : rows)
+  {
+    // Techniques take their usual route, so names need none.
+    const std::string name = row["variant"];
+    row["variant"] = std::regex_replace(name, std::regex(" (inline|image)$"), "");
+  }
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
+  writeWholeFile(file, Row{ { "how", of.settings() }, { "rows", rows } }.dump(2) + "\n");
+  return rows;
+}
+
 void study(StudyOptions options)
 {
-  dropRepeated(options.plan.scenes);
-  dropRepeated(options.plan.lightSamples);
-  dropRepeated(options.plan.comparison.mapSizesTexels);
+  dropRepeated(options.scenes);
+  dropRepeated(options.lightSamples);
+  dropRepeated(options.comparison.mapSizesTexels);
   dropRepeated(options.techniques);
   if (options.quick)
   {
     makeQuick(options);
   }
   const PictureSize size = parseSize(options.size);
-  options.plan.comparison.width = size.width;
-  options.plan.comparison.height = size.height;
-  if (!options.techniques.empty())
-  {
-    options.plan.hardTechniques = options.plan.softTechniques = options.techniques;
-  }
+  options.comparison.width = size.width;
+  options.comparison.height = size.height;
   prepareReportFolder(options.folder, "study.html");
   Progress progress("reading scenes");
+  const std::vector<Case> cases = casesOf(options);
   const auto start = std::chrono::steady_clock::now();
   double shareBefore = -1.0; // share of cases that were finished earlier
-  const std::vector<StudyRow> rows = runStudy(options.plan, options.folder,
-    [&](double share, const std::string& step)
+  double done = 0.0;
+  Rows rows;
+  for (const Case& of : cases)
+  {
+    ComparisonEvents events;
+    events.progress = [&](double share, const std::string& step)
     {
-      shareBefore = shareBefore < 0.0 ? share : shareBefore;
-      const double ofRest = (share - shareBefore) / (1.0 - shareBefore);
-      progress.begin(step + timeLeft(start, ofRest), share);
-    });
+      const double ofAll = (done + share) / static_cast<double>(cases.size());
+      shareBefore = shareBefore < 0.0 ? ofAll : shareBefore;
+      const double ofRest = (ofAll - shareBefore) / (1.0 - shareBefore);
+      progress.begin(of.name() + ", " + step + timeLeft(start, ofRest), ofAll);
+    };
+    const std::string file = options.folder + "/" + fileStem(of.name()) + "/rows.json";
+    Rows ofCase = finishedRows(file, of);
+    ofCase = ofCase.empty() ? runCase(file, of, events) : ofCase;
+    rows.insert(rows.end(), ofCase.begin(), ofCase.end());
+    ++done;
+  }
   progress.begin("writing the page");
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->Initialize();
-  writeWholeFile(options.folder + "/study.csv", toCsv(rows));
-  writeWholeFile(options.folder + "/study.html", studyPage(rows, machineLine(window)));
+  writeWholeFile(options.folder + "/study.csv", csvOf(rows));
+  writeWholeFile(options.folder + "/study.html",
+    pageOf(rows, processorName() + "; OpenGL: " + openGlName(window)));
   progress.print("Study: " + options.folder + "/study.html", std::cout);
 }
 
@@ -121,56 +256,50 @@ void addStudyCommand(CLI::App& app)
     "Measure the cost of accuracy: error and time of techniques over scenes, views, map sizes and "
     "samples, as a page and a table; continues an interrupted study");
   const auto options = std::make_shared<StudyOptions>();
-  ComparisonPlan& comparison = options->plan.comparison;
-  options->plan.scenes = { "bunny", "posts", "plates", "terrain", "atrium", "bench-side", "room",
-    "soft-stack", "soft-panels", "soft-plates" };
-  options->plan.views = 3;
-  options->plan.lightSamples = { 16, 64 };
-  options->plan.softTechniques = allTechniques();
-  std::copy_if(options->plan.softTechniques.begin(), options->plan.softTechniques.end(),
-    std::back_inserter(options->plan.hardTechniques),
+  ComparisonPlan& comparison = options->comparison;
+  std::copy_if(options->softTechniques.begin(), options->softTechniques.end(),
+    std::back_inserter(options->hardTechniques),
     [](const std::string& name) { return ofAreaLights.count(name) == 0; });
   comparison.mapSizesTexels = { 512, 1024, 2048 };
   comparison.frames = 11;
-  command->add_option("-o,--output", options->folder, "Folder for the study")->required();
+  CLI::Option* const output =
+    command->add_option("-o,--output", options->folder, "Folder for the study")->required();
   const auto addList = [&](const char* name, auto& values, const std::string& meaning)
   { return command->add_option(name, values, meaning)->delimiter(',')->capture_default_str(); };
   CLI::Option* const quick =
     command->add_flag("--quick", options->quick, "A small study, of a few minutes");
-  addList("--scenes", options->plan.scenes,
-    "Scenes: built-in names, scene files or model files, separated by commas")
-    ->excludes(quick);
+  addList("--scenes", options->scenes,
+    "Scenes: built-in names, scene files or model files, separated by commas");
   addList("--techniques", options->techniques,
     "Techniques, as for gnomon compare. By default all, except, for point lights, " +
-      listOf({ ofAreaLights.begin(), ofAreaLights.end() }))
-    ->excludes(quick);
+      listOf({ ofAreaLights.begin(), ofAreaLights.end() }));
   addList("--map-sizes", comparison.mapSizesTexels, "Sides of the shadow maps in texels")
-    ->check(CLI::Range(16, 16384))
-    ->excludes(quick);
-  addList("--samples", options->plan.lightSamples, "Samples of area lights")
-    ->check(CLI::Range(1, 65536))
-    ->excludes(quick);
+    ->check(CLI::Range(16, 16384));
+  addList("--samples", options->lightSamples, "Samples of area lights")
+    ->check(CLI::Range(1, 65536));
   command
-    ->add_option("--views", options->plan.views,
+    ->add_option("--views", options->views,
       "Views of each scene: its camera, turned about its target by 25 degrees to one side and to "
-      "the "
-      "other side, by 50, and so on")
+      "the other side, by 50, and so on")
     ->check(CLI::Range(1, 8))
-    ->capture_default_str()
-    ->excludes(quick);
+    ->capture_default_str();
   command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT")
-    ->capture_default_str()
-    ->excludes(quick);
+    ->capture_default_str();
   command->add_option("--frames", comparison.frames, "Timed frames per variant and motion")
     ->check(CLI::Range(1, 10000))
-    ->capture_default_str()
-    ->excludes(quick);
+    ->capture_default_str();
   command
     ->add_option("--truth-samples", comparison.truthSamples,
       "Samples per area light and pixel of the ray-traced truth")
     ->check(CLI::Range(1, 65536))
-    ->capture_default_str()
-    ->excludes(quick);
+    ->capture_default_str();
+  for (CLI::Option* const other : command->get_options())
+  {
+    if (other != quick && other != output && other->nonpositional())
+    {
+      quick->excludes(other);
+    }
+  }
   command->callback([options] { study(*options); });
 }
 

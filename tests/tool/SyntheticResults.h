@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Comparison.h"
+#include "Report.h"
 
 #include "plugin/vtkGnomonVisibilityImages.h"
 
@@ -66,58 +66,66 @@ inline Picture greyPicture(int width, int height)
   return picture;
 }
 
-/// A comparison of three variants; the one called "nsm 1024 inline" has 100 flipped pixels.
+/// A row of a comparison or study.
+inline Row row(const std::string& scene, const std::string& variant, double error, double overPlain,
+  bool soft = false)
+{
+  return { { "scene", scene }, { "shadows", soft ? "soft" : "hard" }, { "view", 1 },
+    { "variant", variant }, { "technique", variant }, { "wrong_share", error },
+    { "rms_error", error }, { "mean_absolute_error", error }, { "static_ms", 10.0 * overPlain },
+    { "static_over_plain", overPlain }, { "camera_moving_ms", 20.0 * overPlain },
+    { "camera_moving_over_plain", 2.0 * overPlain }, { "light_moving_ms", 30.0 * overPlain },
+    { "light_moving_over_plain", 3.0 * overPlain } };
+}
+
+/// A comparison of three variants on a scene with an awkward name; "nsm 1024 inline" is wrong in 100
+/// of 1000 pixels.
 inline ComparisonResults syntheticResults()
 {
-  const VisibilityImages truth = floorTruth();
-  const std::vector<SceneLight> lights = { lightFromAbove() };
-  VisibilityImages flipped = truth;
-  flipHundredPixels(flipped);
-
   ComparisonResults results;
-  results.scene = "floor & <half> shadow";
-  results.width = truth.width;
-  results.height = truth.height;
-  results.frames = 21;
-  results.triangles = 12345;
-  results.lights = 1;
-  results.truth = "raytraced";
-  results.settings = { { "VTK", "9.1" }, { "Frames, all", "21, \"warm\"" } };
-  results.notes = { "Light 2 casts no shadow: switched off." };
-
-  const auto add = [&](const std::string& name, const std::string& technique,
-                     const VisibilityImages& images, double milliseconds)
+  results.json = { { "scene", "floor & <half> \"shadow\"" }, { "width", 40 }, { "height", 30 },
+    { "frames", 21 }, { "triangles", 12345 }, { "casting_lights", 1 }, { "truth", "raytraced" },
+    { "settings", { { "VTK", "9.1" } } },
+    { "notes", { "Light 2 casts no shadow: switched off." } } };
+  const auto add = [&](const std::string& name, const std::string& technique, int wrong, double ms)
   {
-    VariantResult variant;
-    variant.name = name;
-    variant.technique = technique;
-    variant.errorSource = "Made up.";
-    std::vector<PixelVerdict> verdicts;
-    variant.error = measureError(images, truth, lights, &verdicts);
-    for (std::size_t motion = 0; motion < allMotions.size(); ++motion)
+    nlohmann::ordered_json variant = { { "name", name }, { "technique", technique },
+      { "route", "" }, { "map_size", 0 },
+      { "error",
+        { { "source", "Made up." }, { "facing_pixels", 1000 }, { "wrong_pixels", wrong },
+          { "wrong_share", wrong / 1000.0 }, { "false_light_pixels", wrong * 6 / 10 },
+          { "false_shadow_pixels", wrong * 4 / 10 }, { "mean_absolute_error", wrong / 1000.0 },
+          { "rms_error", 0.5 }, { "between_pixels", 7 }, { "between_share", 0.007 } } },
+      { "traced_pixels", 0 } };
+    for (const char* motion : motionKeys)
     {
-      variant.timings[motion].milliseconds = milliseconds * static_cast<double>(motion + 1);
+      variant["times"][motion] = { { "frame_ms", ms } };
     }
-    variant.picture = greyPicture(truth.width, truth.height);
-    variant.errors = errorPicture(variant.picture, verdicts);
-    results.variants.push_back(variant);
+    variant["memory_bytes"] = { { "occluders", 1 << 20 }, { "bvh", 0 }, { "maps", 0 },
+      { "images", 0 }, { "resident_growth", -5 } };
+    variant["class_pixels"] = nlohmann::ordered_json::object();
+    variant["notes"] = nlohmann::ordered_json::array();
+    variant["picture"] = technique + ".png";
+    variant["error_picture"] = technique + "-errors.png";
+    results.json["variants"].push_back(variant);
+    const Picture picture = greyPicture(40, 30);
+    results.pictures.push_back({ picture, picture, {}, {} });
   };
-  VisibilityImages lit = truth;
-  lit.visibility[0].assign(lit.visibility[0].size(), 1.0f);
-  add(plainTechnique, plainTechnique, lit, 30.0);
-  add("nsm 1024 inline", "nsm", flipped, 36.0);
-  add("raytraced", "raytraced", truth, 60.0);
-  results.variants[1].route = "inline";
-  results.variants[1].mapSizeTexels = 1024;
-  results.variants[1].notes = { "A limit, of \"some\" kind." };
-  for (MotionTiming& timing : results.variants[1].timings)
-  {
-    timing.stages = { { "maps", 8.25 }, { "shading", 26.5 } };
-    timing.stageShare = 0.965;
-  }
-  results.variants[2].tracedPixels = 1000;
-  results.variants[2].classes = { { "traced", 1000 }, { "no receiver", 24 } };
-  results.variants[2].classPicture = greyPicture(truth.width, truth.height);
+  add(plainTechnique, plainTechnique, 500, 30.0);
+  add("nsm 1024 inline", "nsm", 100, 36.0);
+  add("raytraced", "raytraced", 0, 60.0);
+  nlohmann::ordered_json& nsm = results.json["variants"][1];
+  nsm["route"] = "inline";
+  nsm["map_size"] = 1024;
+  nsm["notes"] = { "A limit, of \"some\" kind." };
+  nsm["times"]["camera_moving"]["stages_ms"] = { { "maps", 8.25 }, { "shading", 26.5 } };
+  nsm["times"]["camera_moving"]["stage_share"] = 0.965;
+  results.pictures[1].worst = Place{ 0, 0, 8 };
+  nlohmann::ordered_json& truth = results.json["variants"][2];
+  truth["traced_pixels"] = 1000;
+  truth["class_pixels"] = { { "traced", 1000 }, { "no receiver", 24 } };
+  truth["class_picture"] = "raytraced-classes.png";
+  results.pictures[2].classes = greyPicture(40, 30);
   return results;
 }
 

@@ -150,8 +150,7 @@ Picture ViewPass::errors(const Picture& picture, const vtkRenderState* s)
   {
     std::vector<PixelVerdict> verdicts;
     this->error_ = measureError(found, this->truth_->GetVisibility(), this->lights_, &verdicts);
-    const std::vector<unsigned char> traced = tracedMask(found);
-    return errorPicture(picture, verdicts, &traced);
+    return errorPicture(picture, verdicts);
   }
   catch (const std::invalid_argument& error)
   {

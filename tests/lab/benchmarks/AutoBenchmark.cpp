@@ -7,7 +7,6 @@
 
 #include "BenchmarkMain.h"
 #include "Errors.h"
-#include "FrameTiming.h"
 #include "FrameVariant.h"
 #include "Scene.h"
 #include "VtkMessages.h"

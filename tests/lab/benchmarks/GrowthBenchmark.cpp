@@ -6,9 +6,8 @@
 #include "BuiltinParts.h"
 #include "Commands.h"
 #include "Errors.h"
+#include "Files.h"
 #include "FrameVariant.h"
-#include "GrowthReport.h"
-#include "Machine.h"
 #include "MeshBuilder.h"
 #include "Progress.h"
 #include "Report.h"
@@ -17,6 +16,7 @@
 #include "plugin/plan/BakeBackoff.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "shadowtech/Registry.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
@@ -28,6 +28,7 @@
 #include <vtkUniforms.h>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,6 @@
 #include <iostream>
 #include <memory>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +67,14 @@ struct Options
 };
 
 using Variants = std::vector<std::unique_ptr<FrameVariant>>;
+
+/// One contender in one case.
+struct Measurement
+{
+  std::string notDrawn; ///< the reason; empty if it is drawn
+  double firstMilliseconds = 0.0;
+  std::vector<double> times; ///< of the frames that count, in milliseconds
+};
 
 struct Case
 {
@@ -303,7 +311,7 @@ public:
   void warmUp()
   {
     this->drawRound();
-    for (GrowthMeasurement& result : this->results_)
+    for (Measurement& result : this->results_)
     {
       result.firstMilliseconds = median(result.times);
     }
@@ -315,7 +323,7 @@ public:
     {
       this->awaitMaps();
     }
-    for (GrowthMeasurement& result : this->results_)
+    for (Measurement& result : this->results_)
     {
       result.times.clear();
     }
@@ -335,23 +343,43 @@ public:
   double seconds() const
   {
     double milliseconds = 0.0;
-    for (const GrowthMeasurement& result : this->results_)
+    for (const Measurement& result : this->results_)
     {
       milliseconds += std::accumulate(result.times.begin(), result.times.end(), 0.0);
     }
     return 1e-3 * milliseconds;
   }
 
-  GrowthRow results()
+  /// Return the table's lines of this case.
+  /// @param contenders their names
+  std::string lines(const std::string& axis, const std::vector<std::string>& contenders) const
   {
-    for (std::size_t i = 0; i < this->results_.size(); ++i)
+    std::string text;
+    const Measurement& plain = this->results_.front();
+    for (std::size_t i = 0; i < contenders.size(); ++i)
     {
+      const Measurement& own = this->results_[i];
+      const double milliseconds = median(own.times);
+      nlohmann::ordered_json cells[4];
+      if (own.notDrawn.empty())
+      {
+        cells[0] = milliseconds;
+      }
+      if (own.notDrawn.empty() && plain.notDrawn.empty())
+      {
+        cells[1] = milliseconds / median(plain.times);
+      }
+      cells[2] = own.firstMilliseconds;
       if (vtkGnomonShadowPass* const pass = this->variants_[i]->pass())
       {
-        this->results_[i].report = pass->GetReport();
+        const FrameReport& report = pass->GetReport();
+        cells[3] = static_cast<double>(report.bytesOccluders + report.bytesBvh) /
+          static_cast<double>(std::max<std::size_t>(1, report.triangles));
       }
+      text += csvLine({ axis, this->case_.name, contenders[i], cells[0], cells[1], cells[2],
+        cells[3], own.notDrawn });
     }
-    return { this->case_.name, this->case_.x, this->results_ };
+    return text;
   }
 
 private:
@@ -381,8 +409,8 @@ private:
 
   void drawFrame(std::size_t contender)
   {
-    GrowthMeasurement& result = this->results_[contender];
-    if (!result.isDrawn())
+    Measurement& result = this->results_[contender];
+    if (!result.notDrawn.empty())
     {
       return;
     }
@@ -402,12 +430,14 @@ private:
   const Case& case_;
   const Scene scene_;
   Variants variants_;
-  std::vector<GrowthMeasurement> results_;
+  std::vector<Measurement> results_;
   int step_ = 0;
 };
 
 /// Draw all cases of an axis in turn.
-GrowthAxis measure(const Axis& axis, const std::vector<VariantSpec>& contenders, int frames,
+/// @return the table's lines
+std::string measure(const Axis& axis, const std::vector<VariantSpec>& contenders,
+  const std::vector<std::string>& names, int frames,
   const std::function<void(const std::string&)>& stepBegins)
 {
   std::vector<std::unique_ptr<CaseRun>> runs;
@@ -429,52 +459,23 @@ GrowthAxis measure(const Axis& axis, const std::vector<VariantSpec>& contenders,
       }
     }
   }
-  GrowthAxis results{ axis.key, {} };
+  std::string lines;
   for (const std::unique_ptr<CaseRun>& run : runs)
   {
-    results.rows.push_back(run->results());
+    lines += run->lines(axis.key, names);
   }
-  return results;
+  return lines;
 }
 
 //------------------------------------------------------------------------------
 // The program
-
-/// Return the description of the base scene and of the timing, for the page.
-std::string describe(const Options& options)
-{
-  const std::string side = std::to_string(options.sidePixels);
-  std::ostringstream text;
-  text
-    << "Every axis varies one quantity of a base scene: a square of hills with "
-    << grouped(std::min(baseTriangles, options.mostTriangles)) << " triangles,\none sun, " << side
-    << " x " << side << " pixels, maps of " << mapSizeTexels << " x " << mapSizeTexels
-    << " texels. The camera turns by " << Mover::stepDegrees
-    << " degrees a\nframe; it rests where something else moves. Props are parts of the hills; "
-       "programs are shaders\nof 100 props. Frames of all cases and contenders of an axis are "
-       "drawn "
-       "in turns. Times are medians\nof up to "
-    << options.frames
-    << " frames. Bytes are those of the triangles' copy on the CPU and the GPU, and of\nEmbree's "
-       "structure.";
-  return text.str();
-}
-
-/// Initialise OpenGL, too: otherwise the first contender would pay for that.
-std::string describeMachine()
-{
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->Render();
-  return machineLine(window);
-}
 
 int run(int argc, char** argv)
 {
   CLI::App app{ "Measures how a frame's time grows with its scene and with what moves",
     "gnomon_benchmark_growth" };
   Options options;
-  app.add_option("-o,--output", options.folder, "Folder for growth.md, growth.csv and growth.png")
-    ->required();
+  app.add_option("-o,--output", options.folder, "Folder for growth.csv")->required();
   app.add_option("--axes", options.axes, "What to vary, separated by commas")
     ->delimiter(',')
     ->check(CLI::IsMember(axisKeys))
@@ -499,36 +500,36 @@ int run(int argc, char** argv)
   CLI11_PARSE(app, argc, argv);
 
   const VtkMessages messages;
-  Growth growth;
-  growth.contenders = { plainTechnique, shadowMapPassTechnique };
+  std::vector<std::string> names = { plainTechnique, shadowMapPassTechnique };
   std::vector<VariantSpec> specs = { { plainTechnique },
     { shadowMapPassTechnique, mapSizeTexels } };
   for (const std::string& text : options.techniques)
   {
-    growth.contenders.push_back(text);
+    names.push_back(text);
     specs.push_back(parseTechnique(text));
     const bool bakes = estimatorOf(settingsOf(specs.back())).info.bakesMap();
     specs.back().mapSizeTexels = bakes ? mapSizeTexels : 0;
   }
-  prepareReportFolder(options.folder, "growth.md");
-  growth.command = commandOf(argc, argv);
-  growth.machine = describeMachine();
-  growth.scene = describe(options);
+  prepareReportFolder(options.folder, "growth.csv");
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Render(); // initialises OpenGL, for which the first contender would pay
   Progress progress("starting");
+  std::string table = csvLine({ "axis", "case", "contender", "milliseconds", "over plain",
+    "first milliseconds", "bytes a triangle", "not drawn" });
   for (const Axis& axis : makeAxes(options))
   {
     if (std::count(options.axes.begin(), options.axes.end(), axis.key))
     {
-      growth.axes.push_back(measure(
-        axis, specs, options.frames, [&](const std::string& step) { progress.begin(step); }));
-      writeGrowth(growth, options.folder);
+      table += measure(
+        axis, specs, names, options.frames, [&](const std::string& step) { progress.begin(step); });
+      writeWholeFile(options.folder + "/growth.csv", table);
     }
   }
   if (!messages.errors().empty())
   {
-    throw Failure("drawing the charts: " + messages.errors().front());
+    throw Failure(messages.errors().front());
   }
-  progress.print(options.folder + "/growth.md", std::cout);
+  progress.print(options.folder + "/growth.csv", std::cout);
   return 0;
 }
 

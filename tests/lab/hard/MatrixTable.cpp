@@ -4,7 +4,7 @@
 #include "Errors.h"
 #include "Files.h"
 #include "HardScenes.h"
-#include "Html.h"
+#include "Report.h"
 #include "Text.h"
 
 #include "lights/SettingsTable.h"
