@@ -108,6 +108,23 @@ std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem:
 } // namespace
 
 //------------------------------------------------------------------------------
+std::optional<double> readSurroundings(
+  const JsonValue& root, const std::filesystem::path& folder, Scene& scene)
+{
+  if (const JsonValue camera = root.member("camera"); camera.present())
+  {
+    scene.camera = readCamera(camera, std::nullopt);
+  }
+  for (const JsonValue& value : root.member("lights").elementsOrNone())
+  {
+    scene.lights.push_back(readLight(value, folder));
+  }
+  scene.background = root.member("background").numbersOr(scene.background, colorChannel);
+  const JsonValue ambient = root.member("ambient");
+  return ambient.present() ? std::optional(ambient.number({ 0.0, 1.0 })) : std::nullopt;
+}
+
+//------------------------------------------------------------------------------
 Scene readSceneFile(const std::string& path, std::optional<bool> ground)
 {
   const nlohmann::json document = readJsonFile(path);
@@ -119,20 +136,8 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground)
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
 
   // Cheap parts come first, so a typing error does not wait for the models.
-  const JsonValue camera = root.member("camera");
-  if (camera.present())
-  {
-    scene.camera = readCamera(camera, std::nullopt);
-  }
-  const JsonValue lights = root.member("lights");
-  for (const JsonValue& value : lights.elementsOrNone())
-  {
-    scene.lights.push_back(readLight(value, folder));
-  }
-  scene.background = root.member("background").numbersOr(scene.background, colorChannel);
+  const std::optional<double> ambient = readSurroundings(root, folder, scene);
   const bool onGround = ground.value_or(root.member("ground").booleanOr(false));
-  const JsonValue ambient = root.member("ambient");
-  const double ambientShare = ambient.numberOr(0.0, { 0.0, 1.0 });
 
   const JsonValue models = root.member("models");
   const std::vector<JsonValue> entries = models.elements();
@@ -149,7 +154,7 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground)
     }
   }
 
-  if (!camera.present())
+  if (!root.member("camera").present())
   {
     scene.camera = framingCamera(scene, onGround);
   }
@@ -157,13 +162,13 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground)
   {
     addGround(scene);
   }
-  if (!lights.present())
+  if (!root.member("lights").present())
   {
     scene.lights = { defaultLight() };
   }
-  if (ambient.present())
+  if (ambient)
   {
-    setAmbient(scene, ambientShare);
+    setAmbient(scene, *ambient);
   }
   return scene;
 }

@@ -142,7 +142,7 @@ void addStudyCommand(CLI::App& app)
     ->excludes(quick);
   addList("--techniques", options->techniques,
     "Techniques, as for gnomon compare. By default all, except, for point lights, " +
-      listOf({ ofAreaLights.begin(), ofAreaLights.end() }))
+      gnomon::listOf({ ofAreaLights.begin(), ofAreaLights.end() }))
     ->excludes(quick);
   addList("--map-sizes", comparison.mapSizesTexels, "Sides of the shadow maps in texels")
     ->check(CLI::Range(16, 16384))

@@ -1,5 +1,5 @@
 #include "SceneExport.h"
-#include "BuiltinParts.h"
+#include "MeshBuilder.h"
 #include "Errors.h"
 #include "SceneFraming.h"
 #include "TestFiles.h"
@@ -25,7 +25,7 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
   scene.models[1].oneSided = true;
   scene.camera = makeCamera({ { 1.0, 2.0, 0.1 } }, { { 0.0, 0.5, 0.0 } }, 35.5);
   scene.camera.up = { { 0.1, 1.0, 0.0 } };
-  scene.lights = { makeSun({ { 0.0, -1.0, 0.0 } }), SceneLight(), makeLamp({ { 1.0, 2.0, 0.1 } }),
+  scene.lights = { makeSun({ { 0.0, -1.0, 0.0 } }), SceneLight(), parseLight("point:position=1,2,0.1"),
     makeSun({ { 0.0, -1.0, 0.0 } }) };
   scene.lights[0].settings = { { "technique", "raytraced" }, { "map_size", "512" } };
   scene.lights[1].settings = { { "technique", "pcf" }, { "kernel", "box" },

@@ -3,7 +3,7 @@
 #include "CsvRow.h"
 #include "Errors.h"
 #include "Files.h"
-#include "HardScenes.h"
+#include "BuiltinScenes.h"
 #include "Html.h"
 #include "Text.h"
 
