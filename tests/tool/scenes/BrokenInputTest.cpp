@@ -24,13 +24,26 @@ namespace gnomon::tool
 namespace
 {
 
-/// What a good run of `gnomon render` says of itself. It writes out.png and stats.json.
-nlohmann::json statsOf(const TestFolder& folder, std::vector<std::string> arguments)
+/// Run the program with the words of a text.
+Outcome runWords(
+  const TestFolder& folder, const std::string& text, const std::string& output = "stdout.txt")
 {
-  arguments.insert(arguments.begin(), "render");
-  arguments.insert(arguments.end(), { "-o", "out.png", "--stats", "stats.json" });
-  const Outcome outcome = run(folder, arguments);
-  EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
+  std::istringstream stream(text);
+  return run(folder, { std::istream_iterator<std::string>(stream), {} }, output);
+}
+
+/// Run the program, which succeeds.
+Outcome runWell(const TestFolder& folder, const std::string& text)
+{
+  const Outcome outcome = runWords(folder, text);
+  EXPECT_TRUE(outcome.exited && outcome.code == 0) << text << ": " << outcome.errors;
+  return outcome;
+}
+
+/// What a good run of `gnomon render` says of itself. It writes out.png and stats.json.
+nlohmann::json statsOf(const TestFolder& folder, const std::string& arguments)
+{
+  runWell(folder, "render " + arguments + " -o out.png --stats stats.json");
   return nlohmann::json::parse(readBytes(folder / "stats.json"));
 }
 
@@ -46,12 +59,6 @@ struct BrokenInput
 void PrintTo(const BrokenInput& input, std::ostream* stream)
 {
   *stream << input.name;
-}
-
-std::vector<std::string> wordsOf(const std::string& text)
-{
-  std::istringstream stream(text);
-  return { std::istream_iterator<std::string>(stream), {} };
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to)
@@ -294,7 +301,7 @@ TEST_P(BrokenInputs, AreRefusedWithOneClearLine)
   input.prepare(folder);
 
   SCOPED_TRACE(input.arguments);
-  const Outcome outcome = run(folder, wordsOf(input.arguments));
+  const Outcome outcome = runWords(folder, input.arguments);
   ASSERT_TRUE(outcome.exited) << "signal " << outcome.code << "\n" << outcome.errors;
   EXPECT_EQ(outcome.code, 2) << outcome.errors;
   const std::string prefix = "gnomon: error: ";
@@ -309,30 +316,18 @@ INSTANTIATE_TEST_SUITE_P(Tool, BrokenInputs, ::testing::ValuesIn(brokenInputs())
   [](const ::testing::TestParamInfo<BrokenInput>& input) { return input.param.name; });
 
 //------------------------------------------------------------------------------
-TEST(Program, RendersEveryTypeOfModel)
+TEST(Program, RendersEveryTypeOfModelAndScenes)
 {
   TestFolder folder;
   for (const auto& [name, bytes] : sampleModels())
   {
-    SCOPED_TRACE(name);
     writeBytes(folder / name, bytes);
-    const std::string picture = name + ".png";
-    const Outcome outcome = run(folder, { "render", name, "-o", picture, "--size", "64x48" });
-    EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
-    EXPECT_EQ(outcome.errors, "");
-    EXPECT_EQ(readBytes(folder / picture).compare(1, 3, "PNG"), 0);
+    EXPECT_EQ(runWell(folder, "render " + name + " -o out.png --size 64x48").errors, "");
+    EXPECT_EQ(readBytes(folder / "out.png").compare(1, 3, "PNG"), 0) << name;
   }
-}
-
-//------------------------------------------------------------------------------
-TEST(Program, RendersASceneFileAndWritesStatistics)
-{
-  TestFolder folder;
-  writeBytes(folder / "scene.json", sampleScene().dump());
-  writeBytes(folder / "model.obj", sampleFile("model.obj"));
+  writeBytes(folder / "scene.json", sampleFile("scene.json"));
   const nlohmann::json stats = statsOf(folder,
-    { "scene.json", "--size", "64x64", "--light", "directional:direction=-1,-2,-1", "--technique",
-      "nsm", "--map-size", "64" });
+    "scene.json --size 64x64 --light directional:direction=-1,-2,-1 --technique nsm --map-size 64");
   EXPECT_TRUE(stats.contains("stages"));
   EXPECT_TRUE(stats.contains("lights"));
 }
@@ -344,8 +339,9 @@ TEST(Program, StatisticsAreOfAllFramesOfAPicture)
   const auto statsBy = [&](const std::string& progressive)
   {
     return statsOf(folder,
-      { "cube", "--size", "64x48", "--technique", "sampled", "--light-radius", "5",
-        "--light-samples", "32", "--map-size", "64", "--progressive", progressive });
+      "cube --size 64x48 --technique sampled --light-radius 5 --light-samples 32 --map-size 64 "
+      "--progressive " +
+        progressive);
   };
   const nlohmann::json single = statsBy("0");
   EXPECT_EQ(single.at("frames"), 1);
@@ -383,8 +379,7 @@ TEST(Program, TellsHowPixelsWereDecided)
 {
   TestFolder folder;
   const nlohmann::json stats = statsOf(folder,
-    { "cube", "--size", "64x48", "--technique", "silhouette", "--classes", "classes.png",
-      "--visibility", "visibility.exr" });
+    "cube --size 64x48 --technique silhouette --classes classes.png --visibility visibility.exr");
   EXPECT_EQ(readBytes(folder / "classes.png").compare(1, 3, "PNG"), 0);
   int pixels = 0;
   for (const auto& count : stats.at("lights").at(0).at("classes"))
@@ -409,25 +404,20 @@ TEST(Program, TellsHowPixelsWereDecided)
 TEST(Program, ShadesFromAllPointsOfALight)
 {
   TestFolder folder;
-  const auto pictureOf = [&](const std::vector<std::string>& options)
+  const auto pictureOf = [&](const std::string& options)
   {
-    std::vector<std::string> arguments = { "render", "soft-stack", "-o", "out.png", "--size",
-      "64x48", "--technique", "nsm" };
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const Outcome outcome = run(folder, arguments);
-    EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
+    runWell(folder, "render soft-stack -o out.png --size 64x48 --technique nsm " + options);
     return readBytes(folder / "out.png");
   };
-  const std::string shaded = pictureOf({ "--shade-samples", "--light-samples", "8" });
-  EXPECT_NE(shaded, pictureOf({}));
-  EXPECT_EQ(shaded, pictureOf({ "--shade-samples", "--light-samples", "8", "--progressive", "4" }));
-  EXPECT_NE(shaded, pictureOf({ "--shade-samples", "--light-samples", "4" }));
+  const std::string shaded = pictureOf("--shade-samples --light-samples 8");
+  EXPECT_NE(shaded, pictureOf(""));
+  EXPECT_EQ(shaded, pictureOf("--shade-samples --light-samples 8 --progressive 4"));
+  EXPECT_NE(shaded, pictureOf("--shade-samples --light-samples 4"));
   // Lights may say it themselves.
-  const std::string lamp = "area:position=1,-1,6;target=0,0,0;shape=disk;radius=1";
-  EXPECT_EQ(pictureOf({ "--shade-samples", "--light", lamp + ";light_samples=4" }),
-    pictureOf({ "--shade-samples", "--light", lamp, "--light-samples", "4" }));
-  EXPECT_NE(pictureOf({ "--shade-samples", "--light", lamp + ";light_samples=4" }),
-    pictureOf({ "--shade-samples", "--light", lamp }));
+  const std::string lamp =
+    "--shade-samples --light area:position=1,-1,6;target=0,0,0;shape=disk;radius=1";
+  EXPECT_EQ(pictureOf(lamp + ";light_samples=4"), pictureOf(lamp + " --light-samples 4"));
+  EXPECT_NE(pictureOf(lamp + ";light_samples=4"), pictureOf(lamp));
 }
 
 //------------------------------------------------------------------------------
@@ -435,66 +425,43 @@ TEST(Program, RefusesWithoutTouchingAnOlderPicture)
 {
   TestFolder folder;
   writeBytes(folder / "out.png", "older");
-  EXPECT_EQ(run(folder, { "render", "kube", "-o", "out.png" }).code, 2);
+  EXPECT_EQ(runWords(folder, "render kube -o out.png").code, 2);
   EXPECT_EQ(readBytes(folder / "out.png"), "older");
-}
-
-//------------------------------------------------------------------------------
-TEST(Program, FailsWithCodeOneWhenTheDiskIsFull)
-{
-  TestFolder folder;
-  (void)!symlink("/dev/full", (folder / "stats.json").c_str());
-  const Outcome outcome =
-    run(folder, { "render", "cube", "-o", "out.png", "--size", "8x8", "--stats", "stats.json" });
-  EXPECT_TRUE(outcome.exited);
-  EXPECT_EQ(outcome.code, 1) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("stats.json"), std::string::npos) << outcome.errors;
 }
 
 //------------------------------------------------------------------------------
 /// The program's files may have a limited size, which is what a full disk does to them.
 TEST(Program, LeavesNoPartOfAFileOnAFullDisk)
 {
-  const std::vector<std::string> render = { "render", "cube", "--size", "64x48" };
-  struct Case
-  {
-    std::string file; ///< that becomes too large
-    std::vector<std::string> options;
-  };
-  const std::vector<Case> cases = {
-    { "a.png", { "-o", "a.png" } },
-    { "a.exr", { "-o", "a.exr" } },
-    { "v.exr", { "-o", "null.png", "--visibility", "v.exr" } },
-    { "s.json", { "-o", "null.png", "--stats", "s.json" } },
-    { "c.png", { "-o", "null.png", "--technique", "silhouette", "--classes", "c.png" } },
-    { "cube-0.vtp", { "scenes", "--export", "cube", "." } },
+  const std::string render = "render cube --size 64x48 -o ";
+  const std::map<std::string, std::string> cases = { // by the file that becomes too large
+    { "a.png", render + "a.png" }, { "a.exr", render + "a.exr" },
+    { "v.exr", render + "null.png --visibility v.exr" },
+    { "s.json", render + "null.png --stats s.json" },
+    { "c.png", render + "null.png --technique silhouette --classes c.png" },
+    { "cube-0.vtp", "scenes --export cube ." }
   };
   signal(SIGXFSZ, SIG_IGN);
   rlimit before;
   getrlimit(RLIMIT_FSIZE, &before);
-  for (const Case& full : cases)
+  for (const auto& [file, arguments] : cases)
   {
     for (const bool isThere : { false, true })
     {
-      SCOPED_TRACE(full.file + (isThere ? " exists" : ""));
+      SCOPED_TRACE(file + (isThere ? " exists" : ""));
       TestFolder folder;
-      std::vector<std::string> arguments = full.options;
-      if (arguments[0] != "scenes")
-      {
-        arguments.insert(arguments.begin(), render.begin(), render.end());
-        (void)!symlink("/dev/null", (folder / "null.png").c_str());
-      }
+      (void)!symlink("/dev/null", (folder / "null.png").c_str());
       if (isThere)
       {
-        writeBytes(folder / full.file, "older");
+        writeBytes(folder / file, "older");
       }
       const rlimit small{ 200, before.rlim_max };
       setrlimit(RLIMIT_FSIZE, &small);
-      const Outcome outcome = run(folder, arguments);
+      const Outcome outcome = runWords(folder, arguments);
       setrlimit(RLIMIT_FSIZE, &before);
       EXPECT_TRUE(outcome.exited);
       EXPECT_EQ(outcome.code, 1) << outcome.errors;
-      EXPECT_NE(outcome.errors.find(full.file), std::string::npos) << outcome.errors;
+      EXPECT_NE(outcome.errors.find(file), std::string::npos) << outcome.errors;
       std::set<std::string> names;
       for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
       {
@@ -504,8 +471,8 @@ TEST(Program, LeavesNoPartOfAFileOnAFullDisk)
       {
         names.erase(other);
       }
-      EXPECT_EQ(names, isThere ? std::set{ full.file } : std::set<std::string>{});
-      EXPECT_EQ(readBytes(folder / full.file), isThere ? "older" : "");
+      EXPECT_EQ(names, isThere ? std::set{ file } : std::set<std::string>{});
+      EXPECT_EQ(readBytes(folder / file), isThere ? "older" : "");
     }
   }
 }
@@ -517,7 +484,7 @@ TEST(Program, ReplacesFilesThroughLinksAndKeepsTheirPermissions)
   writeBytes(folder / "file.png", "older");
   chmod((folder / "file.png").c_str(), 0640);
   (void)!symlink("file.png", (folder / "link.png").c_str());
-  EXPECT_EQ(run(folder, { "render", "cube", "--size", "8x8", "-o", "link.png" }).code, 0);
+  runWell(folder, "render cube --size 8x8 -o link.png");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.png"));
   EXPECT_EQ(readBytes(folder / "file.png").compare(1, 3, "PNG"), 0);
   struct stat state;
@@ -529,33 +496,20 @@ TEST(Program, ReplacesFilesThroughLinksAndKeepsTheirPermissions)
 TEST(Program, FailsWithCodeOneWhenItsOutputCannotBeWritten)
 {
   TestFolder folder;
-  ASSERT_EQ(run(folder, { "render", "cube", "--size", "8x8", "-o", "a.png" }).code, 0);
-  const std::vector<std::vector<std::string>> commands = { { "techniques" }, { "scenes" },
-    { "scenes", "--hard" }, { "scenes", "--export", "cube", "." }, { "settings" },
-    { "settings", "--markdown" }, { "view", "--keys" }, { "diff", "a.png", "a.png" }, { "--help" },
-    { "--version" }, { "render", "--help" } };
-  for (const std::vector<std::string>& arguments : commands)
+  runWell(folder, "render cube --size 8x8 -o a.png");
+  for (const char* arguments : { "techniques", "scenes", "scenes --hard", "scenes --export cube .",
+         "settings", "settings --markdown", "view --keys", "diff a.png a.png", "--help",
+         "--version", "render --help" })
   {
-    const Outcome outcome = run(folder, arguments, "/dev/full");
+    const Outcome good = runWell(folder, arguments);
+    EXPECT_NE(good.output, "") << arguments;
+    const Outcome outcome = runWords(folder, arguments, "/dev/full");
     EXPECT_TRUE(outcome.exited);
-    EXPECT_EQ(outcome.code, 1) << arguments[0];
+    EXPECT_EQ(outcome.code, 1) << arguments;
     EXPECT_NE(outcome.errors.find("gnomon: error: standard output: "), std::string::npos)
-      << arguments[0] << ": " << outcome.errors;
+      << arguments << ": " << outcome.errors;
   }
-}
-
-//------------------------------------------------------------------------------
-TEST(Program, HelpsAndLists)
-{
-  TestFolder folder;
-  for (const std::vector<std::string>& arguments : { std::vector<std::string>{ "--help" },
-         { "render", "--help" }, { "scenes" }, { "techniques" } })
-  {
-    const Outcome outcome = run(folder, arguments);
-    EXPECT_TRUE(outcome.exited && outcome.code == 0) << arguments[0];
-    EXPECT_EQ(outcome.errors, "");
-  }
-  const std::string version = run(folder, { "--version" }).output;
+  const std::string version = runWell(folder, "--version").output;
   EXPECT_EQ(version.rfind("gnomon " GNOMON_VERSION ", VTK 9.", 0), 0u) << version;
 }
 
