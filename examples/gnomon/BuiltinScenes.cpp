@@ -1,11 +1,14 @@
 #include "BuiltinScenes.h"
 
-#include "BuiltinParts.h"
-#include "HardScenes.h"
-
+#include "BuiltinSceneTable.h"
+#include "SceneFile.h"
+#include "SceneFraming.h"
+#include "SceneParts.h"
+#include "SceneShapes.h"
 #include "lights/SettingsTable.h"
 
-#include <algorithm>
+#include <map>
+#include <stdexcept>
 
 namespace gnomon::tool
 {
@@ -13,89 +16,225 @@ namespace gnomon::tool
 namespace
 {
 
-std::vector<BuiltinScene> makeScenes()
+using Json = nlohmann::json;
+
+const std::map<std::string, void (*)(Scene& scene)> parts = {
+  { "arcades", addArcades },
+  { "books", addBooks },
+  { "building lamps", addBuildingLamps },
+  { "bunny",
+    [](Scene& scene) {
+      addModelOnPlane(scene, "bunny.obj", { 0.8, 0.7, 0.55 });
+    } },
+  { "cat",
+    [](Scene& scene) {
+      addModelOnPlane(scene, "cat.3ds", { 0.55, 0.57, 0.62 });
+    } },
+  { "city", addCity },
+  { "cloth", addCloth },
+  { "desk things", addDeskThings },
+  { "flowers", addFlowers },
+  { "grass", addGrass },
+  { "horse",
+    [](Scene& scene) {
+      addModelOnPlane(scene, "horse.3ds", { 0.62, 0.45, 0.32 });
+    } },
+  { "impostors", addImpostors },
+  { "molecule", addMolecule },
+  { "plants", addPlants },
+  { "props", addProps },
+  { "rooms", addRooms },
+  { "screens", addScreens },
+  { "slivers", addSlivers },
+  { "terrain", addTerrain },
+  { "thin posts", addThinPosts },
+  { "trees", addTrees },
+};
+
+/// Return the document. Its scenes have a scene file's keys, and for short "sun", a direction;
+/// "view", a camera's position, target and field of view; "lamp", see lampOf(); "like", a scene
+/// whose keys they share. Besides: "models" that several scenes share by name, and hard cases "elsewhere".
+const Json& document()
 {
-  std::vector<BuiltinScene> scenes = {
-    { "bunny", "the Stanford bunny on a plane (needs the package glmark2-data)",
-      [] {
-        return makeModelOnPlane("bunny.obj", { { 0.8, 0.7, 0.55 } });
-      } },
-    { "horse", "a horse on a plane (needs the package glmark2-data)",
-      [] {
-        return makeModelOnPlane("horse.3ds", { { 0.62, 0.45, 0.32 } });
-      } },
-    { "cat", "a cat on a plane (needs the package glmark2-data)",
-      [] {
-        return makeModelOnPlane("cat.3ds", { { 0.55, 0.57, 0.62 } });
-      } },
-    { "cube", "a cube on a plane", makeCubeScene },
-    { "posts", "thin posts and a fence", makePostsScene },
-    { "plates", "plates that touch or nearly touch", makePlatesScene },
-    { "half-plane", "a half plane over a plane, its shadow's edge is known", makeHalfPlaneScene },
-    { "panels", "three planes above each other and three panels, open sheets", makePanelsScene },
-    { "screens", "a lattice and a bent sheet, whose holes are cut out by textures",
-      makeScreensScene },
-    { "pole", "one tall, thin pole", makePoleScene },
-    { "stack", "a cube above a sphere above a plane", makeStackScene },
-    { "long-cube", "a hovering cube, long in the direction of the light", makeLongCubeScene },
-    { "letter", "a concave letter C", makeLetterScene },
-    { "cups", "twelve open cups of thin sheets", makeCupsScene },
-    { "office", "a desk lamp of two spot lights in an office of a building", makeOfficeScene },
-    { "room", "a furnished room with all six walls, lit by a point light inside", makeRoomScene },
-    { "terrain", "a square kilometre of rolling terrain seen from 2 m above it, low sun",
-      makeTerrainScene },
-    { "props", "a prop of every kind that VTK has, on a ground", makePropsScene },
-    { "molecule", "100,000 atoms and their bonds, drawn as spheres and sticks", makeMoleculeScene },
-  };
-  const auto addSoft = [&](const char* name, const char* summary, Scene (*make)(), double distance)
+  static const Json parsed = Json::parse(BuiltinSceneTable);
+  return parsed;
+}
+
+/// Return a scene's entry, with what it takes from the scene that it is "like".
+Json entryOf(const std::string& name)
+{
+  for (const char* list : { "scenes", "hard", "bases" })
   {
-    scenes.push_back({ name, summary, [=] { return underLamp(make(), distance); } });
-  };
-  addSoft("soft-stack", "stack under a square lamp", makeStackScene, 12.0);
-  addSoft("soft-panels", "panels under a square lamp", makePanelsScene, 11.0);
-  addSoft("soft-plates", "plates under a square lamp", makePlatesScene, 18.0);
-  addSoft("soft-long-cube", "long-cube under a square lamp", makeLongCubeScene, 14.0);
-  scenes.push_back({ "soft-window", "stack under a window of coloured panes", makeWindowScene });
-  for (const SceneView& view : primitivesViews())
-  {
-    scenes.push_back({ view.name, view.summary, [view] { return makePrimitivesScene(view); } });
+    for (const Json& entry : document()[list])
+    {
+      if (entry["name"] == name)
+      {
+        const std::string base =
+          entry.value("like", list == std::string("hard") ? "over-floor" : "");
+        Json whole = base.empty() ? Json::object() : entryOf(base);
+        if (entry.contains("lights"))
+        {
+          whole.erase("sun");
+        }
+        whole.update(entry);
+        return whole;
+      }
+    }
   }
-  for (const SceneView& view : gardenViews())
+  throw std::out_of_range(name);
+}
+
+/// Place a model by [size, x, y, z].
+void scale(SceneModel& model, const std::array<double, 4>& by)
+{
+  model.matrix = { by[0], 0, 0, by[1], 0, by[0], 0, by[2], 0, 0, by[0], by[3], 0, 0, 0, 1 };
+}
+
+/// Return a model: a shape, [name, colour or null, shapes...], or {"model", with more}.
+SceneModel makeModel(const Json& model)
+{
+  if (model.is_object())
   {
-    scenes.push_back({ view.name, view.summary, [view] { return makeGardenScene(view); } });
+    SceneModel made = makeModel(model["model"]);
+    made.oneSided = model.value("one_sided", false);
+    made.matrix = model.value("matrix", made.matrix);
+    if (model.contains("scale"))
+    {
+      scale(made, model["scale"]);
+    }
+    return made;
   }
-  scenes.push_back({ "atrium",
-    "two storeys of arcades around a court with open cloth, 260,000 triangles", makeAtriumScene });
-  scenes.push_back({ "building", "64 rooms with doors and a lamp each, most of them out of sight",
-    makeBuildingScene });
-  scenes.push_back(
-    { "building-lit", "building with only the lamps in sight", makeLitBuildingScene });
-  scenes.push_back({ "city",
-    "streets and towers of 10 million triangles; ray traced in 2 GB of memory", makeCityScene });
+  if (model[1].is_number())
+  {
+    return makeShapes(Json::array({ model }));
+  }
+  SceneModel made = makeShapes(Json(model.begin() + 2, model.end()));
+  made.name = model[0];
+  if (!model[1].is_null())
+  {
+    made.property->SetColor(Vec3(model[1]).data());
+  }
+  return made;
+}
+
+/// Add a model, or one that several scenes share, or parts, by name.
+void addModel(Scene& scene, const Json& model)
+{
+  if (!model.is_string())
+  {
+    scene.models.push_back(makeModel(model));
+  }
+  else if (const auto part = parts.find(model.get<std::string>()); part != parts.end())
+  {
+    part->second(scene);
+  }
+  else
+  {
+    addModel(scene, document()["models"].at(model.get<std::string>()));
+  }
+}
+
+/// Return a square lamp of [distance, side, intensity] in the sun's direction, at that distance
+/// from the camera's target. Its side is a tenth of that distance. It lights the camera's view.
+SceneLight lampOf(const Json& entry, const Vec3& target)
+{
+  const std::vector<double> lamp = entry["lamp"];
+  SceneLight light;
+  light.type = SceneLight::Type::Spot;
+  light.coneAngleDegrees = 55.0;
+  light.target = target;
+  light.position = target - lamp[0] * normalized(-makeSun(entry["sun"]).position);
+  light.area = SceneLight::Area{};
+  light.area->rectangle = true;
+  light.area->width = light.area->height = lamp.size() > 1 ? lamp[1] : 0.1 * lamp[0];
+  light.area->up = { 0.0, 0.0, -1.0 };
+  light.intensity = lamp.size() > 2 ? lamp[2] : 1.0;
+  return light;
+}
+
+std::vector<BuiltinScene> listed(const char* list)
+{
+  std::vector<BuiltinScene> scenes;
+  for (const Json& entry : document()[list])
+  {
+    scenes.push_back(
+      { entry["name"], entry["summary"], entry.value("cases", std::vector<std::string>()) });
+  }
   return scenes;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
+Scene BuiltinScene::make() const
+{
+  const Json entry = entryOf(this->name);
+  Scene scene;
+  scene.name = this->name;
+  for (const Json& model : entry["models"])
+  {
+    addModel(scene, model);
+  }
+  if (entry.contains("scale"))
+  {
+    for (SceneModel& model : scene.models)
+    {
+      scale(model, entry["scale"]);
+    }
+  }
+  if (entry.contains("view"))
+  {
+    const std::array<double, 7> view = entry["view"];
+    scene.camera =
+      makeCamera({ view[0], view[1], view[2] }, { view[3], view[4], view[5] }, view[6]);
+  }
+  if (entry.contains("sun"))
+  {
+    scene.lights = { makeSun(entry["sun"]) };
+  }
+  if (entry.contains("lamp"))
+  {
+    scene.lights = { lampOf(entry, scene.camera.target) };
+  }
+  if (const auto ambient = readSurroundings(JsonValue(this->name, entry), {}, scene))
+  {
+    setAmbient(scene, *ambient);
+  }
+  if (entry.contains("panes"))
+  {
+    scene.lights.front().area->texture = makePanes();
+  }
+  return scene;
+}
+
+//------------------------------------------------------------------------------
 const std::vector<BuiltinScene>& builtinScenes()
 {
-  static const std::vector<BuiltinScene> scenes = makeScenes();
+  static const std::vector<BuiltinScene> scenes = listed("scenes");
+  return scenes;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<BuiltinScene>& hardScenes()
+{
+  static const std::vector<BuiltinScene> scenes = listed("hard");
   return scenes;
 }
 
 //------------------------------------------------------------------------------
 const BuiltinScene* findBuiltinScene(const std::string& name)
 {
-  const auto hard = std::find_if(hardScenes().begin(), hardScenes().end(),
-    [&](const HardScene& of) { return of.scene.name == name; });
-  if (hard != hardScenes().end())
+  for (const auto* scenes : { &hardScenes(), &builtinScenes() })
   {
-    return &hard->scene;
+    for (const BuiltinScene& scene : *scenes)
+    {
+      if (scene.name == name)
+      {
+        return &scene;
+      }
+    }
   }
-  const auto found = std::find_if(builtinScenes().begin(), builtinScenes().end(),
-    [&](const BuiltinScene& scene) { return scene.name == name; });
-  return found == builtinScenes().end() ? nullptr : &*found;
+  return nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -107,6 +246,17 @@ std::string builtinSceneNames()
     names.push_back(scene.name);
   }
   return listOf(names);
+}
+
+//------------------------------------------------------------------------------
+std::vector<HardCaseElsewhere> hardCasesElsewhere()
+{
+  std::vector<HardCaseElsewhere> cases;
+  for (const Json& entry : document()["elsewhere"])
+  {
+    cases.push_back({ entry[0], entry[1] });
+  }
+  return cases;
 }
 
 } // namespace gnomon::tool

@@ -31,23 +31,17 @@ std::string formatNumber(double value)
 /// Return a value for an error message: short, and on one line.
 std::string describe(const nlohmann::json& value)
 {
-  constexpr std::size_t longest = 60;
   if (value.is_number_float() && !std::isfinite(value.get<double>()))
   {
     return formatNumber(value.get<double>());
   }
   if (value.is_structured() && value.size() > 16)
   {
-    return std::string(value.is_array() ? "an array of " : "an object of ") +
-      std::to_string(value.size()) + (value.is_array() ? " elements" : " keys");
+    return (value.is_array() ? "an array of " : "an object of ") + std::to_string(value.size()) +
+      (value.is_array() ? " elements" : " keys");
   }
-  std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  if (text.size() > longest)
-  {
-    text.resize(longest);
-    text += "...";
-  }
-  return text;
+  const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return text.size() > 60 ? text.substr(0, 60) + "..." : text;
 }
 
 std::string describe(const NumberRange& range)
@@ -62,12 +56,6 @@ bool contains(const NumberRange& range, const nlohmann::json& value)
 }
 
 } // namespace
-
-//------------------------------------------------------------------------------
-JsonValue::JsonValue(std::string source, const nlohmann::json& document)
-  : JsonValue(std::move(source), std::string(), &document)
-{
-}
 
 //------------------------------------------------------------------------------
 JsonValue::JsonValue(std::string source, std::string path, const nlohmann::json* value)
@@ -91,59 +79,28 @@ JsonValue JsonValue::member(const std::string& key) const
 }
 
 //------------------------------------------------------------------------------
-std::vector<std::string> JsonValue::keys() const
-{
-  if (!this->value_ || !this->value_->is_object())
-  {
-    this->fail("an object");
-  }
-  std::vector<std::string> result;
-  for (const auto& item : this->value_->items())
-  {
-    result.push_back(item.key());
-  }
-  return result;
-}
-
-//------------------------------------------------------------------------------
 void JsonValue::requireObject(const std::vector<std::string>& known) const
 {
-  for (const std::string& key : this->keys())
+  for (const auto& item : this->require(&nlohmann::json::is_object, "an object").items())
   {
-    if (std::find(known.begin(), known.end(), key) == known.end())
+    if (std::find(known.begin(), known.end(), item.key()) == known.end())
     {
-      this->refuse("unknown key " + describe(key) + ", expected one of: " + listOf(known));
+      this->refuse("unknown key " + describe(item.key()) + ", expected one of: " + listOf(known));
     }
   }
 }
 
 //------------------------------------------------------------------------------
-std::size_t JsonValue::size() const
-{
-  if (!this->value_ || !this->value_->is_array())
-  {
-    this->fail("an array");
-  }
-  return this->value_->size();
-}
-
-//------------------------------------------------------------------------------
 std::vector<JsonValue> JsonValue::elements() const
 {
+  const nlohmann::json& array = this->require(&nlohmann::json::is_array, "an array");
   std::vector<JsonValue> result;
-  result.reserve(this->size());
-  for (std::size_t i = 0; i < this->size(); ++i)
+  for (std::size_t i = 0; i < array.size(); ++i)
   {
     result.push_back(
-      JsonValue(this->source_, this->path_ + "[" + std::to_string(i) + "]", &(*this->value_)[i]));
+      JsonValue(this->source_, this->path_ + "[" + std::to_string(i) + "]", &array[i]));
   }
   return result;
-}
-
-//------------------------------------------------------------------------------
-std::vector<JsonValue> JsonValue::elementsOrNone() const
-{
-  return this->present() ? this->elements() : std::vector<JsonValue>();
 }
 
 //------------------------------------------------------------------------------
@@ -170,38 +127,41 @@ int JsonValue::integer(int low, int high) const
 //------------------------------------------------------------------------------
 bool JsonValue::boolean() const
 {
-  if (!this->value_ || !this->value_->is_boolean())
-  {
-    this->fail("true or false");
-  }
-  return this->value_->get<bool>();
+  return this->require(&nlohmann::json::is_boolean, "true or false").get<bool>();
 }
 
 //------------------------------------------------------------------------------
 std::string JsonValue::text() const
 {
-  if (!this->value_ || !this->value_->is_string() ||
-    this->value_->get_ref<const std::string&>().empty())
+  const auto text = this->require(&nlohmann::json::is_string, "a text").get<std::string>();
+  if (text.empty())
   {
     this->fail("a text");
   }
-  return this->value_->get<std::string>();
+  return text;
+}
+
+//------------------------------------------------------------------------------
+const nlohmann::json& JsonValue::require(
+  bool (nlohmann::json::*is)() const noexcept, const char* expected) const
+{
+  if (!this->value_ || !(this->value_->*is)())
+  {
+    this->fail(expected);
+  }
+  return *this->value_;
 }
 
 //------------------------------------------------------------------------------
 void JsonValue::readNumbers(double* result, std::size_t count, const NumberRange& range) const
 {
-  bool good = this->value_ && this->value_->is_array() && this->value_->size() == count;
-  for (std::size_t i = 0; good && i < count; ++i)
-  {
-    good = contains(range, (*this->value_)[i]);
-  }
-  if (!good)
-  {
-    this->fail("an array of " + std::to_string(count) + " numbers " + describe(range));
-  }
+  const bool isArray = this->value_ && this->value_->is_array() && this->value_->size() == count;
   for (std::size_t i = 0; i < count; ++i)
   {
+    if (!isArray || !contains(range, (*this->value_)[i]))
+    {
+      this->fail("an array of " + std::to_string(count) + " numbers " + describe(range));
+    }
     result[i] = (*this->value_)[i].get<double>();
   }
 }

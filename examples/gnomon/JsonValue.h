@@ -1,5 +1,7 @@
 #pragma once
 
+#include "Errors.h"
+
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -29,23 +31,25 @@ class JsonValue
 public:
   /// Construct the root of a document from `source` (a file, or a command line option). The
   /// document must outlive this value and all values derived from it.
-  JsonValue(std::string source, const nlohmann::json& document);
+  JsonValue(std::string source, const nlohmann::json& document)
+    : JsonValue(std::move(source), std::string(), &document)
+  {
+  }
 
   bool present() const { return this->value_ != nullptr; }
   const std::string& source() const { return this->source_; }
 
   /// Return the place of a key in an object; empty if the object lacks the key.
   JsonValue member(const std::string& key) const;
-  /// Return the keys of an object.
-  std::vector<std::string> keys() const;
   /// Refuse everything but an object whose keys are all known.
   void requireObject(const std::vector<std::string>& known) const;
-  /// Return the number of elements of an array, or the elements.
-  std::size_t size() const;
+  /// Return the elements of an array.
   std::vector<JsonValue> elements() const;
-
   /// Return the elements of an array; none for an empty place.
-  std::vector<JsonValue> elementsOrNone() const;
+  std::vector<JsonValue> elementsOrNone() const
+  {
+    return this->present() ? this->elements() : std::vector<JsonValue>();
+  }
   double number(const NumberRange& range) const;
   int integer(int low, int high) const;
   bool boolean() const;
@@ -78,8 +82,25 @@ public:
   /// Throw "SOURCE: PATH: MESSAGE".
   [[noreturn]] void refuse(const std::string& message) const;
 
+  /// Call a function, and refuse what it refuses, at this place.
+  template <class Work>
+  void refuseOnError(const Work& work) const
+  {
+    try
+    {
+      work();
+    }
+    catch (const BadInput& error)
+    {
+      this->refuse(error.what());
+    }
+  }
+
 private:
   JsonValue(std::string source, std::string path, const nlohmann::json* value);
+  /// Return the value if it is of a kind.
+  const nlohmann::json& require(
+    bool (nlohmann::json::*is)() const noexcept, const char* expected) const;
   void readNumbers(double* result, std::size_t count, const NumberRange& range) const;
 
   std::string source_;

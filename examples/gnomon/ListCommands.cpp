@@ -1,7 +1,6 @@
 #include "BuiltinScenes.h"
 #include "Commands.h"
 #include "Errors.h"
-#include "HardScenes.h"
 #include "Progress.h"
 #include "SceneExport.h"
 #include "SettingOptions.h"
@@ -104,9 +103,9 @@ void addScenesCommand(CLI::App& app)
     {
       if (*hard)
       {
-        for (const HardScene& of : hardScenes())
+        for (const BuiltinScene& scene : hardScenes())
         {
-          printLine(of.scene.name, of.scene.summary + " (" + listOf(of.cases) + ")");
+          printLine(scene.name, scene.summary + " (" + listOf(scene.cases) + ")");
         }
         return;
       }

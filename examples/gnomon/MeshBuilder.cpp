@@ -1,5 +1,6 @@
 #include "MeshBuilder.h"
 
+#include "SceneFraming.h"
 #include "Vec3.h"
 
 #include <vtkMath.h>
@@ -11,25 +12,35 @@
 namespace gnomon::tool
 {
 
-namespace
+//------------------------------------------------------------------------------
+Frame::Frame(const Vec3& axis)
+  : right(normalized(cross(std::abs(axis[1]) < 0.9 ? up : Vec3{ 1.0, 0.0, 0.0 }, axis)))
+  , back(cross(right, axis))
 {
-
-const double fullTurn = 2.0 * vtkMath::Pi();
-
-/// Return the direction at a share, in [0, 1], of the circle around the vertical axis. A share of 1
-/// closes the circle exactly, without a gap from rounding.
-Vec3 around(double share)
-{
-  const double angle = share == 1.0 ? 0.0 : fullTurn * share;
-  return { { std::cos(angle), 0.0, -std::sin(angle) } };
 }
 
-} // namespace
+//------------------------------------------------------------------------------
+Vec3 Frame::at(double angle) const
+{
+  return std::cos(angle) * this->right + std::sin(angle) * this->back;
+}
+
+//------------------------------------------------------------------------------
+Vec3 leaning(const Vec3& axis, double lean, double turn)
+{
+  return std::cos(lean) * axis + std::sin(lean) * Frame(axis).at(turn);
+}
+
+//------------------------------------------------------------------------------
+Vec3 around(double share)
+{
+  const double angle = share == 1.0 ? 0.0 : 2.0 * vtkMath::Pi() * share;
+  return { std::cos(angle), 0.0, -std::sin(angle) };
+}
 
 //------------------------------------------------------------------------------
 MeshBuilder::MeshBuilder()
 {
-  this->points_->SetDataTypeToFloat();
   this->normals_->SetName("Normals");
   this->normals_->SetNumberOfComponents(3);
 }
@@ -39,12 +50,6 @@ vtkIdType MeshBuilder::addVertex(const SurfacePoint& point)
 {
   this->normals_->InsertNextTuple(point.normal.data());
   return this->points_->InsertNextPoint(point.position.data());
-}
-
-//------------------------------------------------------------------------------
-void MeshBuilder::addTriangle(vtkIdType a, vtkIdType b, vtkIdType c)
-{
-  this->triangles_->InsertNextCell({ a, b, c });
 }
 
 //------------------------------------------------------------------------------
@@ -58,27 +63,34 @@ void MeshBuilder::addPolygon(const std::vector<Vec3>& corners)
   }
   for (vtkIdType i = 2; i < static_cast<vtkIdType>(corners.size()); ++i)
   {
-    this->addTriangle(first, first + i - 1, first + i);
+    this->triangles_->InsertNextCell({ first, first + i - 1, first + i });
   }
+}
+
+//------------------------------------------------------------------------------
+void MeshBuilder::addPlane(const Vec3& center, double side)
+{
+  const double h = 0.5 * side;
+  this->addPolygon({ center + Vec3{ -h, 0.0, h }, center + Vec3{ h, 0.0, h },
+    center + Vec3{ h, 0.0, -h }, center + Vec3{ -h, 0.0, -h } });
 }
 
 //------------------------------------------------------------------------------
 void MeshBuilder::addBox(const Vec3& low, const Vec3& high)
 {
-  const double x0 = low[0], y0 = low[1], z0 = low[2];
-  const double x1 = high[0], y1 = high[1], z1 = high[2];
-  this->addPolygon(
-    { { { x0, y0, z0 } }, { { x1, y0, z0 } }, { { x1, y0, z1 } }, { { x0, y0, z1 } } });
-  this->addPolygon(
-    { { { x0, y1, z0 } }, { { x0, y1, z1 } }, { { x1, y1, z1 } }, { { x1, y1, z0 } } });
-  this->addPolygon(
-    { { { x0, y0, z0 } }, { { x0, y0, z1 } }, { { x0, y1, z1 } }, { { x0, y1, z0 } } });
-  this->addPolygon(
-    { { { x1, y0, z0 } }, { { x1, y1, z0 } }, { { x1, y1, z1 } }, { { x1, y0, z1 } } });
-  this->addPolygon(
-    { { { x0, y0, z0 } }, { { x0, y1, z0 } }, { { x1, y1, z0 } }, { { x1, y0, z0 } } });
-  this->addPolygon(
-    { { { x0, y0, z1 } }, { { x1, y0, z1 } }, { { x1, y1, z1 } }, { { x0, y1, z1 } } });
+  // A corner is three bits: whether its x, y and z are high.
+  static constexpr int faces[6][4] = { { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 4, 6, 2 },
+    { 1, 3, 7, 5 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
+  for (const auto& face : faces)
+  {
+    std::vector<Vec3> corners;
+    for (const int corner : face)
+    {
+      corners.push_back({ corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
+        corner & 4 ? high[2] : low[2] });
+    }
+    this->addPolygon(corners);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -94,30 +106,24 @@ void MeshBuilder::addPatch(
         surface(static_cast<double>(column) / columns, static_cast<double>(row) / rows));
     }
   }
-
-  const auto samePlace = [this](vtkIdType a, vtkIdType b)
+  const auto addUnlessThin = [this](vtkIdType a, vtkIdType b, vtkIdType c, vtkIdType d, vtkIdType e)
   {
     Vec3 p, q;
     this->points_->GetPoint(a, p.data());
     this->points_->GetPoint(b, q.data());
-    return p == q;
+    if (p != q)
+    {
+      this->triangles_->InsertNextCell({ c, d, e });
+    }
   };
   for (int row = 0; row < rows; ++row)
   {
     for (int column = 0; column < columns; ++column)
     {
       const vtkIdType a = first + row * (columns + 1) + column;
-      const vtkIdType b = a + 1;
-      const vtkIdType c = b + columns + 1;
-      const vtkIdType d = c - 1;
-      if (!samePlace(a, b))
-      {
-        this->addTriangle(a, b, c);
-      }
-      if (!samePlace(c, d))
-      {
-        this->addTriangle(a, c, d);
-      }
+      const vtkIdType c = a + columns + 2;
+      addUnlessThin(a, a + 1, a, a + 1, c);
+      addUnlessThin(c, c - 1, a, c, c - 1);
     }
   }
 }
@@ -144,10 +150,10 @@ void MeshBuilder::addSheet(
 void MeshBuilder::addLathe(const Axis& axis, const std::vector<ProfilePoint>& profile, int segments)
 {
   // Two arbitrary directions perpendicular to the axis. The helper must not be parallel to it.
-  const Vec3& up = axis.direction;
-  const Vec3 helper = std::abs(up[0]) < 0.9 ? Vec3{ { 1.0, 0.0, 0.0 } } : Vec3{ { 0.0, 0.0, 1.0 } };
-  const Vec3 right = normalized(cross(helper, up));
-  const Vec3 back = cross(right, up);
+  const Vec3& along = axis.direction;
+  const Vec3 helper = std::abs(along[0]) < 0.9 ? Vec3{ 1.0, 0.0, 0.0 } : Vec3{ 0.0, 0.0, 1.0 };
+  const Vec3 right = normalized(cross(helper, along));
+  const Vec3 back = cross(right, along);
   for (std::size_t i = 0; i + 1 < profile.size(); ++i)
   {
     const ProfilePoint& from = profile[i];
@@ -158,16 +164,24 @@ void MeshBuilder::addLathe(const Axis& axis, const std::vector<ProfilePoint>& pr
         const Vec3 turn = around(u);
         const Vec3 outward = turn[0] * right + turn[2] * back;
         const ProfilePoint& here = v == 0.0 ? from : to;
-        return SurfacePoint{ axis.origin + here.radius * outward + here.height * up,
-          normalized((to.height - from.height) * outward + (from.radius - to.radius) * up) };
+        return SurfacePoint{ axis.origin + here.radius * outward + here.height * along,
+          normalized((to.height - from.height) * outward + (from.radius - to.radius) * along) };
       });
   }
 }
 
 //------------------------------------------------------------------------------
+void MeshBuilder::addLimb(
+  const Vec3& from, const Vec3& to, double radius, double taper, int segments)
+{
+  this->addLathe({ from, normalized(to - from) },
+    { { radius, 0.0 }, { taper * radius, length(to - from) } }, segments);
+}
+
+//------------------------------------------------------------------------------
 void MeshBuilder::addDisc(const Vec3& center, double radius, int segments, bool facesUp)
 {
-  const Vec3 normal{ { 0.0, facesUp ? 1.0 : -1.0, 0.0 } };
+  const Vec3 normal{ 0.0, facesUp ? 1.0 : -1.0, 0.0 };
   const vtkIdType middle = this->addVertex({ center, normal });
   for (int i = 0; i <= segments; ++i)
   {
@@ -176,7 +190,7 @@ void MeshBuilder::addDisc(const Vec3& center, double radius, int segments, bool 
   }
   for (vtkIdType i = middle + 1; i <= middle + segments; ++i)
   {
-    facesUp ? this->addTriangle(middle, i, i + 1) : this->addTriangle(middle, i + 1, i);
+    this->triangles_->InsertNextCell({ middle, facesUp ? i : i + 1, facesUp ? i + 1 : i });
   }
 }
 
@@ -184,7 +198,6 @@ void MeshBuilder::addDisc(const Vec3& center, double radius, int segments, bool 
 void MeshBuilder::addCone(
   const Vec3& base, double height, double bottomRadius, double topRadius, int segments)
 {
-  const Vec3 up{ { 0.0, 1.0, 0.0 } };
   this->addPatch(segments, 1,
     [&](double u, double v)
     {
@@ -209,9 +222,8 @@ void MeshBuilder::addSphere(const Vec3& center, double radius, int slices, int s
       // The poles are explicit, as their ring must collapse to exactly one point.
       const double latitude = vtkMath::Pi() * (v - 0.5);
       const bool pole = v == 0.0 || v == 1.0;
-      const double ring = pole ? 0.0 : std::cos(latitude);
-      Vec3 normal = ring * around(u);
-      normal[1] = pole ? (v == 0.0 ? -1.0 : 1.0) : std::sin(latitude);
+      Vec3 normal = (pole ? 0.0 : std::cos(latitude)) * around(u);
+      normal[1] = pole ? 2.0 * v - 1.0 : std::sin(latitude);
       return SurfacePoint{ center + radius * normal, normal };
     });
 }
@@ -224,6 +236,45 @@ vtkSmartPointer<vtkPolyData> MeshBuilder::build() const
   mesh->SetPolys(this->triangles_);
   mesh->GetPointData()->SetNormals(this->normals_);
   return mesh;
+}
+
+//------------------------------------------------------------------------------
+SceneModel makeModel(
+  const std::string& name, vtkSmartPointer<vtkPolyData> surface, const Vec3& color)
+{
+  SceneModel model;
+  model.name = name;
+  model.surface = std::move(surface);
+  model.property = defaultProperty();
+  model.property->SetColor(color[0], color[1], color[2]);
+  return model;
+}
+
+//------------------------------------------------------------------------------
+SceneModel makePlane(const Vec3& center, double side)
+{
+  MeshBuilder mesh;
+  mesh.addPlane(center, side);
+  return makeModel("plane", mesh.build(), planeColor);
+}
+
+//------------------------------------------------------------------------------
+SceneLight makeSun(const Vec3& travel, double intensity)
+{
+  SceneLight light;
+  light.position = -normalized(travel);
+  light.intensity = intensity;
+  return light;
+}
+
+//------------------------------------------------------------------------------
+SceneCamera makeCamera(const Vec3& position, const Vec3& target, double fovDegrees)
+{
+  SceneCamera camera;
+  camera.position = position;
+  camera.target = target;
+  camera.fovDegrees = fovDegrees;
+  return camera;
 }
 
 } // namespace gnomon::tool

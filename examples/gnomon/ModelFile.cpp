@@ -2,7 +2,6 @@
 
 #include "Errors.h"
 #include "Files.h"
-#include "GltfFile.h"
 #include "JsonValue.h"
 #include "MtlFile.h"
 #include "ReadGuarded.h"
@@ -20,6 +19,8 @@
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
 #include <vtkGLTFImporter.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
@@ -35,8 +36,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace gnomon::tool
 {
@@ -44,21 +47,9 @@ namespace gnomon::tool
 namespace
 {
 
-std::string nameOf(const std::string& path)
-{
-  return std::filesystem::path(path).stem().string();
-}
-
-void addNotes(const std::vector<std::string>& warnings, const std::string& path, Model& model)
-{
-  for (const std::string& warning : warnings)
-  {
-    model.notes.push_back(path + ": " + warning);
-  }
-}
-
 //------------------------------------------------------------------------------
-// Checks of a reader's output.
+// A reader's output. readGuarded() turns a reader's crash into an error; these checks are of what
+// VTK would read or draw wrongly later.
 
 /// Refuse cells that refer to missing vertices.
 void checkCells(vtkCellArray* cells, vtkIdType points)
@@ -84,20 +75,6 @@ void checkCells(vtkCellArray* cells, vtkIdType points)
   }
 }
 
-/// Return the number of triangles that VTK draws for a surface: fans of polygons, and strips.
-vtkIdType countTriangles(vtkPolyData* surface)
-{
-  vtkIdType triangles = 0;
-  for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
-  {
-    for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
-    {
-      triangles += std::max<vtkIdType>(0, cells->GetCellSize(i) - 2);
-    }
-  }
-  return triangles;
-}
-
 /// Count the vertices that are not finite, and refuse unreasonably large coordinates, as VTK draws
 /// in float.
 vtkIdType countNonFinite(vtkPolyData* surface)
@@ -105,17 +82,15 @@ vtkIdType countNonFinite(vtkPolyData* surface)
   vtkIdType count = 0;
   for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
   {
-    Vec3 point;
-    surface->GetPoint(i, point.data());
-    const double largest = std::max({ std::abs(point[0]), std::abs(point[1]), std::abs(point[2]) });
-    if (!std::isfinite(point[0] + point[1] + point[2]))
+    const double* const p = surface->GetPoint(i);
+    if (!std::isfinite(p[0] + p[1] + p[2]))
     {
       ++count;
     }
-    else if (largest > anyCoordinate.high)
+    else if (std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) }) > anyCoordinate.high)
     {
       std::ostringstream found;
-      found << "found vertex " << i << " at " << point[0] << ", " << point[1] << ", " << point[2]
+      found << "found vertex " << i << " at " << p[0] << ", " << p[1] << ", " << p[2]
             << ", expected coordinates between " << anyCoordinate.low << " and "
             << anyCoordinate.high;
       throw BadInput(found.str());
@@ -124,30 +99,34 @@ vtkIdType countNonFinite(vtkPolyData* surface)
   return count;
 }
 
-/// True if an array holds colours that VTK shows unchanged.
-bool isColor(vtkDataArray* scalars)
+/// Use scalars only if they are colours, which VTK shows unchanged, of so many elements.
+void keepColors(vtkDataSetAttributes* data, vtkIdType elements)
 {
-  return scalars && scalars->GetNumberOfComponents() >= 3 &&
-    scalars->GetNumberOfComponents() <= 4 &&
-    (scalars->GetDataType() == VTK_UNSIGNED_CHAR || scalars->GetDataType() == VTK_FLOAT);
+  vtkDataArray* const scalars = data->GetScalars();
+  const int channels = scalars ? scalars->GetNumberOfComponents() : 0;
+  const int type = scalars ? scalars->GetDataType() : VTK_VOID;
+  if ((channels != 3 && channels != 4) || (type != VTK_UNSIGNED_CHAR && type != VTK_FLOAT) ||
+    scalars->GetNumberOfTuples() != elements)
+  {
+    data->SetActiveScalars(nullptr);
+  }
 }
 
 /// Return a surface with smooth normals and split sharp edges.
 vtkSmartPointer<vtkPolyData> withNormals(vtkPolyData* surface)
 {
-  constexpr double sharpEdgeDegrees = 60.0;
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputData(surface);
-  normals->SetFeatureAngle(sharpEdgeDegrees);
+  normals->SetFeatureAngle(60.0);
   normals->ConsistencyOff();
   normals->Update();
   return normals->GetOutput();
 }
 
-/// Return a reader's surface prepared for the scene: triangles and polygons only, with normals, and
-/// with scalars only if they are colours. Null for a surface without triangles.
-vtkSmartPointer<vtkPolyData> prepared(
-  vtkPolyData* source, const std::string& path, std::vector<std::string>& notes)
+/// Add a reader's surface prepared for the scene: triangles and polygons only, with normals, and
+/// with scalars only if they are colours.
+/// @return the surface; null without triangles
+SceneModel* addSurface(vtkPolyData* source, const std::string& path, Model& model)
 {
   if (!source || !source->GetPoints())
   {
@@ -155,75 +134,60 @@ vtkSmartPointer<vtkPolyData> prepared(
   }
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->ShallowCopy(source);
+  const vtkIdType points = surface->GetNumberOfPoints();
   for (vtkCellArray* cells :
     { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
   {
-    checkCells(cells, surface->GetNumberOfPoints());
+    checkCells(cells, points);
   }
-  const vtkIdType left = surface->GetNumberOfVerts() + surface->GetNumberOfLines();
-  if (left > 0)
+  if (const vtkIdType left = surface->GetNumberOfVerts() + surface->GetNumberOfLines(); left > 0)
   {
     // Cell data counts vertices and lines first, so it is removed with them.
     surface->SetVerts(nullptr);
     surface->SetLines(nullptr);
     surface->GetCellData()->Initialize();
-    notes.push_back(
+    model.notes.push_back(
       path + ": " + std::to_string(left) + " points and lines are left out, surfaces only");
   }
-  if (countTriangles(surface) == 0)
+  if (std::max(surface->GetPolys()->GetMaxCellSize(), surface->GetStrips()->GetMaxCellSize()) < 3)
   {
     return nullptr;
   }
 
   const vtkIdType nonFinite = countNonFinite(surface);
-  if (nonFinite == surface->GetNumberOfPoints())
+  if (nonFinite == points)
   {
     throw BadInput("none of the " + std::to_string(nonFinite) + " vertices is finite");
   }
   if (nonFinite > 0)
   {
-    notes.push_back(path + ": " + std::to_string(nonFinite) +
+    model.notes.push_back(path + ": " + std::to_string(nonFinite) +
       " vertices are not finite; triangles with them are left out");
   }
-
-  vtkPointData* pointData = surface->GetPointData();
-  for (int i = pointData->GetNumberOfArrays() - 1; i >= 0; --i)
+  vtkPointData* const pointData = surface->GetPointData();
+  for (int i = 0; i < pointData->GetNumberOfArrays(); ++i)
   {
-    if (pointData->GetAbstractArray(i)->GetNumberOfTuples() != surface->GetNumberOfPoints())
+    if (const vtkIdType values = pointData->GetAbstractArray(i)->GetNumberOfTuples();
+        values != points)
     {
-      throw BadInput("found " +
-        std::to_string(pointData->GetAbstractArray(i)->GetNumberOfTuples()) +
-        " values of a point array, expected " + std::to_string(surface->GetNumberOfPoints()));
+      throw BadInput("found " + std::to_string(values) + " values of a point array, expected " +
+        std::to_string(points));
     }
   }
-  if (!isColor(pointData->GetScalars()))
-  {
-    pointData->SetActiveScalars(nullptr);
-  }
-  vtkCellData* cellData = surface->GetCellData();
-  if (!isColor(cellData->GetScalars()) ||
-    cellData->GetScalars()->GetNumberOfTuples() != surface->GetNumberOfCells())
-  {
-    cellData->SetActiveScalars(nullptr);
-  }
+  keepColors(pointData, points);
+  keepColors(surface->GetCellData(), surface->GetNumberOfCells());
+
+  SceneModel part;
+  part.name = std::filesystem::path(path).stem().string();
   // A vertex that is not finite would make its neighbours' normals invalid.
-  return pointData->GetNormals() || nonFinite > 0 ? surface : withNormals(surface);
+  part.surface = pointData->GetNormals() || nonFinite > 0 ? surface : withNormals(surface);
+  part.property = defaultProperty();
+  model.surfaces.push_back(std::move(part));
+  return &model.surfaces.back();
 }
 
 //------------------------------------------------------------------------------
 // Readers return one surface.
-
-void addSurface(vtkPolyData* surface, const std::string& path, Model& model)
-{
-  SceneModel part;
-  part.name = nameOf(path);
-  part.surface = prepared(surface, path, model.notes);
-  part.property = defaultProperty();
-  if (part.surface)
-  {
-    model.surfaces.push_back(std::move(part));
-  }
-}
 
 void readPly(const std::string& path, Model& model)
 {
@@ -233,28 +197,18 @@ void readPly(const std::string& path, Model& model)
   addSurface(reader->GetOutput(), path, model);
 }
 
-/// Refuse binary .stl files whose size is not what their header says, as vtkSTLReader reads what is
-/// there. It checks text itself.
-void requireWholeStl(const std::string& path)
+void readStl(const std::string& path, Model& model)
 {
+  // vtkSTLReader reads what is there of a truncated binary file. It checks text itself.
   const std::string bytes = readWholeFile(path, largestModelBytes);
-  constexpr std::size_t countBegin = 80;
-  constexpr std::size_t triangleBegin = 84;
-  constexpr std::size_t triangleBytes = 50;
   std::uint32_t triangles = 0;
-  bytes.copy(
-    reinterpret_cast<char*>(&triangles), sizeof(triangles), std::min(countBegin, bytes.size()));
-  const std::size_t whole = triangleBegin + triangleBytes * triangles;
+  bytes.copy(reinterpret_cast<char*>(&triangles), 4, std::min<std::size_t>(80, bytes.size()));
+  const std::size_t whole = 84 + std::size_t{ 50 } * triangles;
   if (bytes.size() != whole && bytes.find("facet") == std::string::npos)
   {
     throw BadInput("found " + std::to_string(bytes.size()) + " bytes, expected " +
       std::to_string(whole) + " or text; the file is truncated or damaged");
   }
-}
-
-void readStl(const std::string& path, Model& model)
-{
-  requireWholeStl(path);
   vtkNew<vtkSTLReader> reader;
   reader->SetFileName(path.c_str());
   // vtkMergePoints sorts vertices into a grid over their bounds, which must be finite.
@@ -289,7 +243,6 @@ vtkSmartPointer<vtkPolyData> extractMaterial(vtkPolyData* source, vtkDataArray* 
   vtkNew<vtkCellArray> polygons;
   part->GetPointData()->CopyAllocate(source->GetPointData());
   std::vector<vtkIdType> newIds(static_cast<std::size_t>(source->GetNumberOfPoints()), -1);
-  std::vector<vtkIdType> corners;
   for (vtkIdType cell = 0; cell < source->GetNumberOfPolys(); ++cell)
   {
     if (materialIds->GetTuple1(cell) != id)
@@ -299,7 +252,7 @@ vtkSmartPointer<vtkPolyData> extractMaterial(vtkPolyData* source, vtkDataArray* 
     vtkIdType size = 0;
     const vtkIdType* ids = nullptr;
     source->GetPolys()->GetCellAtId(cell, size, ids);
-    corners.clear();
+    polygons->InsertNextCell(static_cast<int>(size));
     for (vtkIdType i = 0; i < size; ++i)
     {
       vtkIdType& newId = newIds[static_cast<std::size_t>(ids[i])];
@@ -308,9 +261,8 @@ vtkSmartPointer<vtkPolyData> extractMaterial(vtkPolyData* source, vtkDataArray* 
         newId = points->InsertNextPoint(source->GetPoint(ids[i]));
         part->GetPointData()->CopyData(source->GetPointData(), ids[i], newId);
       }
-      corners.push_back(newId);
+      polygons->InsertCellPoint(newId);
     }
-    polygons->InsertNextCell(size, corners.data());
   }
   part->SetPoints(points);
   part->SetPolys(polygons);
@@ -340,9 +292,9 @@ std::map<std::string, Material> readLibraries(
   return materials;
 }
 
-/// Refuse vertices that vtkOBJReader would read as zeros.
-void requireObjVertices(const std::string& path)
+void readObj(const std::string& path, Model& model)
 {
+  // vtkOBJReader reads what is no number as zero.
   std::ifstream file(path);
   std::string text;
   for (int number = 1; std::getline(file, text); ++number)
@@ -358,41 +310,34 @@ void requireObjVertices(const std::string& path)
       }
     }
   }
-}
-
-void readObj(const std::string& path, Model& model)
-{
-  requireObjVertices(path);
   vtkNew<vtkOBJReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
   vtkPolyData* whole = reader->GetOutput();
   vtkDataArray* ids = whole->GetCellData()->GetArray("MaterialIds");
-  auto* names =
-    vtkStringArray::SafeDownCast(whole->GetFieldData()->GetAbstractArray("MaterialNames"));
+  vtkFieldData* const fields = whole->GetFieldData();
+  auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray("MaterialNames"));
   if (!ids || !names)
   {
     addSurface(whole, path, model);
     return;
   }
-
   checkCells(whole->GetPolys(), whole->GetNumberOfPoints());
-  std::map<std::string, Material> materials =
-    readLibraries(whole->GetFieldData()->GetAbstractArray("MaterialLibraries"), path, model.notes);
+  const std::map<std::string, Material> materials =
+    readLibraries(fields->GetAbstractArray("MaterialLibraries"), path, model.notes);
   for (int id = 0; id < static_cast<int>(names->GetNumberOfValues()); ++id)
   {
     const std::string name = names->GetValue(id);
     const vtkSmartPointer<vtkPolyData> part = extractMaterial(whole, ids, id);
     // vtkOBJReader stores texture coordinates per material, in an array of the material's name.
     part->GetPointData()->SetActiveTCoords(name.c_str());
-    const std::size_t before = model.surfaces.size();
-    addSurface(part, path, model);
+    SceneModel* const added = addSurface(part, path, model);
     const auto material = materials.find(name);
-    if (model.surfaces.size() > before && material != materials.end())
+    if (added && material != materials.end())
     {
-      model.surfaces.back().name += ":" + name;
-      model.surfaces.back().property = material->second.property;
-      model.surfaces.back().texture = material->second.texture;
+      added->name += ":" + name;
+      added->property = material->second.property;
+      added->texture = material->second.texture;
     }
   }
 }
@@ -400,32 +345,31 @@ void readObj(const std::string& path, Model& model)
 //------------------------------------------------------------------------------
 // Importers return actors.
 
-void importActors(vtkImporter* importer, const std::string& path, Model& model)
+/// A renderer of a window that is not rendered, so it opens no display. Importers need it.
+struct ImportRenderer
 {
-  // Importers require a window. This one is not rendered, so it opens no display.
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  ImportRenderer() { this->window->AddRenderer(this->renderer); }
+  vtkNew<vtkGnomonEGLRenderWindow> window; // outlives the renderer
   vtkNew<vtkRenderer> renderer;
-  window->AddRenderer(renderer);
-  importer->SetRenderWindow(window);
-  importer->Update();
+};
 
-  vtkActorCollection* actors = renderer->GetActors();
+void importActors(
+  vtkImporter* importer, vtkRenderer* renderer, const std::string& path, Model& model)
+{
+  importer->SetRenderWindow(renderer->GetRenderWindow());
+  importer->Update();
   vtkCollectionSimpleIterator iterator;
-  actors->InitTraversal(iterator);
-  while (vtkActor* actor = actors->GetNextActor(iterator))
+  renderer->GetActors()->InitTraversal(iterator);
+  while (vtkActor* actor = renderer->GetActors()->GetNextActor(iterator))
   {
     actor->GetMapper()->Update();
-    SceneModel part;
-    part.name = nameOf(path);
-    part.surface =
-      prepared(vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()), path, model.notes);
-    part.property = actor->GetProperty();
-    part.texture = actor->GetTexture();
-    part.translucent = actor->GetForceTranslucent();
-    std::copy_n(actor->GetMatrix()->GetData(), 16, part.matrix.begin());
-    if (part.surface)
+    if (SceneModel* const part =
+          addSurface(vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()), path, model))
     {
-      model.surfaces.push_back(std::move(part));
+      part->property = actor->GetProperty();
+      part->texture = actor->GetTexture();
+      part->translucent = actor->GetForceTranslucent();
+      std::copy_n(actor->GetMatrix()->GetData(), 16, part->matrix.begin());
     }
   }
 }
@@ -433,69 +377,189 @@ void importActors(vtkImporter* importer, const std::string& path, Model& model)
 /// Read a .3ds file without its lights and cameras.
 void read3ds(const std::string& path, Model& model)
 {
+  const ImportRenderer into;
   vtkNew<vtk3DSImporter> importer;
   importer->SetFileName(path.c_str());
-  importActors(importer, path, model);
+  importActors(importer, into.renderer, path, model);
+}
+
+/// Return the JSON document of a .gltf or .glb file.
+nlohmann::json readGltfDocument(const std::string& path)
+{
+  const std::string bytes = readWholeFile(path, largestModelBytes);
+  if (lowerExtension(path) != ".glb")
+  {
+    return parseJson(bytes, path);
+  }
+  // The header, and the first chunk's length and type.
+  if (bytes.size() < 20 || bytes.compare(0, 4, "glTF") != 0 || bytes.compare(16, 4, "JSON") != 0)
+  {
+    throw BadInput(path + ": not a binary glTF file, expected the words glTF and JSON");
+  }
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, sizeof(length));
+  return parseJson(bytes.substr(20, length), path);
+}
+
+/// Refuse indices of missing elements, which vtkGLTFImporter trusts or ignores.
+void checkGltfIndices(const JsonValue& root)
+{
+  const auto check = [&](const JsonValue& index, const JsonValue& elements)
+  {
+    if (index.present())
+    {
+      index.integer(0, static_cast<int>(elements.elementsOrNone().size()) - 1);
+    }
+  };
+  const char* const lights = "KHR_lights_punctual";
+  const JsonValue nodes = root.member("nodes");
+  check(root.member("scene"), root.member("scenes"));
+  for (const JsonValue& scene : root.member("scenes").elements())
+  {
+    for (const JsonValue& node : scene.member("nodes").elementsOrNone())
+    {
+      check(node, nodes);
+    }
+  }
+  for (const JsonValue& node : nodes.elementsOrNone())
+  {
+    check(node.member("camera"), root.member("cameras"));
+    check(node.member("extensions").member(lights).member("light"),
+      root.member("extensions").member(lights).member("lights"));
+    for (const JsonValue& child : node.member("children").elementsOrNone())
+    {
+      check(child, nodes);
+    }
+  }
 }
 
 /// Flip texture coordinates, as glTF counts texture rows from the top and VTK from the bottom.
 /// vtkGLTFImporter marks its actors with a key instead.
 void flipTextureCoordinates(vtkPolyData* surface)
 {
-  vtkDataArray* source = surface->GetPointData()->GetTCoords();
-  if (!source)
+  if (vtkDataArray* source = surface->GetPointData()->GetTCoords())
   {
-    return;
+    vtkNew<vtkFloatArray> flipped;
+    flipped->DeepCopy(source);
+    for (vtkIdType i = 0; i < flipped->GetNumberOfTuples(); ++i)
+    {
+      flipped->SetComponent(i, 1, 1.0 - flipped->GetComponent(i, 1));
+    }
+    surface->GetPointData()->SetTCoords(flipped);
   }
-  vtkNew<vtkFloatArray> flipped;
-  flipped->DeepCopy(source);
-  for (vtkIdType i = 0; i < flipped->GetNumberOfTuples(); ++i)
+}
+
+/// Return a light of KHR_lights_punctual as its node places it, not a unit beside as VTK 9.1 does.
+SceneLight lightOf(vtkLight* source, const Vec3& middle)
+{
+  SceneLight light;
+  std::array<double, 16> worldFromNode;
+  std::copy_n(source->GetTransformMatrix()->GetData(), 16, worldFromNode.begin());
+  light.position = transformed(worldFromNode, { 0.0, 0.0, 0.0 }, 1.0);
+  light.target = light.position + normalized(transformed(worldFromNode, { 0.0, 0.0, -1.0 }, 0.0));
+  if (light.target == light.position)
   {
-    flipped->SetComponent(i, 1, 1.0 - flipped->GetComponent(i, 1));
+    throw BadInput("the matrices of a light's nodes are singular, so it has no direction");
   }
-  surface->GetPointData()->SetTCoords(flipped);
+  source->GetDiffuseColor(light.color.data());
+  light.intensity = source->GetIntensity();
+  if (source->GetPositional())
+  {
+    light.type = source->GetConeAngle() < 90.0 ? SceneLight::Type::Spot : SceneLight::Type::Point;
+    light.coneAngleDegrees = source->GetConeAngle();
+    // VTK's lights do not fall off with distance by default, so use the intensity at the scene's
+    // middle. The file's is in candela.
+    const double distance = length(middle - light.position);
+    light.intensity /= distance > 0.0 ? distance * distance : 1.0;
+  }
+  return light;
+}
+
+/// Return a camera whose target is at the distance of the scene's middle, a useful centre of
+/// rotation.
+SceneCamera cameraOf(vtkCamera* source, const Vec3& middle)
+{
+  SceneCamera camera;
+  source->GetPosition(camera.position.data());
+  source->GetViewUp(camera.up.data());
+  Vec3 forward;
+  source->GetDirectionOfProjection(forward.data());
+  if (!(length(cross(forward, camera.up)) > 1e-6))
+  {
+    throw BadInput("the matrices of the camera's nodes are singular, so it has no direction");
+  }
+  const double ahead = dot(middle - camera.position, forward);
+  camera.target = camera.position + (ahead > 0.0 ? ahead : 1.0) * forward;
+  camera.fovDegrees = source->GetViewAngle();
+  if (source->GetParallelProjection())
+  {
+    camera.parallelScale = source->GetParallelScale();
+  }
+  return camera;
 }
 
 void readGltf(const std::string& path, Model& model)
 {
-  const GltfView view = readGltfView(path);
-  const auto readActors = [&]
+  const nlohmann::json document = readGltfDocument(path);
+  const JsonValue root(path, document);
+  // vtkGLTFImporter would ignore extensions, and show the file wrongly.
+  for (const JsonValue& extension : root.member("extensionsRequired").elementsOrNone())
   {
+    const std::string name = extension.text();
+    if (name != "KHR_lights_punctual" && name != "KHR_materials_unlit")
+    {
+      extension.refuse(
+        "the file needs glTF extension " + quoted(name) + ", which is not supported");
+    }
+  }
+  checkGltfIndices(root);
+  if (root.member("skins").present())
+  {
+    model.notes.push_back(path + ": its skins are left out, meshes are shown at rest");
+  }
+  std::size_t bytes = requireReadableFile(path);
+  for (const char* key : { "buffers", "images" })
+  {
+    for (const JsonValue& value : root.member(key).elementsOrNone())
+    {
+      const JsonValue uri = value.member("uri");
+      if (uri.present() && uri.text().compare(0, 5, "data:") != 0)
+      {
+        const auto neighbour = std::filesystem::path(path).parent_path() / uri.text();
+        bytes += requireReadableFile(neighbour.string());
+      }
+    }
+  }
+  const auto read = [&]
+  {
+    const ImportRenderer into;
     vtkNew<vtkGLTFImporter> importer;
     importer->SetFileName(path.c_str());
-    importActors(importer, path, model);
+    importActors(importer, into.renderer, path, model);
+    Scene scene;
+    scene.models = model.surfaces;
+    const std::array<double, 6> bounds = boundsWorld(scene);
+    const Vec3 middle{ 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
+      0.5 * (bounds[4] + bounds[5]) };
+    if (importer->GetNumberOfCameras() > 0 && importer->GetCamera(0))
+    {
+      model.camera = cameraOf(importer->GetCamera(0), middle);
+    }
+    vtkCollectionSimpleIterator iterator;
+    into.renderer->GetLights()->InitTraversal(iterator);
+    while (vtkLight* light = into.renderer->GetLights()->GetNextLight(iterator))
+    {
+      // VTK visits the last node first.
+      model.lights.insert(model.lights.begin(), lightOf(light, middle));
+    }
   };
-  addNotes(
-    readGuarded(path, requireReadableFile(path) + view.neighbourBytes, readActors), path, model);
+  for (const std::string& warning : readGuarded(path, bytes, read))
+  {
+    model.notes.push_back(path + ": " + warning);
+  }
   for (SceneModel& surface : model.surfaces)
   {
     flipTextureCoordinates(surface.surface);
-  }
-  model.notes.insert(model.notes.end(), view.notes.begin(), view.notes.end());
-
-  Scene scene;
-  scene.models = model.surfaces;
-  const std::array<double, 6> bounds = boundsWorld(scene);
-  const Vec3 middle{ { 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
-    0.5 * (bounds[4] + bounds[5]) } };
-  model.camera = view.camera;
-  if (model.camera)
-  {
-    // The target is at the distance of the scene's middle, a useful centre of rotation.
-    const Vec3 forward = model.camera->target - model.camera->position;
-    const double ahead = dot(middle - model.camera->position, forward);
-    model.camera->target = model.camera->position + (ahead > 0.0 ? ahead : 1.0) * forward;
-  }
-  for (SceneLight light : view.lights)
-  {
-    if (light.type != SceneLight::Type::Directional)
-    {
-      // VTK's lights do not fall off with distance by default, so use the intensity at the scene's
-      // middle.
-      const double distance = length(middle - light.position);
-      light.intensity /= distance > 0.0 ? distance * distance : 1.0;
-    }
-    model.lights.push_back(light);
   }
 }
 
@@ -504,16 +568,8 @@ struct FileType
   const char* extension;
   void (*read)(const std::string& path, Model& model);
 };
-
-const FileType fileTypes[] = {
-  { ".obj", readObj },
-  { ".ply", readPly },
-  { ".stl", readStl },
-  { ".vtp", readVtp },
-  { ".3ds", read3ds },
-  { ".glb", readGltf },
-  { ".gltf", readGltf },
-};
+const FileType fileTypes[] = { { ".obj", readObj }, { ".ply", readPly }, { ".stl", readStl },
+  { ".vtp", readVtp }, { ".3ds", read3ds }, { ".glb", readGltf }, { ".gltf", readGltf } };
 
 const FileType* findFileType(const std::string& path)
 {
@@ -535,8 +591,11 @@ Model readModelFile(const std::string& path)
       "\", expected one of: " + modelFileTypes());
   }
   Model model;
-  addNotes(
-    readGuarded(path, requireReadableFile(path), [&] { type->read(path, model); }), path, model);
+  for (const std::string& warning :
+    readGuarded(path, requireReadableFile(path), [&] { type->read(path, model); }))
+  {
+    model.notes.push_back(path + ": " + warning);
+  }
   if (model.surfaces.empty())
   {
     throw BadInput(path + ": found no triangles, expected a surface");

@@ -29,14 +29,6 @@ double numberAt(const Words& words, std::size_t index, double high)
   return *value;
 }
 
-/// Return red, green and blue. A single number applies to all three.
-Vec3 colorOf(const Words& words)
-{
-  const bool isGrey = words.size() == 2;
-  return { { numberAt(words, 1, 1.0), numberAt(words, isGrey ? 1 : 2, 1.0),
-    numberAt(words, isGrey ? 1 : 3, 1.0) } };
-}
-
 /// Return a map's file name, which follows the options and may contain spaces.
 std::string fileNameOf(const Words& words)
 {
@@ -44,9 +36,8 @@ std::string fileNameOf(const Words& words)
   for (std::size_t i = 1; i < words.size(); ++i)
   {
     const std::string& word = words[i];
-    const bool option =
-      word[0] == '-' || parseNumber<double>(word) || word == "on" || word == "off";
-    if (!name.empty() || !option)
+    if (!name.empty() ||
+      !(word[0] == '-' || parseNumber<double>(word) || word == "on" || word == "off"))
     {
       name += (name.empty() ? "" : " ") + word;
     }
@@ -57,29 +48,33 @@ std::string fileNameOf(const Words& words)
 void apply(const Words& words, const std::filesystem::path& folder, Material& material)
 {
   const std::string& keyword = words[0];
-  if (keyword == "Kd")
+  vtkProperty* const property = material.property;
+  if (keyword == "Kd" || keyword == "Ks")
   {
-    const Vec3 color = colorOf(words);
-    material.property->SetDiffuseColor(color[0], color[1], color[2]);
-    material.property->SetAmbientColor(color[0], color[1], color[2]);
-  }
-  else if (keyword == "Ks")
-  {
-    const Vec3 color = colorOf(words);
-    material.property->SetSpecularColor(color[0], color[1], color[2]);
-    material.property->SetSpecular(1.0);
+    Vec3 color;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      color[i] = numberAt(words, words.size() == 2 ? 1 : i + 1, 1.0); // one number is grey
+    }
+    if (keyword == "Kd")
+    {
+      property->SetDiffuseColor(color.data());
+      property->SetAmbientColor(color.data());
+    }
+    else
+    {
+      property->SetSpecularColor(color.data());
+      property->SetSpecular(1.0);
+    }
   }
   else if (keyword == "Ns")
   {
-    material.property->SetSpecularPower(numberAt(words, 1, 10000.0));
+    property->SetSpecularPower(numberAt(words, 1, 10000.0));
   }
-  else if (keyword == "d")
+  else if (keyword == "d" || keyword == "Tr")
   {
-    material.property->SetOpacity(numberAt(words, 1, 1.0));
-  }
-  else if (keyword == "Tr")
-  {
-    material.property->SetOpacity(1.0 - numberAt(words, 1, 1.0));
+    const double value = numberAt(words, 1, 1.0);
+    property->SetOpacity(keyword == "d" ? value : 1.0 - value);
   }
   else if (keyword == "map_Kd")
   {
@@ -94,7 +89,6 @@ void apply(const Words& words, const std::filesystem::path& folder, Material& ma
 std::map<std::string, Material> readMaterials(const std::string& path)
 {
   const std::vector<std::string> lines = split(readWholeFile(path, largestModelBytes), '\n');
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::map<std::string, Material> materials;
   Material* current = nullptr;
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -109,7 +103,7 @@ std::map<std::string, Material> readMaterials(const std::string& path)
     {
       try
       {
-        apply(words, folder, *current);
+        apply(words, std::filesystem::path(path).parent_path(), *current);
       }
       catch (const BadInput& error)
       {

@@ -149,9 +149,7 @@ Scene loadScene(const std::string& nameOrPath, std::optional<bool> ground)
 {
   if (const BuiltinScene* builtin = findBuiltinScene(nameOrPath))
   {
-    Scene scene = builtin->make();
-    scene.name = builtin->name;
-    return scene;
+    return builtin->make();
   }
   const std::string extension = lowerExtension(nameOrPath);
   if (extension == ".json")

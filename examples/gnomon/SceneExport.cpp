@@ -29,34 +29,34 @@ using Json = nlohmann::ordered_json;
 Json toJson(const SceneLight& light, const std::string& texture)
 {
   Json json;
-  if (light.type == SceneLight::Type::Spot)
-  {
-    json = { { "type", "spot" }, { "position", light.position }, { "target", light.target },
-      { "cone_angle", light.coneAngleDegrees } };
-  }
-  else if (light.type == SceneLight::Type::Point)
-  {
-    json = { { "type", "point" }, { "position", light.position } };
-  }
-  else
+  const bool isSpot = light.type == SceneLight::Type::Spot;
+  if (light.type == SceneLight::Type::Directional)
   {
     json = { { "type", "directional" }, { "direction", light.target - light.position } };
   }
+  else
+  {
+    json = { { "type",
+               light.area ? "area"
+                 : isSpot ? "spot"
+                          : "point" },
+      { "position", light.position } };
+    if (isSpot || light.area)
+    {
+      json["target"] = light.target;
+    }
+    if (isSpot)
+    {
+      json["cone_angle"] = light.coneAngleDegrees;
+    }
+  }
   if (light.area)
   {
-    json["type"] = "area";
-    json["target"] = light.target;
-    json["shape"] = light.area->rectangle ? "rectangle" : "disk";
-    if (light.area->rectangle)
-    {
-      json["width"] = light.area->width;
-      json["height"] = light.area->height;
-    }
-    else
-    {
-      json["radius"] = light.area->radius;
-    }
-    if (light.area->rectangle || !texture.empty())
+    const bool rectangle = light.area->rectangle;
+    json.update(rectangle ? Json{ { "shape", "rectangle" }, { "width", light.area->width },
+                              { "height", light.area->height } }
+                          : Json{ { "shape", "disk" }, { "radius", light.area->radius } });
+    if (rectangle || !texture.empty())
     {
       json["up"] = light.area->up;
     }
@@ -83,39 +83,46 @@ Json toJson(const SceneLight& light, const std::string& texture)
   return json;
 }
 
-/// Return a surface as JSON.
-/// @param texture file of its texture; empty without one
-Json toJson(const SceneModel& model, const std::string& file, const std::string& texture)
+/// Write an image, if there is one, beside other files.
+/// @return its name; empty without one
+std::string writeImage(
+  vtkImageData* image, const std::filesystem::path& folder, const std::string& name)
 {
-  Vec3 color;
-  model.property->GetColor(color.data());
-  Json json = { { "file", file }, { "matrix", model.matrix }, { "color", color },
-    { "casts", model.casts }, { "receives", model.receives }, { "one_sided", model.oneSided } };
-  if (!texture.empty())
+  if (!image)
   {
-    json["texture"] = texture;
+    return "";
   }
-  return json;
-}
-
-void writeImage(vtkImageData* image, const std::string& path)
-{
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
   writer->SetInputData(image);
   writer->Write();
   vtkUnsignedCharArray* const bytes = writer->GetResult();
-  writeWholeFile(
-    path, std::string(bytes->GetPointer(0), bytes->GetPointer(bytes->GetNumberOfValues())));
+  writeWholeFile((folder / (name + ".png")).string(),
+    std::string(bytes->GetPointer(0), bytes->GetPointer(bytes->GetNumberOfValues())));
+  return name + ".png";
 }
 
-void writeSurface(vtkPolyData* surface, const std::string& path)
+/// Write a surface beside other files.
+/// @return it as JSON
+Json writeModel(
+  const SceneModel& model, const std::filesystem::path& folder, const std::string& name)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->WriteToOutputStringOn();
-  writer->SetInputData(surface);
+  writer->SetInputData(model.surface);
   writer->Write();
-  writeWholeFile(path, writer->GetOutputString());
+  writeWholeFile((folder / (name + ".vtp")).string(), writer->GetOutputString());
+  Vec3 color;
+  model.property->GetColor(color.data());
+  Json json = { { "file", name + ".vtp" }, { "matrix", model.matrix }, { "color", color },
+    { "casts", model.casts }, { "receives", model.receives }, { "one_sided", model.oneSided } };
+  const std::string texture =
+    writeImage(model.texture ? model.texture->GetInput() : nullptr, folder, name);
+  if (!texture.empty())
+  {
+    json["texture"] = texture;
+  }
+  return json;
 }
 
 } // namespace
@@ -136,32 +143,18 @@ std::string exportScene(const Scene& scene, const std::string& folder)
   }
   const std::string path = (std::filesystem::path(folder) / (scene.name + ".json")).string();
   requireWritableFile(path, "--export", { ".json" });
-  Json json;
-  json["camera"] = toJson(scene.camera);
-  json["models"] = Json::array();
+  Json json = { { "camera", toJson(scene.camera) }, { "models", Json::array() },
+    { "lights", Json::array() } };
   for (const SceneModel& model : scene.models)
   {
-    const std::string name = scene.name + "-" + std::to_string(json["models"].size());
-    const std::string file = name + ".vtp";
-    writeSurface(model.surface, (std::filesystem::path(folder) / file).string());
-    const std::string texture = model.texture ? name + ".png" : "";
-    if (model.texture)
-    {
-      writeImage(model.texture->GetInput(), (std::filesystem::path(folder) / texture).string());
-    }
-    json["models"].push_back(toJson(model, file, texture));
+    json["models"].push_back(
+      writeModel(model, folder, scene.name + "-" + std::to_string(json["models"].size())));
   }
-  json["lights"] = Json::array();
   for (const SceneLight& light : scene.lights)
   {
-    const bool textured = light.area && light.area->texture;
-    const std::string texture =
-      textured ? scene.name + "-light-" + std::to_string(json["lights"].size()) + ".png" : "";
-    if (textured)
-    {
-      writeImage(light.area->texture, (std::filesystem::path(folder) / texture).string());
-    }
-    json["lights"].push_back(toJson(light, texture));
+    json["lights"].push_back(toJson(light,
+      writeImage(light.area ? light.area->texture : nullptr, folder,
+        scene.name + "-light-" + std::to_string(json["lights"].size()))));
   }
   json["background"] = scene.background;
 

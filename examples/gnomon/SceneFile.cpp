@@ -47,46 +47,31 @@ std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem:
   std::map<std::string, Model>& loaded, std::vector<std::string>& notes)
 {
   value.requireObject({ "file", "matrix", "color", "texture", "casts", "receives", "one_sided" });
-  const std::string path = (folder / value.member("file").text()).string();
-  auto place = loaded.find(path);
-  if (place == loaded.end())
+  const JsonValue file = value.member("file");
+  const std::string path = (folder / file.text()).string();
+  if (loaded.find(path) == loaded.end())
   {
-    try
-    {
-      place = loaded.emplace(path, readModelFile(path)).first;
-    }
-    catch (const BadInput& error)
-    {
-      value.member("file").refuse(error.what());
-    }
-    const Model& model = place->second;
-    notes.insert(notes.end(), model.notes.begin(), model.notes.end());
+    file.refuseOnError([&] { loaded[path] = readModelFile(path); });
+    notes.insert(notes.end(), loaded[path].notes.begin(), loaded[path].notes.end());
   }
-
+  const JsonValue image = value.member("texture");
+  const JsonValue matrix = value.member("matrix");
+  const JsonValue color = value.member("color");
   vtkSmartPointer<vtkTexture> texture;
-  if (const JsonValue image = value.member("texture"); image.present())
+  if (image.present())
   {
-    try
-    {
-      texture = readTexture((folder / image.text()).string());
-    }
-    catch (const BadInput& error)
-    {
-      image.refuse(error.what());
-    }
+    image.refuseOnError([&] { texture = readTexture((folder / image.text()).string()); });
   }
-
-  std::vector<SceneModel> surfaces = place->second.surfaces;
+  std::vector<SceneModel> surfaces = loaded[path].surfaces;
   for (SceneModel& surface : surfaces)
   {
-    if (const JsonValue matrix = value.member("matrix"); matrix.present())
+    if (matrix.present())
     {
-      const std::array<double, 16> worldFromFile = readMatrix(matrix);
       const std::array<double, 16> fileFromSurface = surface.matrix;
       vtkMatrix4x4::Multiply4x4(
-        worldFromFile.data(), fileFromSurface.data(), surface.matrix.data());
+        readMatrix(matrix).data(), fileFromSurface.data(), surface.matrix.data());
     }
-    if (const JsonValue color = value.member("color"); color.present())
+    if (color.present())
     {
       paint(surface, color.numbers<3>(colorChannel));
     }
@@ -94,7 +79,7 @@ std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem:
     {
       if (!surface.surface->GetPointData()->GetTCoords())
       {
-        value.member("texture").refuse(path + ": has no texture coordinates");
+        image.refuse(path + ": has no texture coordinates");
       }
       surface.texture = texture;
     }
@@ -108,6 +93,23 @@ std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem:
 } // namespace
 
 //------------------------------------------------------------------------------
+std::optional<double> readSurroundings(
+  const JsonValue& root, const std::filesystem::path& folder, Scene& scene)
+{
+  if (const JsonValue camera = root.member("camera"); camera.present())
+  {
+    scene.camera = readCamera(camera, std::nullopt);
+  }
+  for (const JsonValue& value : root.member("lights").elementsOrNone())
+  {
+    scene.lights.push_back(readLight(value, folder));
+  }
+  scene.background = root.member("background").numbersOr(scene.background, colorChannel);
+  const JsonValue ambient = root.member("ambient");
+  return ambient.present() ? std::optional(ambient.number({ 0.0, 1.0 })) : std::nullopt;
+}
+
+//------------------------------------------------------------------------------
 Scene readSceneFile(const std::string& path, std::optional<bool> ground)
 {
   const nlohmann::json document = readJsonFile(path);
@@ -119,20 +121,8 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground)
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
 
   // Cheap parts come first, so a typing error does not wait for the models.
-  const JsonValue camera = root.member("camera");
-  if (camera.present())
-  {
-    scene.camera = readCamera(camera, std::nullopt);
-  }
-  const JsonValue lights = root.member("lights");
-  for (const JsonValue& value : lights.elementsOrNone())
-  {
-    scene.lights.push_back(readLight(value, folder));
-  }
-  scene.background = root.member("background").numbersOr(scene.background, colorChannel);
+  const std::optional<double> ambient = readSurroundings(root, folder, scene);
   const bool onGround = ground.value_or(root.member("ground").booleanOr(false));
-  const JsonValue ambient = root.member("ambient");
-  const double ambientShare = ambient.numberOr(0.0, { 0.0, 1.0 });
 
   const JsonValue models = root.member("models");
   const std::vector<JsonValue> entries = models.elements();
@@ -149,7 +139,7 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground)
     }
   }
 
-  if (!camera.present())
+  if (!root.member("camera").present())
   {
     scene.camera = framingCamera(scene, onGround);
   }
@@ -157,13 +147,13 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground)
   {
     addGround(scene);
   }
-  if (!lights.present())
+  if (!root.member("lights").present())
   {
     scene.lights = { defaultLight() };
   }
-  if (ambient.present())
+  if (ambient)
   {
-    setAmbient(scene, ambientShare);
+    setAmbient(scene, *ambient);
   }
   return scene;
 }

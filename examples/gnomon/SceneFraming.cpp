@@ -1,6 +1,6 @@
 #include "SceneFraming.h"
 
-#include "BuiltinParts.h"
+#include "MeshBuilder.h"
 #include "Vec3.h"
 
 #include <vtkCellArray.h>

@@ -5,6 +5,8 @@
 #include "Vec3.h"
 #include "lights/SettingsTable.h"
 
+#include <map>
+
 namespace gnomon::tool
 {
 
@@ -15,11 +17,6 @@ constexpr NumberRange lightIntensity{ 0.0, 1e6 };
 constexpr NumberRange coneAngleDegrees{ 0.01, 89.9 };
 constexpr NumberRange fieldOfViewDegrees{ 0.01, 179.0 };
 constexpr NumberRange extent{ 1e-30, 1e30 };
-
-Vec3 readPoint(const JsonValue& value)
-{
-  return value.numbers<3>(anyCoordinate);
-}
 
 Vec3 readDirection(const JsonValue& value)
 {
@@ -34,7 +31,7 @@ Vec3 readDirection(const JsonValue& value)
 /// Read a target, which must differ from the position.
 Vec3 readTarget(const JsonValue& value, const Vec3& position)
 {
-  const Vec3 target = readPoint(value);
+  const Vec3 target = value.numbers<3>(anyCoordinate);
   if (length(target - position) == 0.0)
   {
     value.fail("a target that is not the position");
@@ -50,12 +47,9 @@ Vec3 readUp(const JsonValue& value, const Vec3& defaultUp, const Vec3& forward)
   constexpr double smallestSine = 1e-6;
   if (length(cross(normalized(forward), normalized(up))) < smallestSine)
   {
-    if (value.present())
-    {
-      value.fail("an up direction that is not parallel to the view");
-    }
-    value.refuse("missing, and the default [0, 1, 0] is parallel to the view, expected another "
-                 "up direction");
+    value.present() ? value.fail("an up direction that is not parallel to the view")
+                    : value.refuse("missing, and the default [0, 1, 0] is parallel to the view, "
+                                   "expected another up direction");
   }
   return up;
 }
@@ -63,47 +57,22 @@ Vec3 readUp(const JsonValue& value, const Vec3& defaultUp, const Vec3& forward)
 /// Read a setting of a light's shadows, as text.
 std::string readSetting(const JsonValue& value, const Setting& setting)
 {
+  ShadowSettings scratch;
   if (const auto* range = std::get_if<IntegerSetting>(&setting.values))
   {
     return std::to_string(value.integer(range->smallest, range->largest));
   }
   if (const auto* reals = std::get_if<RealSetting>(&setting.values))
   {
-    ShadowSettings scratch;
     setting.write(scratch, value.number({ reals->smallest, reals->largest }));
     return setting.get(scratch);
   }
   const std::string text = value.text();
-  if (ShadowSettings scratch; !setting.set(scratch, text))
+  if (!setting.set(scratch, text))
   {
     value.fail(setting.expected());
   }
   return text;
-}
-
-/// Refuse keys that a light of this kind does not have.
-void requireLight(const JsonValue& value, std::vector<std::string> known)
-{
-  known.insert(known.end(), { "type", "color", "intensity" });
-  for (const Setting* setting : shadowSettings())
-  {
-    known.push_back(setting->name);
-  }
-  value.requireObject(known);
-}
-
-/// Read the keys that all kinds of light share.
-void readCommon(const JsonValue& value, SceneLight& light)
-{
-  light.color = value.member("color").numbersOr(light.color, colorChannel);
-  light.intensity = value.member("intensity").numberOr(light.intensity, lightIntensity);
-  for (const Setting* setting : shadowSettings())
-  {
-    if (const JsonValue wished = value.member(setting->name); wished.present())
-    {
-      light.settings[setting->name] = readSetting(wished, *setting);
-    }
-  }
 }
 
 SceneLight::Box readBox(const JsonValue& value, const Vec3& travel)
@@ -115,48 +84,6 @@ SceneLight::Box readBox(const JsonValue& value, const Vec3& travel)
   box.depth = value.member("depth").number(extent);
   box.up = readUp(value.member("up"), box.up, travel);
   return box;
-}
-
-SceneLight readDirectional(const JsonValue& value)
-{
-  requireLight(value, { "direction", "box" });
-  SceneLight light;
-  light.type = SceneLight::Type::Directional;
-  light.target = Vec3{ { 0.0, 0.0, 0.0 } };
-  const Vec3 travel = normalized(readDirection(value.member("direction")));
-  light.position = -travel;
-  if (const JsonValue box = value.member("box"); box.present())
-  {
-    light.box = readBox(box, travel);
-    light.position = readPoint(box.member("position"));
-    light.target = light.position + travel;
-  }
-  readCommon(value, light);
-  return light;
-}
-
-SceneLight readSpot(const JsonValue& value)
-{
-  requireLight(value, { "position", "target", "cone_angle" });
-  SceneLight light;
-  light.type = SceneLight::Type::Spot;
-  light.position = readPoint(value.member("position"));
-  light.target = readTarget(value.member("target"), light.position);
-  light.coneAngleDegrees =
-    value.member("cone_angle").numberOr(light.coneAngleDegrees, coneAngleDegrees);
-  readCommon(value, light);
-  return light;
-}
-
-SceneLight readPointLight(const JsonValue& value)
-{
-  requireLight(value, { "position" });
-  SceneLight light;
-  light.type = SceneLight::Type::Point;
-  light.position = readPoint(value.member("position"));
-  light.target = light.position + Vec3{ { 0.0, -1.0, 0.0 } }; // arbitrary
-  readCommon(value, light);
-  return light;
 }
 
 /// Read the area of an area light. A rectangle's width lies along cross(travel, up), its height
@@ -174,64 +101,36 @@ SceneLight::Area readArea(
   area.rectangle = name == "rectangle";
   if (const JsonValue texture = value.member("texture"); texture.present())
   {
-    try
-    {
-      area.texture = readImage((folder / texture.text()).string());
-    }
-    catch (const BadInput& error)
-    {
-      texture.refuse(error.what());
-    }
+    texture.refuseOnError([&] { area.texture = readImage((folder / texture.text()).string()); });
   }
-  const std::vector<const char*> sizesOfOther = area.rectangle
-    ? std::vector<const char*>{ "radius" }
-    : std::vector<const char*>{ "width", "height" };
-  for (const char* size : sizesOfOther)
+  const auto refuseSurplus = [&](const char* key, const std::string& of)
   {
-    if (const JsonValue surplus = value.member(size); surplus.present())
+    if (const JsonValue surplus = value.member(key); surplus.present())
     {
-      surplus.refuse("means nothing for a " + name);
+      surplus.refuse("means nothing for a " + of);
     }
-  }
-  const JsonValue up = value.member("up");
+  };
   if (area.rectangle)
   {
+    refuseSurplus("radius", name);
     area.width = value.member("width").number(extent);
     area.height = value.member("height").number(extent);
   }
   else
   {
+    refuseSurplus("width", name);
+    refuseSurplus("height", name);
     area.radius = value.member("radius").number(extent);
-    if (!area.texture && up.present())
-    {
-      up.refuse("means nothing for a disk without texture");
-    }
   }
   if (area.rectangle || area.texture)
   {
-    area.up = readUp(up, area.up, travel);
+    area.up = readUp(value.member("up"), area.up, travel);
+  }
+  else
+  {
+    refuseSurplus("up", "disk without texture");
   }
   return area;
-}
-
-/// Read a light with an area around its position, which shines in all directions or as a spot
-/// light.
-SceneLight readAreaLight(const JsonValue& value, const std::filesystem::path& folder)
-{
-  requireLight(value,
-    { "position", "target", "cone_angle", "shape", "radius", "width", "height", "up", "texture" });
-  SceneLight light;
-  light.type = SceneLight::Type::Point;
-  light.position = readPoint(value.member("position"));
-  light.target = readTarget(value.member("target"), light.position);
-  if (const JsonValue angle = value.member("cone_angle"); angle.present())
-  {
-    light.type = SceneLight::Type::Spot;
-    light.coneAngleDegrees = angle.number(coneAngleDegrees);
-  }
-  light.area = readArea(value, light.target - light.position, folder);
-  readCommon(value, light);
-  return light;
 }
 
 } // namespace
@@ -239,25 +138,63 @@ SceneLight readAreaLight(const JsonValue& value, const std::filesystem::path& fo
 //------------------------------------------------------------------------------
 SceneLight readLight(const JsonValue& value, const std::filesystem::path& folder)
 {
+  static const std::map<std::string, std::vector<std::string>> keys = {
+    { "area",
+      { "position", "target", "cone_angle", "shape", "radius", "width", "height", "up",
+        "texture" } },
+    { "directional", { "direction", "box" } },
+    { "point", { "position" } },
+    { "spot", { "position", "target", "cone_angle" } },
+  };
   const JsonValue kind = value.member("type");
-  const std::string type = kind.text();
-  if (type == "directional")
-  {
-    return readDirectional(value);
-  }
-  if (type == "spot")
-  {
-    return readSpot(value);
-  }
-  if (type == "point")
-  {
-    return readPointLight(value);
-  }
-  if (type != "area")
+  const auto found = keys.find(kind.text());
+  if (found == keys.end())
   {
     kind.fail("one of: directional, spot, point, area");
   }
-  return readAreaLight(value, folder);
+  const auto& [type, ownKeys] = *found;
+  std::vector<std::string> known = ownKeys;
+  known.insert(known.end(), { "type", "color", "intensity" });
+  SceneLight light;
+  for (const Setting* setting : shadowSettings())
+  {
+    known.push_back(setting->name);
+    if (const JsonValue wished = value.member(setting->name); wished.present())
+    {
+      light.settings[setting->name] = readSetting(wished, *setting);
+    }
+  }
+  value.requireObject(known);
+  light.color = value.member("color").numbersOr(light.color, colorChannel);
+  light.intensity = value.member("intensity").numberOr(light.intensity, lightIntensity);
+
+  if (type == "directional")
+  {
+    const Vec3 travel = normalized(readDirection(value.member("direction")));
+    light.position = -travel;
+    if (const JsonValue box = value.member("box"); box.present())
+    {
+      light.box = readBox(box, travel);
+      light.position = box.member("position").numbers<3>(anyCoordinate);
+      light.target = light.position + travel;
+    }
+    return light;
+  }
+  light.type = SceneLight::Type::Point;
+  light.position = value.member("position").numbers<3>(anyCoordinate);
+  light.target = type == "point" ? light.position - Vec3{ 0.0, 1.0, 0.0 } // arbitrary
+                                 : readTarget(value.member("target"), light.position);
+  const JsonValue angle = value.member("cone_angle");
+  if (type == "spot" || angle.present())
+  {
+    light.type = SceneLight::Type::Spot;
+    light.coneAngleDegrees = angle.numberOr(light.coneAngleDegrees, coneAngleDegrees);
+  }
+  if (type == "area")
+  {
+    light.area = readArea(value, light.target - light.position, folder);
+  }
+  return light;
 }
 
 //------------------------------------------------------------------------------
@@ -269,7 +206,7 @@ SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>&
   const JsonValue target = value.member("target");
   if (position.present() || !defaults)
   {
-    camera.position = readPoint(position);
+    camera.position = position.numbers<3>(anyCoordinate);
   }
   if (target.present() || !defaults)
   {
@@ -303,14 +240,8 @@ nlohmann::ordered_json toJson(const SceneCamera& camera)
 {
   nlohmann::ordered_json json = { { "position", camera.position }, { "target", camera.target },
     { "up", camera.up } };
-  if (camera.parallelScale)
-  {
-    json["parallel_scale"] = *camera.parallelScale;
-  }
-  else
-  {
-    json["fov"] = camera.fovDegrees;
-  }
+  camera.parallelScale ? json["parallel_scale"] = *camera.parallelScale
+                       : json["fov"] = camera.fovDegrees;
   return json;
 }
 

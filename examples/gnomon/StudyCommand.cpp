@@ -272,7 +272,7 @@ void addStudyCommand(CLI::App& app)
     "Scenes: built-in names, scene files or model files, separated by commas");
   addList("--techniques", options->techniques,
     "Techniques, as for gnomon compare. By default all, except, for point lights, " +
-      listOf({ ofAreaLights.begin(), ofAreaLights.end() }));
+      gnomon::listOf({ ofAreaLights.begin(), ofAreaLights.end() }));
   addList("--map-sizes", comparison.mapSizesTexels, "Sides of the shadow maps in texels")
     ->check(CLI::Range(16, 16384));
   addList("--samples", options->lightSamples, "Samples of area lights")

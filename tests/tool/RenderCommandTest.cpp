@@ -27,7 +27,7 @@ class RenderCommand : public ::testing::Test
 protected:
   RenderCommand()
   {
-    writeBytes(this->folder / "model.obj", sampleObj());
+    writeBytes(this->folder / "model.obj", sampleFile("model.obj"));
     this->scene["models"] = { { { "file", "model.obj" } } };
   }
 

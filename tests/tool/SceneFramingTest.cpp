@@ -1,5 +1,4 @@
 #include "SceneFraming.h"
-#include "BuiltinParts.h"
 #include "MeshBuilder.h"
 
 #include <gtest/gtest.h>

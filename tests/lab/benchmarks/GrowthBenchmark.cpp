@@ -3,7 +3,6 @@
 // techniques draw frames in turn, so other load on the machine affects all alike.
 
 #include "BenchmarkMain.h"
-#include "BuiltinParts.h"
 #include "Commands.h"
 #include "Errors.h"
 #include "Files.h"
@@ -137,7 +136,7 @@ Scene makeScene(const Case& drawn)
   {
     const double turn = 0.6 + 2.0 * vtkMath::Pi() * i / drawn.lights;
     scene.lights.push_back(makeSun(
-      { { std::cos(turn), -0.6, std::sin(turn) } }, { { 1.0, 1.0, 1.0 } }, 1.0 / drawn.lights));
+      { { std::cos(turn), -0.6, std::sin(turn) } }, 1.0 / drawn.lights));
   }
   scene.camera = makeCamera({ { 0.0, 0.75, 1.1 } }, { { 0.0, -0.05, 0.0 } }, 45.0);
   return scene;

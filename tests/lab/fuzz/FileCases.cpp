@@ -62,7 +62,7 @@ std::string glbWithJpeg()
   document["bufferViews"][3]["byteLength"] = image.size();
   document["buffers"][0]["byteLength"] = begin + image.size();
   document["images"][0]["mimeType"] = "image/jpeg";
-  return tool::makeGlb(document, tool::sampleGltfBuffer().substr(0, begin) + image);
+  return tool::makeGlb(document, tool::sampleFile("buffer.bin").substr(0, begin) + image);
 }
 
 /// Return valid files by name, one of every type that the program reads.
@@ -70,7 +70,7 @@ std::map<std::string, std::string> goodFiles()
 {
   std::map<std::string, std::string> files = tool::sampleModels();
   files["scene.json"] = tool::sampleScene().dump(1);
-  files["texture.png"] = tool::samplePng();
+  files["texture.png"] = tool::sampleFile("picture.png");
   files["texture.jpg"] = sampleJpeg();
   files["jpeg.glb"] = glbWithJpeg();
   files["zlib.vtp"] = compressedVtp(&vtkXMLPolyDataWriter::SetCompressorTypeToZLib);
@@ -195,7 +195,7 @@ std::string broken(const std::string& name, std::string bytes, Random& random)
     --places;
     bytes = isJson
       ? withOtherValue(nlohmann::json::parse(bytes), random).dump(1)
-      : tool::makeGlb(withOtherValue(tool::sampleGltf(), random), tool::sampleGltfBuffer());
+      : tool::makeGlb(withOtherValue(tool::sampleGltf(), random), tool::sampleFile("buffer.bin"));
   }
   for (; places > 0; --places)
   {

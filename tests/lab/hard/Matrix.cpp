@@ -6,7 +6,7 @@
 #include "BuiltinScenes.h"
 #include "Comparison.h"
 #include "FrameVariant.h"
-#include "HardScenes.h"
+#include "BuiltinScenes.h"
 #include "VtkMessages.h"
 
 #include "lights/LightManager.h"
@@ -530,9 +530,9 @@ const std::vector<Row>& rows()
   static const std::vector<Row> all = []
   {
     std::vector<Row> of;
-    for (const tool::HardScene& scene : tool::hardScenes())
+    for (const tool::BuiltinScene& scene : tool::hardScenes())
     {
-      of.push_back({ scene.scene.name, scene.cases, std::nullopt });
+      of.push_back({ scene.name, scene.cases, std::nullopt });
     }
     of.push_back({ "camera-moves-aside", { "survey 11" }, Movement::CameraAside });
     of.push_back({ "camera-turns", { "selective 5.1.5" }, Movement::CameraTurned });

@@ -1,9 +1,9 @@
 #include "MatrixTable.h"
 
+#include "BuiltinScenes.h"
 #include "CsvRow.h"
 #include "Errors.h"
 #include "Files.h"
-#include "HardScenes.h"
 #include "Report.h"
 #include "Text.h"
 

@@ -8,33 +8,20 @@
 namespace gnomon::tool
 {
 
-// Small good files of every kind that the program reads, as bytes. Every model is the same pyramid:
-// 5 vertices, 6 triangles, from -1 to 1 in x and z, from 0 to 2 in y.
+// Small good files of every kind that the program reads, as bytes, from the folder samples. Every
+// model but textured.obj is the same pyramid: 5 vertices, 6 triangles, from -1 to 1 in x and z,
+// from 0 to 2 in y. buffer.bin holds the glTF document's positions, indices, texture coordinates
+// and image, picture.png 8 x 8 pixels.
 
-std::string sampleObj();
-std::string sampleAsciiPly();
-std::string sampleBinaryPly(bool bigEndian);
-std::string sampleAsciiStl();
-std::string sampleBinaryStl();
-std::string sampleVtp();
-std::string sample3ds();
-
-/// Positions, indices, texture coordinates and an image, as the glTF document's buffer has them.
-std::string sampleGltfBuffer();
-/// A document with a mesh, a camera, a spot light and a directional light. Its buffer has no URI
-/// yet.
-nlohmann::json sampleGltf();
-/// The same, with the buffer as a data URI.
-nlohmann::json sampleGltfWithBuffer();
-std::string makeGlb(const nlohmann::json& document, const std::string& buffer);
-
-std::string base64(const std::string& bytes);
-
-/// A picture of 8 x 8 pixels.
-std::string samplePng();
-
+std::string sampleFile(const std::string& name);
 /// All models, by file name: one of each type, some in several encodings.
 std::map<std::string, std::string> sampleModels();
+
+/// A document with a mesh, a camera, a spot light and a directional light.
+nlohmann::json sampleGltfWithBuffer();
+/// The same without its buffer, which a .glb file holds.
+nlohmann::json sampleGltf();
+std::string makeGlb(const nlohmann::json& document, const std::string& buffer);
 
 /// A scene file that uses model.obj.
 nlohmann::json sampleScene();
