@@ -53,7 +53,8 @@ const std::map<std::string, void (*)(Scene& scene)> parts = {
 
 /// Return the document. Its scenes have a scene file's keys, and for short "sun", a direction;
 /// "view", a camera's position, target and field of view; "lamp", see lampOf(); "like", a scene
-/// whose keys they share. Besides: "models" that several scenes share by name, and hard cases "elsewhere".
+/// whose keys they share. Besides: "models" that several scenes share by name, and hard cases
+/// "elsewhere".
 const Json& document()
 {
   static const Json parsed = Json::parse(BuiltinSceneTable);

@@ -12,7 +12,7 @@
 namespace gnomon
 {
 
-/// What proves that casters cover all of a texel.
+/// The proof that casters cover all of a texel.
 enum class Covering
 {
   Triangle, ///< one triangle contains it

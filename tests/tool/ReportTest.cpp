@@ -66,7 +66,7 @@ TEST(Report, CsvHasTheNumbers)
     ",\"a, \"\"b\"\"\",\"c\nd\",1,0.333333333,\r\n");
 }
 
-/// What to use when, and where it is wrong, come before all that folds out.
+/// The choice and its worst places come before all that folds out.
 TEST(Report, PageBeginsWithTheConclusion)
 {
   const std::string page = pageOf(syntheticResults());

@@ -40,7 +40,7 @@ Outcome runWell(const TestFolder& folder, const std::string& text)
   return outcome;
 }
 
-/// What a good run of `gnomon render` says of itself. It writes out.png and stats.json.
+/// Return the report of a good run of `gnomon render`, which writes out.png and stats.json.
 nlohmann::json statsOf(const TestFolder& folder, const std::string& arguments)
 {
   runWell(folder, "render " + arguments + " -o out.png --stats stats.json");
@@ -199,7 +199,7 @@ std::vector<BrokenInput> brokenInputs()
     add("gltf", names, "m.gltf", { { "m.gltf", document.dump() } });
   }
 
-  // What the error names, and a scene file.
+  // Names in the error, and a scene file.
   const auto sceneWith = [](const char* pointer, const std::string& value)
   {
     Json document = sampleScene();
@@ -229,7 +229,7 @@ std::vector<BrokenInput> brokenInputs()
       { { "scene.json", text }, { "model.obj", sampleFile("model.obj") } });
   }
 
-  // What the error names, and the arguments; with '+', after `render cube -o out.png`.
+  // Names in the error, and the arguments; with '+', after `render cube -o out.png`.
   const std::pair<const char*, const char*> options[] = {
     { "subcommand", "" },
     { "rendre", "rendre cube" },

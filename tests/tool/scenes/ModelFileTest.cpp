@@ -204,7 +204,7 @@ TEST(ModelFile, GltfMayHaveOtherCamerasAndLights)
 }
 
 //------------------------------------------------------------------------------
-TEST(ModelFile, WhatIsLeftOutIsNoted)
+TEST(ModelFile, NotesLeftOutParts)
 {
   TestFolder folder;
   const auto withNan = [](std::string bytes, std::size_t place)
