@@ -3,14 +3,12 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/SmoothFacet.h"
+#include "shadowtech/base/WeldedVertices.h"
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <tuple>
-#include <unordered_map>
 
 namespace gnomon
 {
@@ -29,29 +27,23 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t number)
 
 std::vector<std::uint32_t> connect(const Occluders& occluders, const Surface& surface)
 {
-  // The first vertex at each place.
-  std::map<std::tuple<float, float, float>, std::uint64_t> places;
-  std::vector<std::uint64_t> firsts(surface.vertexCount);
-  for (std::uint32_t vertex = 0; vertex < surface.vertexCount; ++vertex)
-  {
-    const glm::vec3 at = occluders.positionsCentred[surface.firstVertex + vertex];
-    firsts[vertex] = places.try_emplace({ at.x, at.y, at.z }, vertex).first->second;
-  }
-  std::vector<std::uint32_t> numbers(surface.triangleCount);
-  std::iota(numbers.begin(), numbers.end(), 0u);
-  std::unordered_map<std::uint64_t, std::uint32_t> triangleAt; // by an edge's ends
-  for (std::uint32_t triangle = 0; triangle < surface.triangleCount; ++triangle)
+  const std::vector<std::uint32_t> welded = weldedVertices(occluders, surface);
+  const auto edgeOf = [&](std::uint32_t side)
   {
     const glm::uvec3 corners =
-      occluders.triangles[surface.firstTriangle + triangle] - surface.firstVertex;
-    for (int i = 0; i < 3; ++i)
-    {
-      const std::uint64_t from = firsts[corners[i]], to = firsts[corners[(i + 1) % 3]];
-      const std::uint32_t other =
-        triangleAt.try_emplace(std::min(from, to) << 32 | std::max(from, to), triangle)
-          .first->second;
-      numbers[rootOf(numbers, triangle)] = rootOf(numbers, other);
-    }
+      occluders.triangles[surface.firstTriangle + side / 3] - surface.firstVertex;
+    const auto i = static_cast<glm::length_t>(side % 3);
+    return std::minmax({ welded[corners[i]], welded[corners[(i + 1) % 3]] });
+  };
+  std::vector<std::uint32_t> numbers(surface.triangleCount);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  FirstOfSame first(3 * numbers.size());
+  for (std::uint32_t side = 0; side < 3 * surface.triangleCount; ++side)
+  {
+    const auto edge = edgeOf(side);
+    const std::uint32_t same = first.of(side, hashOf({ { edge.first, edge.second, 0 } }),
+      [&](std::uint32_t other) { return edgeOf(other) == edge; });
+    numbers[rootOf(numbers, side / 3)] = rootOf(numbers, same / 3);
   }
   for (std::uint32_t& number : numbers)
   {

@@ -1,7 +1,7 @@
 #include "shadowtech/mesh/CasterEdges.h"
 
 #include "shadowtech/base/Bytes.h"
-#include "shadowtech/mesh/WeldedVertices.h"
+#include "shadowtech/base/WeldedVertices.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -2,7 +2,7 @@
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/mesh/CasterEdges.h"
-#include "shadowtech/mesh/WeldedVertices.h"
+#include "shadowtech/base/WeldedVertices.h"
 
 #include <tbb/parallel_sort.h>
 

@@ -1,7 +1,7 @@
 #include "shadowtech/mesh/TriangleFans.h"
 
 #include "shadowtech/base/Bytes.h"
-#include "shadowtech/mesh/WeldedVertices.h"
+#include "shadowtech/base/WeldedVertices.h"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 #include "RandomScenes.h"
 #include "SyntheticScene.h"
 
-#include "shadowtech/mesh/WeldedVertices.h"
+#include "shadowtech/base/WeldedVertices.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

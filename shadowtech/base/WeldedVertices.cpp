@@ -1,4 +1,4 @@
-#include "shadowtech/mesh/WeldedVertices.h"
+#include "shadowtech/base/WeldedVertices.h"
 
 namespace gnomon
 {
