@@ -3,18 +3,6 @@
 #include "PassScene.h"
 #include "Variant.h"
 
-#include "plugin/vtkGnomonVisibilityImages.h"
-
-#include <vtkCellArray.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkTransform.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <utility>
-
 using namespace gnomon::test;
 
 namespace
@@ -119,7 +107,6 @@ void placeSun(vtkLight* sun, const glm::dvec3& toLight)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_BY_VARIANTS(LitScenes, PlaneUnderTheSun, isForAll)
 {
   PassScene scene(200, 200);
@@ -140,7 +127,6 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderTheSun, isForAll)
   }
 }
 
-//------------------------------------------------------------------------------
 /// A plane seen along itself from its near end, where views are strongly warped.
 TEST_BY_VARIANTS(LitScenes, LongPlane, isForAll)
 {
@@ -171,7 +157,6 @@ TEST_BY_VARIANTS(LitScenes, LongPlane, isForAll)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Receivers are rounded by parts of a texel, and the map's levels are coarse.
 TEST_BY_VARIANTS(LitScenes, PlaneFromFarAway, isForAll)
 {
@@ -199,7 +184,6 @@ TEST_BY_VARIANTS(LitScenes, PlaneFromFarAway, isForAll)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_BY_VARIANTS(LitScenes, PlaneUnderASpotLight, hasPlainKernel)
 {
   PassScene scene(200, 200);
@@ -237,7 +221,6 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderASpotLight, hasPlainKernel)
   }
 }
 
-//------------------------------------------------------------------------------
 /// When the light is lowest, its angle at a corner of the floor is 89.3 degrees. A tilted plane is
 /// askew to the faces of the cube.
 TEST_BY_VARIANTS(LitScenes, PlaneUnderAPointLight, isForLamps)
@@ -269,7 +252,6 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderAPointLight, isForLamps)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Convex: every surface that faces the light is lit. Within a texel of the terminator, the map
 /// cannot tell.
 TEST_BY_VARIANTS(LitScenes, ConvexSphere, hasPlainKernel)
@@ -287,20 +269,6 @@ TEST_BY_VARIANTS(LitScenes, ConvexSphere, hasPlainKernel)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_BY_VARIANTS(LitScenes, ConvexBox, isForLamps)
-{
-  PassScene scene(120, 90);
-  scene.addBox({ -1.0, -1.0, 0.0 }, { 1.0, 1.0, 1.0 });
-  const glm::dvec3 lamp(2.0, -3.0, 4.0);
-  scene.addSpot(lamp, glm::dvec3(0.0), allDirections);
-  this->choose(scene);
-  GetParam().set(scene.pass, "map_size", "128");
-  scene.lookFrom({ 3.0, -6.0, 5.0 });
-  this->expectLit(scene, towardsLamp(lamp), 1000, { 0.999, 0.9 }, "");
-}
-
-//------------------------------------------------------------------------------
 TEST_BY_VARIANTS(LitScenes, SingleTriangle, isForAll)
 {
   vtkNew<vtkPoints> points;
@@ -331,7 +299,6 @@ TEST_BY_VARIANTS(LitScenes, SingleTriangle, isForAll)
   }
 }
 
-//------------------------------------------------------------------------------
 /// From the box's middle, the borders of the cube's faces run along the box's edges.
 TEST_BY_VARIANTS(LitScenes, InsideOfABox, isForRooms)
 {
@@ -355,26 +322,6 @@ TEST_BY_VARIANTS(LitScenes, InsideOfABox, isForRooms)
   }
 }
 
-//------------------------------------------------------------------------------
-/// The creases between its facets are concave.
-TEST_BY_VARIANTS(LitScenes, InsideOfASphere, isForRooms)
-{
-  PassScene scene(300, 300);
-  scene.addSphere(glm::dvec3(0.0), 2.0);
-  vtkLight* const lamp = scene.addSpot(glm::dvec3(0.0), { 0.0, 0.0, -1.0 }, allDirections);
-  this->choose(scene);
-  GetParam().set(scene.pass, "map_size", "256");
-  scene.lookFrom({ 1.2, 1.0, 0.9 });
-  scene.renderer->GetActiveCamera()->SetViewAngle(100.0);
-  scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 10.0);
-  for (const glm::dvec3& light : { glm::dvec3(0.0), { 0.7, -0.4, 0.9 } })
-  {
-    lamp->SetPosition(light.x, light.y, light.z);
-    this->expectLit(scene, towardsLamp(light), 89999, { 0.998, 0.6 }, textOf(light));
-  }
-}
-
-//------------------------------------------------------------------------------
 /// A floor and two walls without thickness, under a sun inside the trough, from near and through a
 /// long lens. The lens is so far away that positions are rounded by a good part of a texel. The
 /// receiver's plane is extrapolated from there to the kernel's end.
@@ -413,7 +360,6 @@ TEST_BY_VARIANTS(LitScenes, Trough, isForCorners)
   }
 }
 
-//------------------------------------------------------------------------------
 /// A hillside beyond a plain, seen along the plain. In warped views, the texels that a filter reads
 /// beyond the valley differ in size from those of the point.
 TEST_BY_VARIANTS(LitScenes, ValleyAcrossTheView, isForCorners)

@@ -149,21 +149,5 @@ TEST(BakeBackoff, isBoundedOverAnySequence)
   EXPECT_GT(bakes, 10000);
 }
 
-/// The worst sequences: a light moves right after each bake, or after the map was used just long
-/// enough.
-TEST(BakeBackoff, isBoundedForALightThatMovesWhenItHurtsMost)
-{
-  for (const bool servesLongEnough : { false, true })
-  {
-    Light light;
-    while (light.frames < 100000)
-    {
-      light.moveAndRest(servesLongEnough ? 2 * least : light.backoff.patience() + 1);
-      ASSERT_LE(light.bakes, light.frames / (2.0 * least) + 0.5);
-    }
-    EXPECT_GT(light.bakes, servesLongEnough ? 3000 : 90);
-  }
-}
-
 } // namespace
 } // namespace gnomon::test

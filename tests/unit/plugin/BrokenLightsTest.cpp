@@ -3,14 +3,8 @@
 
 #include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
-
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
-
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -167,7 +161,6 @@ INSTANTIATE_TEST_SUITE_P(ThroughLayers, BrokenLights, testing::Values(layersWay)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(BrokenLights, areLeftOutWithAReasonOrGiveVisibilities)
 {
   for (const BrokenLight& broken : brokenLights)

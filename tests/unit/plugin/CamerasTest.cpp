@@ -2,19 +2,7 @@
 
 #include "PassScene.h"
 
-#include "plugin/vtkGnomonVisibilityImages.h"
-
-#include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
-#include <vtkTransform.h>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <ostream>
-#include <string>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;

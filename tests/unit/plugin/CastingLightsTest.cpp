@@ -2,21 +2,9 @@
 
 #include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
-#include "shadowtech/Registry.h"
 #include "shadowtech/base/Kernel.h"
 
 #include <vtkMatrix4x4.h>
-#include <vtkProperty.h>
-#include <vtkTransform.h>
-
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace gnomon::test;
 using testing::ElementsAre;
@@ -59,49 +47,8 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Ways, CastingLights, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, CastingLights, testing::Values(planarWay), nameOf);
 
-/// True if a colour lies between two others, as for half a shadow.
-bool isBetween(const glm::ivec3& colour, const glm::ivec3& a, const glm::ivec3& b)
-{
-  const glm::dvec3 way(b - a);
-  const double length2 = glm::dot(way, way);
-  const double share = length2 > 0.0 ? glm::dot(glm::dvec3(colour - a), way) / length2 : 0.0;
-  const glm::dvec3 distance =
-    glm::abs(glm::dvec3(a) + glm::clamp(share, 0.0, 1.0) * way - glm::dvec3(colour));
-  return distance.r <= 1.5 && distance.g <= 1.5 && distance.b <= 1.5;
-}
-
-/// Check that shadows remove only the casting light. Each pixel must be that of plain VTK with all
-/// lights or without that light; a technique that filters may give a mixture.
-/// @return the number of pixels from which the light is removed
-std::size_t shadowedPixels(
-  const Picture& picture, const Picture& allLights, const Picture& withoutTheLight, bool filters)
-{
-  std::size_t shadowed = 0;
-  std::size_t neither = 0;
-  for (int y = 0; y < picture.height; ++y)
-  {
-    for (int x = 0; x < picture.width; ++x)
-    {
-      const auto differs = [&](const Picture& other)
-      {
-        const glm::ivec3 distance = glm::abs(picture.at(x, y) - other.at(x, y));
-        return distance.r > 1 || distance.g > 1 || distance.b > 1;
-      };
-      const bool isLit = !differs(allLights);
-      const bool isShadow = !differs(withoutTheLight);
-      shadowed += isShadow && !isLit ? 1 : 0;
-      const bool isMixed =
-        filters && isBetween(picture.at(x, y), allLights.at(x, y), withoutTheLight.at(x, y));
-      neither += !isShadow && !isLit && !isMixed ? 1 : 0;
-    }
-  }
-  EXPECT_EQ(neither, 0u);
-  return shadowed;
-}
-
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
 {
   vtkActorCollection* actors = this->scene.renderer->GetActors();
@@ -147,13 +94,28 @@ TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
   const Picture all = this->scene.render();
   sun->SetIntensity(0.0);
   const Picture without = this->scene.render();
-  const std::size_t shadowed = shadowedPixels(picture, all, without,
-    gnomon::findTechnique(GetParam().technique)->estimator->info.has(gnomon::kernelSettings()));
+  const bool filters =
+    gnomon::findTechnique(GetParam().technique)->estimator->info.has(gnomon::kernelSettings());
+  std::size_t shadowed = 0;
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = 0; x < picture.width; ++x)
+    {
+      const glm::dvec3 dark(without.at(x, y));
+      const glm::dvec3 way = glm::dvec3(all.at(x, y)) - dark;
+      const glm::dvec3 shown = glm::dvec3(picture.at(x, y)) - dark;
+      const double length2 = std::max(glm::dot(way, way), 1.0);
+      double lit = glm::clamp(glm::dot(shown, way) / length2, 0.0, 1.0);
+      lit = filters ? lit : std::round(lit);
+      const glm::dvec3 off = glm::abs(shown - lit * way);
+      EXPECT_LE(std::max({ off.r, off.g, off.b }), filters ? 1.5 : 1.0) << x << ", " << y;
+      shadowed += lit == 0.0 && length2 > 3.0 ? 1 : 0;
+    }
+  }
   EXPECT_GT(shadowed, 1000u);
   EXPECT_LT(shadowed, 12000u);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(CastingLights, strengthOfOneHalfTakesHalfOfTheLight)
 {
   vtkLight* sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
@@ -176,7 +138,6 @@ TEST_P(CastingLights, strengthOfOneHalfTakesHalfOfTheLight)
   EXPECT_GT(shadowed, 1000u);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(CastingLights, lightsThatFollowTheCameraAreWhereVtkHasThem)
 {
   for (const bool head : { true, false })
@@ -206,7 +167,6 @@ TEST_P(CastingLights, lightsThatFollowTheCameraAreWhereVtkHasThem)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_P(CastingLights, aHeadlightAloneCastsIfAsked)
 {
   vtkNew<vtkLight> head;
@@ -232,7 +192,6 @@ TEST_P(CastingLights, aHeadlightAloneCastsIfAsked)
   EXPECT_EQ(this->messages_.warnings().size(), 1u);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(CastingLights, noneAtAllIsNoted)
 {
   this->scene.render();
@@ -242,7 +201,6 @@ TEST_P(CastingLights, noneAtAllIsNoted)
   EXPECT_THAT(this->scene.report().notes, testing::Not(testing::Contains(HasSubstr("no light"))));
 }
 
-//------------------------------------------------------------------------------
 /// Nothing is drawn in a viewport without pixels, and nothing said; one that is partly outside of
 /// the window is drawn as VTK draws it.
 TEST_P(CastingLights, viewportsMayHaveNoPixels)
@@ -265,7 +223,6 @@ TEST_P(CastingLights, viewportsMayHaveNoPixels)
   EXPECT_EQ(differingPixels(this->scene.render(), shadowed), 0u);
 }
 
-//------------------------------------------------------------------------------
 /// A projection that a lamp cannot have does not affect the sun's.
 TEST_P(CastingLights, oneLightsTroubleIsItsOwn)
 {
@@ -288,27 +245,6 @@ TEST_P(CastingLights, oneLightsTroubleIsItsOwn)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_P(CastingLights, transformMatrixOfASceneLightCounts)
-{
-  for (const bool spot : { false, true })
-  {
-    this->scene.renderer->RemoveAllLights();
-    vtkLight* light = spot ? this->scene.addSpot({ -3.0, -1.0, 4.0 }, { 0.0, 0.0, 0.0 }, 40.0)
-                           : this->scene.addSun({ 1.0, 0.4, -1.5 });
-    const Picture before = this->scene.render();
-    vtkNew<vtkTransform> turn;
-    turn->RotateZ(60.0);
-    turn->Translate(0.2, 0.1, 0.3);
-    light->SetTransformMatrix(turn->GetMatrix());
-    const Picture turned = this->scene.render();
-    EXPECT_GT(differingPixels(before, turned, 64), 300u);
-    fix(light);
-    EXPECT_LE(differingPixels(turned, this->scene.render(), 2), 4u) << "spot: " << spot;
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_P(CastingLights, spotLightCastsWithinItsCone)
 {
   PassScene scene(300, 300);
@@ -340,7 +276,6 @@ TEST_P(CastingLights, spotLightCastsWithinItsCone)
   EXPECT_EQ(check.wrong(), 0u);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(CastingLights, eachLightHasItsOwnTechniqueInOneFrame)
 {
   this->scene.pass->KeepVisibilityOn();
@@ -375,49 +310,4 @@ TEST_P(CastingLights, eachLightHasItsOwnTechniqueInOneFrame)
   this->scene.render();
   EXPECT_EQ(this->scene.pass->GetVisibility().visibility[0], mapped.visibility[0]);
   EXPECT_NE(mixed.visibility[0], mapped.visibility[0]);
-}
-
-//------------------------------------------------------------------------------
-TEST_P(CastingLights, unknownTechniqueOfALightIsAnErrorAndChangesNothing)
-{
-  this->scene.usePlain();
-  vtkLight* sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
-  const Picture plain = this->scene.render();
-  this->scene.useGnomon();
-  const Picture shadowed = this->scene.render();
-  EXPECT_GT(differingPixels(plain, shadowed), 100u);
-  vtkGnomonLightKeys::SetTechnique(sun, "magic");
-  EXPECT_THAT(this->takeErrors(), HasSubstr("'technique', expected one of: auto, nsm"));
-  EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
-}
-
-//------------------------------------------------------------------------------
-TEST_P(CastingLights, absurdMapSizesAreClamped)
-{
-  vtkGnomonLightKeys::SetMapSize(this->scene.addSun({ 1.0, 0.4, -1.5 }), 1);
-  this->scene.render();
-  const bool bakes = gnomon::findTechnique(GetParam().technique)->estimator->info.bakesMap();
-  EXPECT_EQ(this->scene.report().lights[0].mapSizeTexels, bakes ? 16 : 0);
-  const std::string errors = this->takeErrors();
-  EXPECT_EQ(errors.empty(), bakes) << errors;
-}
-
-//------------------------------------------------------------------------------
-TEST_P(CastingLights, removedAndAddedLightsKeepTheirPlaces)
-{
-  vtkLight* first = this->scene.addSun({ 1.0, 0.4, -1.5 });
-  first->SetIntensity(0.5);
-  vtkSmartPointer<vtkLight> second = this->scene.addSun({ -1.0, 0.4, -1.5 });
-  second->SetIntensity(0.5);
-  const Picture both = this->scene.render();
-  this->scene.renderer->RemoveLight(second);
-  const Picture one = this->scene.render();
-  EXPECT_GT(differingPixels(both, one, 64), 300u);
-  this->scene.renderer->AddLight(second);
-  EXPECT_EQ(differingPixels(both, this->scene.render()), 0u);
-  first->SwitchOff();
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().lights[1].casts, true);
-  first->SwitchOn();
-  EXPECT_EQ(differingPixels(both, this->scene.render()), 0u);
 }

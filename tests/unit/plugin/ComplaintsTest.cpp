@@ -4,23 +4,8 @@
 
 #include "plugin/pass/Complaints.h"
 
-#include <vtkActorCollection.h>
-#include <vtkLight.h>
-#include <vtkLightCollection.h>
-#include <vtkNew.h>
-#include <vtkProperty.h>
 #include <vtkRenderStepsPass.h>
-#include <vtkRenderer.h>
 #include <vtkSSAAPass.h>
-#include <vtkSmartPointer.h>
-
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace gnomon::test
 {
@@ -120,7 +105,6 @@ INSTANTIATE_TEST_SUITE_P(All, ComplaintsOf,
       "shades at another resolution" }),
   nameOfMisuse);
 
-//------------------------------------------------------------------------------
 TEST_P(ComplaintsOf, misuseIsSaidOnceUntilItIsMended)
 {
   PassScene scene(60, 40);
@@ -141,7 +125,6 @@ TEST_P(ComplaintsOf, misuseIsSaidOnceUntilItIsMended)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(ComplaintsTest, textsThatStandAreNoNews)
 {
   Complaints complaints;
@@ -155,7 +138,6 @@ TEST(ComplaintsTest, textsThatStandAreNoNews)
   EXPECT_THAT(news(a, { "dim" }), IsEmpty());
 }
 
-//------------------------------------------------------------------------------
 /// Frames of several renderers alternate: what is true of one of them stands.
 TEST(ComplaintsTest, renderersShareWhatIsSaid)
 {

@@ -1,16 +1,10 @@
 #include "plugin/plan/CostModel.h"
 
-#include "plugin/vtkGnomonShadowPass.h"
-
 #include "PassScene.h"
-
-#include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 using namespace gnomon;
 using testing::HasSubstr;

@@ -24,13 +24,8 @@
 #include <vtkWeakPointer.h>
 
 #include <chrono>
-#include <functional>
 #include <iterator>
-#include <map>
-#include <string>
 #include <thread>
-#include <tuple>
-#include <vector>
 
 namespace gnomon::test
 {
@@ -370,15 +365,6 @@ TEST_F(PictureTimer, drawsARestingPictureAfterAProgramsMotion)
   EXPECT_FALSE(this->hasTimers());
 }
 
-TEST_F(PictureTimer, goesOnBesideARepeatingTimerThatRenders)
-{
-  this->on(this->interactor, vtkCommand::TimerEvent, [this] { this->interactor->Render(); });
-  this->interactor->CreateRepeatingTimer(20);
-  this->move();
-  wait(*this, 600.0);
-  EXPECT_EQ(this->technique(), "silhouette");
-}
-
 TEST_F(PictureTimer, thePassMayGoInTheFrameThatTheTimerDraws)
 {
   this->move();
@@ -398,15 +384,6 @@ TEST_F(PictureTimer, thePassMayGoWhileATimerWaits)
   other.Reset();
   this->render(); // until here VTK's mappers hold the pass
   EXPECT_EQ(gone, nullptr);
-  EXPECT_FALSE(this->hasTimers());
-}
-
-TEST_F(PictureTimer, aProgramsOwnTimerMayRemoveThePass)
-{
-  this->on(this->interactor, vtkCommand::TimerEvent, [this] { this->renderer->SetPass(nullptr); });
-  this->interactor->CreateOneShotTimer(5);
-  this->move();
-  wait(*this, 600.0);
   EXPECT_FALSE(this->hasTimers());
 }
 

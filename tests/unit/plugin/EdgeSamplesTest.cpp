@@ -3,21 +3,7 @@
 #include "BuiltinPass.h"
 #include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
-
-#include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkLightCollection.h>
 #include <vtkOpenGLSphereMapper.h>
-#include <vtkPoints.h>
-
-#include <glm/gtc/type_ptr.hpp>
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <ostream>
-#include <string>
-#include <vector>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -182,7 +168,6 @@ protected:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(EdgeSamplesOf, areCloserToTheTruth)
 {
   SampledScene scene(this->scene());
@@ -198,7 +183,6 @@ TEST_P(EdgeSamplesOf, areCloserToTheTruth)
   EXPECT_LT(error("64").rms, ofSixteen.rms);
 }
 
-//------------------------------------------------------------------------------
 /// If all nine pixels around show one surface in one light, nothing changes.
 TEST_P(EdgeSamplesOf, changeNothingAwayFromEdges)
 {
@@ -229,7 +213,6 @@ TEST_P(EdgeSamplesOf, changeNothingAwayFromEdges)
   EXPECT_EQ(changed, 0u);
 }
 
-//------------------------------------------------------------------------------
 /// The deferred route mixes the bytes of light and shadow; the image route rounds once.
 TEST_P(EdgeSamplesOf, lookAlikeByBothRoutes)
 {
@@ -256,7 +239,6 @@ TEST_P(EdgeSamplesOf, lookAlikeByBothRoutes)
   EXPECT_EQ(differingPixels(hard, draw(vtkGnomonShadowPass::ROUTE_DEFERRED, "1")), 0u);
 }
 
-//------------------------------------------------------------------------------
 /// A lit plate over ground wholly in its shadow, and lit ground before a dark wall.
 TEST_F(EdgeSamples, haveNoFringesAtOutlines)
 {
@@ -285,7 +267,6 @@ TEST_F(EdgeSamples, haveNoFringesAtOutlines)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EdgeSamples, areThereForAllLightsCamerasAndShapes)
 {
   const std::size_t ofSun = this->countMixed();
@@ -307,7 +288,6 @@ TEST_F(EdgeSamples, areThereForAllLightsCamerasAndShapes)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Maps decide samples with the same result as rays.
 TEST_F(EdgeSamples, agreeBetweenExactTechniques)
 {
@@ -321,37 +301,6 @@ TEST_F(EdgeSamples, agreeBetweenExactTechniques)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(EdgeSamples, lieOnSolids)
-{
-  this->scene.renderer->RemoveActor(this->sphere);
-  vtkNew<vtkPolyData> centres;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> vertices;
-  for (const glm::dvec3& centre : { glm::dvec3(0.0, 0.0, 1.2), { -0.8, -0.3, 2.4 } })
-  {
-    const vtkIdType point = points->InsertNextPoint(&centre.x);
-    vertices->InsertNextCell(1, &point);
-  }
-  centres->SetPoints(points);
-  centres->SetVerts(vertices);
-  vtkNew<vtkOpenGLSphereMapper> mapper;
-  mapper->SetInputData(centres);
-  mapper->SetRadius(0.7);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  this->scene.renderer->AddActor(actor);
-  const VisibilityImages& kept = drawKept(this->scene);
-  std::size_t mixed = 0;
-  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-  {
-    const float of = kept.visibility[0][i];
-    mixed += kept.coverage[i] == 1.0f && positionOf(kept, i).z > 0.1 && of > 0.0f && of < 1.0f;
-  }
-  EXPECT_GT(mixed, 5u) << "the upper sphere's shadow on the lower one";
-}
-
-//------------------------------------------------------------------------------
 TEST_F(EdgeSamples, areNotOfAreaLights)
 {
   this->scene.pass->SetTechnique("raytraced");

@@ -3,18 +3,7 @@
 
 #include "PassScene.h"
 
-#include "plugin/vtkGnomonVisibilityImages.h"
-
 #include <vtkCell.h>
-#include <vtkCellArray.h>
-#include <vtkPlaneSource.h>
-#include <vtkPoints.h>
-#include <vtkSphereSource.h>
-
-#include <array>
-#include <cmath>
-#include <random>
-#include <vector>
 
 namespace gnomon::test
 {

@@ -7,25 +7,7 @@
 #include "BuiltinScenes.h"
 #include "Scene.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
-#include "plugin/vtkGnomonShadowPass.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
-#include "shadowtech/Registry.h"
-
 #include <vtkBoundingBox.h>
-#include <vtkCamera.h>
-#include <vtkLight.h>
-#include <vtkNew.h>
-#include <vtkRenderer.h>
-
-#include <glm/gtc/type_ptr.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 namespace gnomon::test
 {
@@ -215,43 +197,6 @@ TEST(ExactFaces, areDecidedWhateverTheNoiseOfWhatIsBehindThem)
   }
 }
 
-/// A pole is whole in the truth and in pieces in a plain map. The hybrid traces it: no part is
-/// certain.
-TEST(ExactPoles, thatTheMapHasInPiecesAreTracedWhole)
-{
-  PassScene scene(256, 256);
-  scene.addFloor(1.0);
-  scene.addBox({ -0.004, -0.004, 0.05 }, { 0.004, 0.004, 0.9 });
-  scene.addSun({ 0.7, 0.2, -1.0 });
-  scene.lookDown(1.0);
-  scene.pass->KeepVisibilityOn();
-  scene.pass->SetMapSize(64);
-  scene.pass->SetSetting("bake", "always");
-  const auto draw = [&](const char* technique)
-  {
-    scene.pass->SetTechnique(technique);
-    scene.render();
-    return scene.pass->GetVisibility();
-  };
-  const VisibilityImages truth = draw("raytraced");
-  const VisibilityImages plain = draw("nsm");
-  const VisibilityImages hybrid = draw("crsm");
-  EXPECT_EQ(hybrid.visibility, truth.visibility);
-  std::size_t shadow = 0, found = 0, traced = 0;
-  for (std::size_t i = 0; i < truth.visibility[0].size(); ++i)
-  {
-    const bool inShadow = truth.visibility[0][i] == 0.0f && truth.normalZ[i] > 0.5f;
-    const ClassImage& classes = hybrid.classes[0];
-    shadow += inShadow ? 1 : 0;
-    found += inShadow && plain.visibility[0][i] == 0.0f ? 1 : 0;
-    traced += inShadow && classes.classes[classes.ofPixels[i]].name == "traced" ? 1 : 0;
-  }
-  EXPECT_GT(shadow, 50u);
-  EXPECT_GT(found, 0u);
-  EXPECT_LT(found, shadow / 2);
-  EXPECT_EQ(traced, shadow);
-}
-
 class ExactSoftScenes : public testing::TestWithParam<const char*>
 {
 };
@@ -283,6 +228,60 @@ TEST_P(ExactSoftScenes, showWhatAllRaysShow)
     EXPECT_EQ(std::count(truth[light].begin(), truth[light].end(), 1.0f),
       std::count(visibility[light].begin(), visibility[light].end(), 1.0f));
     EXPECT_TRUE(visibility[light] == truth[light]) << "light " << light;
+  }
+}
+
+/// Every pixel has a class, and the counts are of traced pixels. Without coherence `selective` is
+/// the truth inside its contour.
+class SelectiveScenes : public testing::TestWithParam<const char*>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Builtin, SelectiveScenes,
+  testing::Values("primitives", "cups", "room", "screens", "office", "terrain", "posts"),
+  [](const testing::TestParamInfo<const char*>& scene) { return testNameOf(scene.param); });
+
+TEST_P(SelectiveScenes, areTracedInsideTheContour)
+{
+  const BuiltinPass scene(GetParam(), 256);
+  const auto draw = [&](const char* technique) -> const VisibilityImages&
+  {
+    scene.pass->SetTechnique(technique);
+    scene.window->Render();
+    return scene.pass->GetVisibility();
+  };
+  for (const char* technique : { "coherence", "selective" })
+  {
+    draw(technique);
+    for (const LightReport& light : scene.pass->GetReport().lights)
+    {
+      std::int64_t pixels = 0, traced = 0;
+      for (const ClassCount& count : light.classes)
+      {
+        pixels += count.pixels;
+        traced += count.name.find("traced") != std::string::npos ? count.pixels : 0;
+      }
+      EXPECT_EQ(pixels, light.casts ? 256 * 256 : 0) << technique;
+      EXPECT_EQ(traced, light.tracedPixels) << technique;
+    }
+  }
+  const std::vector<std::vector<float>> truth = draw("raytraced").visibility;
+  scene.pass->SetTechnique("selective");
+  scene.pass->SetSetting("coherence", "off");
+  scene.pass->SetSetting("contour", "4");
+  const VisibilityImages& contour = draw("selective");
+  ASSERT_EQ(contour.visibility.size(), truth.size());
+  for (std::size_t light = 0; light < truth.size(); ++light)
+  {
+    const ClassImage& classes = contour.classes[light];
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < truth[light].size(); ++i)
+    {
+      const std::string& name = classes.classes[classes.ofPixels[i]].name;
+      const bool outside = name.find("outside") != std::string::npos;
+      inside += outside ? 0 : 1;
+      EXPECT_TRUE(outside || contour.visibility[light][i] == truth[light][i]) << name;
+    }
+    EXPECT_GT(inside, 0u);
   }
 }
 

@@ -2,13 +2,6 @@
 
 #include "PassScene.h"
 
-#include "plugin/vtkGnomonVisibilityImages.h"
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <string>
-
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
 
@@ -26,11 +19,6 @@ void choose(PassScene& scene, const char* technique, const NamedSettings& settin
   }
 }
 
-} // namespace
-
-namespace
-{
-
 /// A closed world of boxes and a sphere on a slab.
 void addClosedWorld(PassScene& scene)
 {
@@ -42,7 +30,6 @@ void addClosedWorld(PassScene& scene)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 /// Along a shadow's edge that runs away from the camera, one split's texels end and the next
 /// split's begin. Values in between must lie between both.
 TEST_F(PassTest, blendedSplitsFadeIntoEachOther)
@@ -115,51 +102,6 @@ TEST_F(PassTest, blendedSplitsHaveNoBorder)
   EXPECT_LT(with, 0.7f * without);
 }
 
-//------------------------------------------------------------------------------
-TEST_F(PassTest, theExactEarlyOutIsThatOfTheWholeDisc)
-{
-  const auto compare = [](PassScene& scene, const NamedSettings& more)
-  {
-    for (const int mapSize : { 60, 256, 1000 })
-    {
-      for (const char* size : { "3", "10", "25" })
-      {
-        scene.pass->SetMapSize(mapSize);
-        choose(scene, "adaptive", more);
-        choose(scene, "adaptive", { { "kernel_size", size }, { "early_out", "none" } });
-        const VisibilityImages whole = drawKept(scene);
-        scene.pass->SetSetting("early_out", "exact");
-        const VisibilityImages exact = drawKept(scene);
-        EXPECT_EQ(whole.visibility, exact.visibility) << "map " << mapSize << ", kernel " << size;
-      }
-    }
-  };
-  {
-    PassScene scene(200, 200);
-    addClosedWorld(scene);
-    scene.addSun({ 1.0, 0.4, -1.5 });
-    scene.lookFrom({ 4.0, -7.0, 6.0 });
-    compare(scene, {});
-    compare(scene, { { "projection", "lispsm" } });
-    compare(scene, { { "projection", "uniform" }, { "kernel_width", "0.3" } });
-  }
-  {
-    PassScene scene(200, 200);
-    addClosedWorld(scene);
-    scene.addSpot({ -3.0, -3.0, 5.0 }, glm::dvec3(0.0), 45.0);
-    scene.lookFrom({ 4.0, -7.0, 6.0 });
-    compare(scene, {});
-  }
-  {
-    PassScene scene(200, 200);
-    addClosedWorld(scene);
-    scene.addSpot({ 0.5, 1.0, 3.0 }, glm::dvec3(0.0), allDirections);
-    scene.lookFrom({ 4.0, -7.0, 6.0 });
-    compare(scene, {});
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(PassTest, euclideanMapsShadowAsLinearOnesDo)
 {
   for (const double cone : { 50.0, allDirections })
@@ -178,7 +120,6 @@ TEST_F(PassTest, euclideanMapsShadowAsLinearOnesDo)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(PassTest, secondAndMidpointMapsOfClosedCastersHaveNoAcneAndTheSameShadows)
 {
   for (const char* depth : { "first", "second", "midpoint" })
@@ -198,8 +139,6 @@ TEST_F(PassTest, secondAndMidpointMapsOfClosedCastersHaveNoAcneAndTheSameShadows
         const VisibilityImages& traced = drawKept(scene);
         const Agreement agreement = compareVisibility(mapped, traced);
         const double wrong = static_cast<double>(agreement.wrong) / agreement.covered;
-        RecordProperty(
-          std::string(depth) + technique + (lamp ? "Lamp" : "Sun"), std::to_string(wrong));
         EXPECT_LT(wrong, 0.02) << depth << ", " << technique << ", lamp: " << lamp;
         // Count the slab's middle and the sphere, where they are lit, far from any shadow.
         std::size_t dark = 0;
@@ -221,7 +160,6 @@ TEST_F(PassTest, secondAndMidpointMapsOfClosedCastersHaveNoAcneAndTheSameShadows
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(PassTest, aSheetCastsNoShadowIntoASecondDepthMap)
 {
   const auto shadowOf = [](const char* depth)
@@ -238,27 +176,4 @@ TEST_F(PassTest, aSheetCastsNoShadowIntoASecondDepthMap)
   EXPECT_EQ(shadowOf("first"), 0);
   EXPECT_EQ(shadowOf("midpoint"), 0);
   EXPECT_NEAR(shadowOf("second"), slantingSunValue, 1.0);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(PassTest, aNewKindOfDepthIsBakedOnce)
-{
-  PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  scene.pass->SetTechnique("adaptive");
-  scene.render();
-  for (const auto& [name, value] : NamedSettings{ { "depth", "midpoint" }, { "early_out", "ring" },
-         { "disc_grid", "5" }, { "disc_sets", "3" }, { "bias_constant", "0.1" },
-         { "bias_slope", "1" }, { "metric", "euclidean" }, { "kernel_width", "0.1" } })
-  {
-    scene.pass->SetSetting(name.c_str(), value.c_str());
-    scene.render();
-    EXPECT_EQ(scene.report().mapBakes, 1) << name;
-    scene.render();
-    EXPECT_EQ(scene.report().mapBakes, 0) << name;
-    EXPECT_EQ(scene.report().programCompiles, 0) << name;
-  }
 }

@@ -4,19 +4,6 @@
 #include "PassScene.h"
 #include "Variant.h"
 
-#include "lights/vtkGnomonLightKeys.h"
-
-#include <gmock/gmock.h>
-#include <vtkActor.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-
-#include <functional>
-#include <utility>
-#include <vector>
-
 using namespace gnomon::test;
 
 namespace
@@ -73,7 +60,6 @@ bool isSoft(const Variant& variant)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 /// Along the axes, in the floor's plane and nearly in it.
 TEST_BY_VARIANTS(DegenerateScenes, UnderAnySun, isForAll)
 {
@@ -89,7 +75,6 @@ TEST_BY_VARIANTS(DegenerateScenes, UnderAnySun, isForAll)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Inside a caster; below it; on surfaces and on a corner; at the camera; far away.
 TEST_BY_VARIANTS(DegenerateScenes, UnderAnyLamp, isForAll)
 {
@@ -109,7 +94,6 @@ TEST_BY_VARIANTS(DegenerateScenes, UnderAnyLamp, isForAll)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Areas from that of a point to far larger than the scene.
 TEST_BY_VARIANTS(DegenerateScenes, UnderLightsOfAnySize, isSoft)
 {
@@ -142,7 +126,6 @@ TEST_BY_VARIANTS(DegenerateScenes, UnderLightsOfAnySize, isSoft)
   drawSizes({ "1e-6", "20", "170" });
 }
 
-//------------------------------------------------------------------------------
 /// As the least float marks it in rasters.
 TEST_BY_VARIANTS(DegenerateScenes, WithMissingData, isForAll)
 {
@@ -167,7 +150,6 @@ TEST_BY_VARIANTS(DegenerateScenes, WithMissingData, isForAll)
   EXPECT_THAT(scene.report().notes, testing::Contains(testing::HasSubstr("missing data")));
 }
 
-//------------------------------------------------------------------------------
 /// Cameras that see nothing at all, away from everything, inside a caster, and in the floor's
 /// plane. From below, no receiver faces the light. They do not affect later frames.
 TEST_BY_VARIANTS(DegenerateScenes, SeenFromAnywhere, isForAll)

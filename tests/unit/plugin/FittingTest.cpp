@@ -3,17 +3,7 @@
 
 #include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
-
 #include <vtkLineSource.h>
-#include <vtkProperty.h>
-
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -104,7 +94,6 @@ INSTANTIATE_TEST_SUITE_P(Kinds, FittingOfKinds,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(Fitting, reportSaysWhatViewsAreFittedTo)
 {
   PassScene scene(64, 48);
@@ -151,7 +140,6 @@ TEST_F(Fitting, reportSaysWhatViewsAreFittedTo)
   EXPECT_THAT(reason(), HasSubstr("translucent"));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(Fitting, isDoneAgainOnlyWhenOtherReceiversMayBeSeen)
 {
   PassScene scene(64, 48);
@@ -189,7 +177,6 @@ TEST_F(Fitting, isDoneAgainOnlyWhenOtherReceiversMayBeSeen)
   expectBakedOnce();
 }
 
-//------------------------------------------------------------------------------
 TEST_P(FittingOfKinds, leavesFewerWrongPixelsThanTheFrustum)
 {
   PassScene scene(300, 300);
@@ -209,7 +196,6 @@ TEST_P(FittingOfKinds, leavesFewerWrongPixelsThanTheFrustum)
   EXPECT_LT(2 * receivers, unfitted);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(Fitting, bringsEveryEstimatorNearerToTheTruth)
 {
   PassScene scene(240, 240);
@@ -247,46 +233,6 @@ TEST_F(Fitting, bringsEveryEstimatorNearerToTheTruth)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_P(FittingOfKinds, leavesOutCastersWithoutChangingThePicture)
-{
-  PassScene scene(200, 200);
-  this->fill(scene);
-  vtkLight* light = GetParam().add(scene);
-  this->fit(scene, "frame");
-  // All in the box of the scene and its casters, and far from the visible part.
-  std::vector<vtkActor*> others;
-  for (const glm::dvec2& place :
-    { glm::dvec2(25.0, 25.0), { 25.0, -25.0 }, { -25.0, 25.0 }, { -25.0, -25.0 }, { 30.0, 0.0 } })
-  {
-    others.push_back(
-      scene.addBox({ place.x, place.y, 0.0 }, { place.x + 1.0, place.y + 1.0, 2.0 }));
-  }
-  for (const std::string& technique : this->techniquesFor(light))
-  {
-    SCOPED_TRACE(technique);
-    scene.pass->SetTechnique(technique.c_str());
-    for (vtkActor* other : others)
-    {
-      other->VisibilityOn();
-    }
-    const VisibilityImages all = drawKept(scene);
-    EXPECT_EQ(scene.report().lights.at(0).fit, "receivers");
-    const int leftOut = scene.report().lights.at(0).castersLeftOut;
-    EXPECT_GE(leftOut, 3);
-    scene.render();
-    EXPECT_EQ(scene.report().mapBakes, 0);
-    EXPECT_EQ(scene.report().lights.at(0).castersLeftOut, leftOut);
-    for (vtkActor* other : others)
-    {
-      other->VisibilityOff();
-    }
-    const VisibilityImages few = drawKept(scene);
-    EXPECT_EQ(few.visibility, all.visibility);
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(Fitting, warpOfAViewAlongTheGroundFollowsTheReceivers)
 {
   PassScene scene(320, 240);
@@ -311,32 +257,6 @@ TEST_F(Fitting, warpOfAViewAlongTheGroundFollowsTheReceivers)
   EXPECT_LE(chosen, published);
 }
 
-//------------------------------------------------------------------------------
-TEST_F(Fitting, warpUnderLightAlongTheViewIsAsGoodAsNone)
-{
-  const glm::dvec3 ahead = glm::normalize(glm::dvec3(0.0, 4.0, -4.0));
-  for (const glm::dvec3& direction :
-    { ahead, glm::dvec3(0.05, 1.0, -1.0), glm::dvec3(0.0, -1.0, -0.9), glm::dvec3(0.0, 1.0, -0.2) })
-  {
-    SCOPED_TRACE(std::to_string(direction.x) + ", " + std::to_string(direction.y));
-    PassScene scene(320, 240);
-    this->fill(scene);
-    scene.addBox({ 1.0, 0.5, 0.0 }, { 1.2, 0.7, 2.0 });
-    scene.pass->SetSetting("map_size", "128");
-    scene.addSun(direction);
-    const VisibilityImages truth = this->truthOf(scene);
-    this->fit(scene, "frame", "off");
-    const std::size_t uniform = this->wrong(scene, "nsm", truth);
-    const std::size_t chosen = this->wrong(scene, "lispsm", truth);
-    EXPECT_LE(chosen, 1.05 * static_cast<double>(uniform) + 20.0) << uniform;
-    for (const float visibility : drawKept(scene).visibility.at(0))
-    {
-      ASSERT_TRUE(visibility >= 0.0f && visibility <= 1.0f);
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(Fitting, snappedEdgesStayWhereTheyAreWhenTheCameraMoves)
 {
   // The floor from straight above. A pixel is a tenth of a texel or less. The camera moves by whole

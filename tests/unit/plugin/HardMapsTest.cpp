@@ -3,12 +3,6 @@
 #include "PassScene.h"
 #include "Variant.h"
 
-#include "plugin/vtkGnomonPropKeys.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
-
-#include <cmath>
-#include <string>
-
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
 
@@ -43,7 +37,6 @@ INSTANTIATE_TEST_SUITE_P(All, BakedMaps,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(BakedMaps, receiversThatDoNotCastMayLieBehindAllCasters)
 {
   for (const bool spot : { false, true })
@@ -64,7 +57,6 @@ TEST_P(BakedMaps, receiversThatDoNotCastMayLieBehindAllCasters)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_P(HardMaps, shadowsTouchTheirCasters)
 {
   // A wall on a floor, seen from above. Its shadow must begin within a texel of x = 0.1.
@@ -97,7 +89,6 @@ TEST_P(HardMaps, shadowsTouchTheirCasters)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_P(HardMaps, thinPostsCastWhereverTheyCoverTexelCentres)
 {
   PassScene scene(300, 300);
@@ -125,7 +116,6 @@ TEST_P(HardMaps, thinPostsCastWhereverTheyCoverTexelCentres)
   EXPECT_LE(agreement.wrong, shadow / 2);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(HardMaps, smallestMapStillShadows)
 {
   PassScene scene(200, 200);

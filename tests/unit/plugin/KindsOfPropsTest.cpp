@@ -4,15 +4,7 @@
 #include "BuiltinPass.h"
 #include "PassScene.h"
 
-#include "shadowtech/base/vtkGnomonFrameReport.h"
-
-#include <vtkActor.h>
-#include <vtkPlaneSource.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkPropCollection.h>
-
-#include <algorithm>
-#include <string>
 
 using gnomon::FrameReport;
 using namespace gnomon::test;
@@ -98,7 +90,6 @@ INSTANTIATE_TEST_SUITE_P(By, KindsOfProps,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(KindsOfProps, castOrAreListed)
 {
   const Shown all = this->draw();
@@ -112,7 +103,6 @@ TEST_P(KindsOfProps, castOrAreListed)
     });
 }
 
-//------------------------------------------------------------------------------
 /// A plate hides the sun from everything and nothing from the camera.
 TEST_P(KindsOfProps, receiveOrAreListed)
 {

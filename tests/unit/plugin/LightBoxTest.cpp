@@ -2,18 +2,8 @@
 
 #include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
-#include "plugin/vtkGnomonPropKeys.h"
-
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
-#include <vtkTransform.h>
-
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 using namespace gnomon::test;
 using testing::HasSubstr;
@@ -112,7 +102,6 @@ INSTANTIATE_TEST_SUITE_P(OnPlanes, LightBox, testing::Values(planarWay), nameOf)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(LightBox, lightsAndCastsWithinOnly)
 {
   this->addCaster({ { -0.5, -0.5, 0.5 }, { 0.5, 0.5, 1.0 } });   // inside
@@ -136,7 +125,6 @@ TEST_P(LightBox, lightsAndCastsWithinOnly)
   EXPECT_GT(check.falseShadow, 100u);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(LightBox, withoutCastersStillEnds)
 {
   vtkGnomonLightKeys::SetBox(this->light, width, height, 9.0, this->up);
@@ -147,7 +135,6 @@ TEST_P(LightBox, withoutCastersStillEnds)
   EXPECT_EQ(this->scene.redAt(this->scene.render(), 0.0, 0.0), 0);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(LightBox, turnsWithItsLight)
 {
   this->addCaster({ { -0.5, -0.5, 0.5 }, { 0.5, 0.5, 1.0 } });
@@ -169,7 +156,6 @@ TEST_P(LightBox, turnsWithItsLight)
   EXPECT_LE(differingPixels(turned, this->scene.render(), 2), 4u);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(LightBox, sizesThatAreNoneAreAnError)
 {
   const double inf = std::numeric_limits<double>::infinity();

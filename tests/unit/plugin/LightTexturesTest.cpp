@@ -1,31 +1,14 @@
 // Lights with textures in frames: coloured visibility against known values and rays, and the
 // support of techniques and routes.
 
-#include "PassScene.h"
+#include "AreaLights.h"
 #include "Scene.h"
 
 #include "lights/LightManager.h"
-#include "lights/vtkGnomonAreaLight.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
-#include "plugin/vtkGnomonPropKeys.h"
-#include "shadowtech/Registry.h"
 
-#include <vtkActorCollection.h>
 #include <vtkCollectionRange.h>
 #include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkLightCollection.h>
-#include <vtkPointData.h>
-#include <vtkProperty.h>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
 
 using namespace gnomon::test;
 using gnomon::LightChannel;
@@ -47,7 +30,6 @@ constexpr Colour blue(0.0, 0.0, 1.0);
 constexpr Colour white(1.0);
 constexpr Colour black(0.0);
 
-/// The left half red, the right half blue.
 vtkSmartPointer<vtkImageData> makeRedAndBlue()
 {
   return makeImage(2, 1, [](int x, int) { return x == 0 ? red : blue; });
@@ -70,9 +52,9 @@ protected:
     this->lamp->SetWidth(2.0);
     this->lamp->SetHeight(2.0);
     this->scene.renderer->AddLight(this->lamp);
-    this->scene.pass->SetSetting("light_samples", "256");
-    this->scene.pass->SetSetting("mc_rays", "10");
-    this->scene.pass->SetSetting("mc_filter", "0");
+    this->scene.set("light_samples", "256");
+    this->scene.set("mc_rays", "10");
+    this->scene.set("mc_filter", "0");
     this->scene.lookDown(1.2);
   }
 
@@ -91,10 +73,7 @@ protected:
   /// A box and a sphere over a floor that casts, under a large lamp.
   void buildScene()
   {
-    this->scene.addFloor(4.0);
-    this->scene.addBox({ -0.7, -0.7, 0.0 }, { 0.7, 0.7, 1.0 });
-    this->scene.addSphere({ 1.3, 0.8, 1.4 }, 0.5);
-    this->scene.lookFrom({ 2.0, -8.0, 7.0 });
+    this->scene.addThings();
     this->lamp->SetPosition(-2.0, -2.5, 6.0);
   }
 
@@ -140,11 +119,10 @@ protected:
   vtkActor* floor = nullptr;
 };
 
-//------------------------------------------------------------------------------
 TEST_F(LightTextures, haveTheirMeanWhereNothingHidesThem)
 {
   this->addFloor();
-  this->scene.pass->SetSetting("mc_classify", "off"); // bounds would decide all without rays
+  this->scene.set("mc_classify", "off"); // bounds would decide all without rays
   for (const bool disk : { false, true })
   {
     disk ? this->lamp->SetShapeToDisk() : this->lamp->SetShapeToRectangle();
@@ -169,43 +147,70 @@ TEST_F(LightTextures, haveTheirMeanWhereNothingHidesThem)
   }
 }
 
-//------------------------------------------------------------------------------
+/// From x, the part of a lamp beyond -x is visible past the plate. Looking up, the picture's right
+/// is -x and its top +y. A sun whose slopes end at 0.2 is seen alike.
 TEST_F(LightTextures, areSeenHalfByHalf)
 {
   this->addFloor();
-  this->addPlate({ -8.0, -8.0, 0.0 }, { 0.0, 8.0, 0.0 });
-  this->lamp->SetTexture(makeRedAndBlue());
-  // From x, the part of the lamp beyond -x is visible. Looking up, the picture's right is -x.
-  const auto expected = [](const glm::dvec3& place)
+  for (const auto& [sun, axis] : { std::pair(false, 0), { false, 1 }, { true, 0 }, { true, 1 } })
   {
-    return Colour{ 0.5 * std::clamp(1.0 + place.x, 0.0, 1.0), 0.0,
-      0.5 * std::clamp(place.x, 0.0, 1.0) };
-  };
-  this->expectFloor("raytraced", expected, 0.003, 0.03);
-  this->expectFloor("penumbra", expected, 0.003, 0.03);
-  this->expectFloor("sampled", expected, 0.003, 0.03);
-  this->expectFloor("montecarlo", expected, 0.01, 0.1);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(LightTextures, standUpright)
-{
-  this->addFloor();
-  this->addPlate({ -8.0, -8.0, 0.0 }, { 8.0, 0.0, 0.0 });
-  this->lamp->SetTexture(makeImage(1, 2, [](int, int y) { return y == 0 ? green : red; }));
-  const auto expected = [](const glm::dvec3& place)
-  {
-    return Colour{ 0.5 * std::clamp(1.0 + place.y, 0.0, 1.0), 0.5 * std::clamp(place.y, 0.0, 1.0),
-      0.0 };
-  };
-  for (const char* technique : { "raytraced", "penumbra", "sampled" })
-  {
-    this->expectFloor(technique, expected, 0.003, 0.03);
+    this->lamp->SetPositional(!sun);
+    this->lamp->SetWidth(sun ? 2.0 * glm::degrees(std::atan(0.2)) : 2.0);
+    this->lamp->SetHeight(this->lamp->GetWidth());
+    glm::dvec3 end(8.0, 8.0, 0.0);
+    end[axis] = 0.0;
+    this->addPlate({ -8.0, -8.0, 0.0 }, end);
+    this->lamp->SetTexture(makeImage(axis == 0 ? 2 : 1, axis == 0 ? 1 : 2,
+      [axis = axis](int x, int y) { return (axis == 0 ? x == 0 : y == 1) ? red : blue; }));
+    const auto expected = [axis = axis](const glm::dvec3& place)
+    {
+      return Colour{ 0.5 * std::clamp(1.0 + place[axis], 0.0, 1.0), 0.0,
+        0.5 * std::clamp(place[axis], 0.0, 1.0) };
+    };
+    for (const char* technique : { "raytraced", "penumbra", "sampled" })
+    {
+      this->expectFloor(technique, expected, 0.003, 0.03);
+    }
+    this->expectFloor("montecarlo", expected, 0.01, 0.1);
+    this->scene.renderer->RemoveActor(this->scene.renderer->GetActors()->GetLastActor());
   }
-  this->expectFloor("montecarlo", expected, 0.01, 0.1);
 }
 
-//------------------------------------------------------------------------------
+TEST_F(LightTextures, showWhatRaysShow)
+{
+  this->scene.renderer->RemoveLight(this->lamp);
+  this->scene.addThings();
+  for (const AreaLight& area : areaLights())
+  {
+    if (!area.isTextured)
+    {
+      continue;
+    }
+    SCOPED_TRACE(area.name);
+    vtkLight* light = area.add(this->scene);
+    const VisibilityImages truth = this->draw("raytraced");
+    const auto meanOff = [&](const char* technique)
+    {
+      const VisibilityImages& kept = this->draw(technique);
+      double sum = 0.0;
+      for (std::size_t channel = 0; channel < 3; ++channel)
+      {
+        sum += meanDifference(kept.visibility[channel], truth.visibility[channel]) / 3.0;
+      }
+      return sum;
+    };
+    EXPECT_EQ(meanOff("penumbra"), 0.0);
+    EXPECT_LT(meanOff("coherence"), 0.001);
+    EXPECT_LT(meanOff("sampled"), 0.003);
+    EXPECT_LT(meanOff("montecarlo"), 0.003);
+    EXPECT_THAT(this->scene.report().notes, testing::Not(testing::Contains(HasSubstr("even"))));
+    meanOff("pcss");
+    EXPECT_THAT(this->scene.report().notes,
+      testing::Contains("light 0: 'pcss' shows an even light of its texture's mean colour"));
+    this->scene.renderer->RemoveLight(light);
+  }
+}
+
 TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
 {
   // The lowest quarter of a lamp beside the floor (green) is below it. The highest quarter (red)
@@ -229,30 +234,11 @@ TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(LightTextures, giveWayWhereTheyAreCutBetweenTheRim)
-{
-  // If a lamp like that above stands on its corner, only that corner is below the floor. There may
-  // be no rim point in it.
-  this->addFloor();
-  this->lamp->SetPosition(-5.0, 0.0, 1.3);
-  this->lamp->SetFocalPoint(0.0, 0.0, 1.3);
-  this->lamp->SetTexture(
-    makeImage(16, 16, [](int x, int y) { return x + y < 6 || x - y > 12 ? green : blue; }));
-  for (int turn = 0; turn < 4; ++turn)
-  {
-    this->lamp->SetUp(0.0, turn % 2 == 0 ? 1.0 : -1.0, turn < 2 ? 1.0 : -1.0);
-    const VisibilityImages truth = this->draw("raytraced");
-    EXPECT_EQ(this->draw("coherence").visibility, truth.visibility) << turn;
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(LightTextures, areFilteredAsLightIsWithout)
 {
   this->buildScene();
-  this->scene.pass->SetSetting("mc_rays", "3");
-  this->scene.pass->SetSetting("mc_filter", "5");
+  this->scene.set("mc_rays", "3");
+  this->scene.set("mc_filter", "5");
   const VisibilityImages plain = this->draw("montecarlo");
   this->lamp->SetTexture(makeImage(1, 1, [](int, int) { return Colour{ 0.2, 0.6, 0.0 }; }));
   const VisibilityImages& kept = this->draw("montecarlo");
@@ -264,7 +250,6 @@ TEST_F(LightTextures, areFilteredAsLightIsWithout)
   }
 }
 
-//------------------------------------------------------------------------------
 /// A light with a texture and no size is hard, coloured by the texture's mean.
 TEST_F(LightTextures, ofPointsStandBesideOtherHardLights)
 {
@@ -286,11 +271,10 @@ TEST_F(LightTextures, ofPointsStandBesideOtherHardLights)
   EXPECT_THAT(kept.visibility[1], testing::Each(0.0f)) << "of green";
 }
 
-//------------------------------------------------------------------------------
 TEST_F(LightTextures, ofWhiteAreNone)
 {
   this->buildScene();
-  this->scene.pass->SetSetting("light_samples", "16");
+  this->scene.set("light_samples", "16");
   for (const bool disk : { false, true })
   {
     disk ? this->lamp->SetShapeToDisk() : this->lamp->SetShapeToRectangle();
@@ -315,52 +299,10 @@ TEST_F(LightTextures, ofWhiteAreNone)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(LightTextures, showWhatRaysShow)
-{
-  this->buildScene();
-  for (const char* kind : { "rectangle", "disk", "sun" })
-  {
-    const bool sun = kind == std::string("sun");
-    kind == std::string("disk") ? this->lamp->SetShapeToDisk() : this->lamp->SetShapeToRectangle();
-    this->lamp->SetPositional(!sun);
-    this->lamp->SetWidth(sun ? 14.0 : 2.0); // degrees
-    this->lamp->SetHeight(sun ? 10.0 : 2.0);
-    this->lamp->SetRadius(1.0);
-    this->lamp->SetTexture(makeImage(3, 3,
-      [](int x, int y) {
-        return Colour{ 0.4 * x, 1.0 - 0.3 * y, x == y ? 1.0 : 0.1 };
-      }));
-    const VisibilityImages truth = this->draw("raytraced");
-    const auto meanOff = [&](const char* technique)
-    {
-      const VisibilityImages& kept = this->draw(technique);
-      double sum = 0.0;
-      for (std::size_t channel = 0; channel < 3; ++channel)
-      {
-        for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-        {
-          sum += std::abs(kept.visibility[channel][i] - truth.visibility[channel][i]);
-        }
-      }
-      return sum / (3.0 * static_cast<double>(kept.coverage.size()));
-    };
-    EXPECT_EQ(meanOff("penumbra"), 0.0) << kind;
-    EXPECT_LT(meanOff("coherence"), 0.001) << kind;
-    EXPECT_LT(meanOff("sampled"), 0.003) << kind;
-    EXPECT_LT(meanOff("montecarlo"), 0.003) << kind;
-    EXPECT_THAT(this->scene.report().notes, testing::Not(testing::Contains(HasSubstr("even"))));
-    meanOff("pcss");
-    EXPECT_THAT(this->scene.report().notes,
-      testing::Contains("light 0: 'pcss' shows an even light of its texture's mean colour"));
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(LightTextures, colourThePicture)
 {
   this->addFloor();
-  this->scene.pass->SetSetting("light_samples", "16");
+  this->scene.set("light_samples", "16");
   this->addPlate({ -8.0, -8.0, 0.0 }, { -0.9, 8.0, 0.0 });
   this->lamp->SetTexture(makeImage(2, 1,
     [](int x, int) {
@@ -400,7 +342,6 @@ TEST_F(LightTextures, colourThePicture)
   EXPECT_LT(glm::distance(glm::dvec3(this->scene.render().at(24, 18)), 0.5 * lit), 4.0);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(LightTextures, colourTranslucentSurfaces)
 {
   this->addFloor();
@@ -416,7 +357,6 @@ TEST_F(LightTextures, colourTranslucentSurfaces)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(LightTextures, takeTheirOwnLayersOnly)
 {
   this->buildScene();
@@ -443,35 +383,6 @@ TEST_F(LightTextures, takeTheirOwnLayersOnly)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(LightTextures, addUpInThePicture)
-{
-  this->buildScene();
-  this->lamp->SetTexture(makeRedAndBlue());
-  this->lamp->SetIntensity(0.5);
-  for (const char* technique : { "raytraced", "nsm" })
-  {
-    this->scene.pass->SetTechnique(technique);
-    this->scene.pass->SetKeepVisibility(true);
-    const Picture alone = this->scene.render();
-    this->scene.renderer->RemoveLight(this->lamp);
-    this->scene.addSun({ 0.3, 0.2, -1.0 })->SetIntensity(0.3);
-    const Picture sun = this->scene.render();
-    this->scene.renderer->AddLight(this->lamp);
-    this->scene.addSun({ 0.3, 0.2, -1.0 })->SetIntensity(0.3);
-    const Picture all = this->scene.render();
-    Picture sum = alone;
-    for (std::size_t i = 0; i < sum.rgb.size(); ++i)
-    {
-      sum.rgb[i] = static_cast<unsigned char>(std::min(255, sum.rgb[i] + 2 * sun.rgb[i]));
-    }
-    EXPECT_EQ(differingPixels(sum, all, 3), 0u) << technique;
-    this->scene.renderer->RemoveAllLights();
-    this->scene.renderer->AddLight(this->lamp);
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(LightTextures, areSeenToChange)
 {
   this->buildScene();
@@ -503,127 +414,6 @@ TEST_F(LightTextures, areSeenToChange)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(LightTextures, areRefined)
-{
-  this->buildScene();
-  this->lamp->SetTexture(makeChecker(3));
-  this->scene.pass->SetSetting("light_samples", "25");
-  const VisibilityImages whole = this->draw("sampled");
-  this->scene.pass->SetSetting("light_seed", "1");
-  EXPECT_NE(this->draw("sampled").visibility, whole.visibility);
-  this->scene.pass->SetSetting("light_seed", "0");
-  this->scene.pass->SetSetting("progressive", "4");
-  this->scene.pass->SetSetting("batch", "3");
-  int frames = 0;
-  do
-  {
-    this->draw("sampled");
-    ++frames;
-  } while (this->scene.pass->GetProgress() < 1.0 && frames < 50);
-  EXPECT_EQ(frames, 7);
-  EXPECT_EQ(this->scene.pass->GetVisibility().visibility, whole.visibility);
-}
-
-//------------------------------------------------------------------------------
-/// The colour in the middle does not matter.
-TEST_F(LightTextures, areRefinedFromTheHardShadow)
-{
-  this->buildScene();
-  this->lamp->SetTexture(
-    makeImage(3, 3, [](int x, int y) { return x == 1 && y == 1 ? black : white; }));
-  const VisibilityImages hard = this->draw("nsm");
-  this->scene.pass->SetSetting("progressive", "4");
-  const VisibilityImages& begun = this->draw("sampled");
-  EXPECT_EQ(this->scene.pass->GetProgress(), 0.0);
-  EXPECT_EQ(this->scene.report().lights.at(0).lightSamples, 1);
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < hard.coverage.size(); ++i)
-  {
-    different += std::abs(begun.visibility[1][i] - hard.visibility[1][i]) > 1e-6;
-  }
-  EXPECT_LT(different, 10u); // the maps' layouts differ
-}
-
-//------------------------------------------------------------------------------
-/// On a matt floor under a window, shading from all points equals rays to all of them. Only the
-/// cosines differ: they are not those of the window's centre.
-TEST_F(PassTest, aWindowsPointsShadeAMattFloorAsRaysSeeIt)
-{
-  const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene("soft-window"), 1.0);
-  for (vtkActor* actor : vtk::Range(renderer->GetActors()))
-  {
-    actor->GetProperty()->SetAmbient(0.0);
-    actor->GetProperty()->SetSpecular(0.0);
-    actor->GetProperty()->SetColor(1.0, 1.0, 1.0);
-  }
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetMultiSamples(0);
-  window->SetSize(100, 100);
-  window->AddRenderer(renderer);
-  auto* lamp = vtkGnomonAreaLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
-  lamp->SetIntensity(1.0); // nothing is then clipped
-  const auto draw = [&](vtkRenderPass* pass)
-  {
-    renderer->SetPass(pass);
-    window->Render();
-    return readPicture(window);
-  };
-  vtkNew<vtkGnomonShadowPass> shadows;
-  shadows->SmoothTerminatorsOff();
-  shadows->SetTechnique("raytraced");
-  shadows->SetSetting("light_samples", "1024");
-  shadows->KeepVisibilityOn();
-  const Picture seen = draw(shadows);
-  const VisibilityImages kept = shadows->GetVisibility();
-  shadows->KeepVisibilityOff();
-  vtkNew<vtkGnomonLightSamplingPass> sampling;
-  sampling->SetSamples(256);
-  sampling->SetDelegatePass(shadows);
-  const Picture shaded = draw(sampling);
-  const gnomon::ShadowLight light = gnomon::LightManager().collectAreas(renderer, {}).lights.at(0);
-  const std::vector<glm::dvec3> rim = gnomon::rimOf(*light.area, 32);
-  lamp->SetTexture(nullptr);
-  const Picture even = draw(sampling);
-
-  int floor = 0;
-  int wrong = 0;
-  int unlikeEven = 0;
-  for (int y = 0; y < seen.height; ++y)
-  {
-    for (int x = 0; x < seen.width; ++x)
-    {
-      const auto pixel =
-        static_cast<std::size_t>(seen.height - 1 - y) * static_cast<std::size_t>(seen.width) +
-        static_cast<std::size_t>(x);
-      const glm::dvec3 place = positionOf(kept, pixel);
-      if (kept.coverage[pixel] == 0.0f || std::abs(place.y) > 1e-4)
-      {
-        continue;
-      }
-      ++floor;
-      const glm::dvec3 toCentre = light.positionWorld - place;
-      const double cosine = glm::normalize(toCentre).y;
-      double off = 0.0;
-      for (const glm::dvec3& offset : rim)
-      {
-        off = std::max(off, std::abs(glm::normalize(toCentre + offset).y / cosine - 1.0));
-      }
-      for (int channel = 0; channel < 3; ++channel)
-      {
-        const int rays = seen.at(x, y)[channel];
-        // Besides the cosines, the two sets of points differ.
-        wrong += std::abs(shaded.at(x, y)[channel] - rays) > off * rays + 3.0;
-        unlikeEven += std::abs(even.at(x, y)[channel] - rays) > off * rays + 3.0;
-      }
-    }
-  }
-  EXPECT_GT(floor, 3000);
-  EXPECT_EQ(wrong, 0);
-  EXPECT_GT(unlikeEven, floor);
-}
-
-//------------------------------------------------------------------------------
 TEST_F(LightTextures, mayHaveColoursThatFewPointsFind)
 {
   // One texel of many is lit, far from the centre.
@@ -632,8 +422,8 @@ TEST_F(LightTextures, mayHaveColoursThatFewPointsFind)
     makeImage(31, 31, [](int x, int y) { return x == 3 && y == 7 ? white : black; }));
   for (const char* count : { "1", "4" })
   {
-    this->scene.pass->SetSetting("light_samples", count);
-    this->scene.pass->SetSetting("mc_rays", count);
+    this->scene.set("light_samples", count);
+    this->scene.set("mc_rays", count);
     for (const char* technique : seeing)
     {
       const VisibilityImages& kept = this->draw(technique);

@@ -7,7 +7,6 @@
 namespace gnomon::test
 {
 
-//------------------------------------------------------------------------------
 std::ostream& operator<<(std::ostream& stream, const LiveObjects& live)
 {
   return stream << live.textures << " textures, " << live.buffers << " buffers, "
@@ -16,7 +15,6 @@ std::ostream& operator<<(std::ostream& stream, const LiveObjects& live)
                 << " programs, " << live.shaders << " shaders";
 }
 
-//------------------------------------------------------------------------------
 LiveObjects countLiveObjects(vtkRenderWindow* window)
 {
   window->MakeCurrent();

@@ -1,13 +1,10 @@
 #include "MatrixScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtk_versions/SharedBlocksMapper.h"
 
 #include <vtkCellData.h>
-#include <vtkFloatArray.h>
 #include <vtkFollower.h>
 #include <vtkGlyph3DMapper.h>
-#include <vtkImageData.h>
 #include <vtkLODActor.h>
 #include <vtkMapper.h>
 #include <vtkMultiBlockDataSet.h>
@@ -15,12 +12,7 @@
 #include <vtkPBRLUTTexture.h>
 #include <vtkPBRPrefilterTexture.h>
 #include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkSphereSource.h>
 #include <vtkStripper.h>
-#include <vtkTexture.h>
 #include <vtkTextureMapToSphere.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -201,7 +193,6 @@ vtkLight* addSunInABox(PassScene& scene)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::vector<MatrixKind>& matrixKinds()
 {
   static const std::vector<MatrixKind> kinds = { { "Polygons", makePolygons },
@@ -211,7 +202,6 @@ const std::vector<MatrixKind>& matrixKinds()
   return kinds;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<MatrixLook>& matrixLooks()
 {
   static const std::vector<MatrixLook> looks = {
@@ -262,13 +252,11 @@ const std::vector<MatrixLook>& matrixLooks()
   return looks;
 }
 
-//------------------------------------------------------------------------------
 std::size_t imageBasedLook()
 {
   return matrixLooks().size() - 1;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<MatrixLight>& matrixLights()
 {
   static const std::vector<MatrixLight> lights = {
@@ -285,7 +273,6 @@ const std::vector<MatrixLight>& matrixLights()
   return lights;
 }
 
-//------------------------------------------------------------------------------
 MatrixScene::MatrixScene(const MatrixKind& kind, const MatrixLook& look)
   : PassScene(width, height)
 {

@@ -2,13 +2,6 @@
 
 #include "PassScene.h"
 
-#include <vtkActor.h>
-#include <vtkLight.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
-
-#include <vector>
-
 namespace gnomon::test
 {
 

@@ -7,10 +7,6 @@
 #include "MatrixScene.h"
 #include "MatrixWindows.h"
 
-#include <array>
-#include <cmath>
-#include <tuple>
-
 using namespace gnomon::test;
 
 namespace
@@ -18,7 +14,8 @@ namespace
 
 const std::vector<Way> ways = { { "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
   { "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, { "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE },
-  { "pcf", vtkGnomonShadowPass::ROUTE_INLINE }, { "pcf", vtkGnomonShadowPass::ROUTE_IMAGE } };
+  { "pcf", vtkGnomonShadowPass::ROUTE_INLINE }, { "pcf", vtkGnomonShadowPass::ROUTE_IMAGE },
+  { "raytraced", vtkGnomonShadowPass::ROUTE_AUTO } };
 
 /// Return the places of the light and the way whose turn it is, for a mapper, a look and a window.
 std::pair<std::size_t, std::size_t> turnOf(std::size_t kind, std::size_t look, std::size_t window)
@@ -80,7 +77,7 @@ protected:
     this->scene.choose(way);
     result.shadowed = window.draw(view);
     const bool several =
-      window.hasSeveralSamples() && way.route == vtkGnomonShadowPass::ROUTE_IMAGE;
+      window.hasSeveralSamples() && way.route != vtkGnomonShadowPass::ROUTE_INLINE;
     EXPECT_EQ(
       this->scene.report().notes.size(), (this->kind.served ? 0u : 1u) + (several ? 1u : 0u));
     return result;
@@ -196,7 +193,6 @@ INSTANTIATE_TEST_SUITE_P(Some, Matrix,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(Matrix, pictureShowsTheVisibilityThatIsKept)
 {
   MatrixWindow window(this->scene);
@@ -207,7 +203,7 @@ TEST_P(Matrix, pictureShowsTheVisibilityThatIsKept)
     vtkLight* added = light.add(this->scene);
     SCOPED_TRACE(light.name);
     std::vector<std::vector<float>> visibilities;
-    for (const std::size_t way : { 0u, 1u, 2u })
+    for (const std::size_t way : { 0u, 1u, 2u, 5u })
     {
       SCOPED_TRACE(testing::Message() << ways.at(way));
       visibilities.push_back(this->check(window, added, ways.at(way)));
@@ -222,7 +218,6 @@ TEST_P(Matrix, pictureShowsTheVisibilityThatIsKept)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Matrix, windowsShowTheVisibilityThatIsKept)
 {
   const auto [kind, look] = GetParam();

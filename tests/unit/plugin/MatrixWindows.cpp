@@ -4,9 +4,6 @@
 #include "shadowtech/base/Gl.h"
 
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkObjectFactory.h>
-
-#include <cstddef>
 
 namespace gnomon::test
 {
@@ -234,19 +231,16 @@ std::unique_ptr<MatrixWindow> make(PassScene& scene)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 MatrixWindow::MatrixWindow(PassScene& scene)
   : scene_(scene)
 {
 }
 
-//------------------------------------------------------------------------------
 Picture MatrixWindow::draw(int)
 {
   return this->scene_.render();
 }
 
-//------------------------------------------------------------------------------
 const std::vector<MatrixWindowKind>& matrixWindows()
 {
   static const std::vector<MatrixWindowKind> windows = { { "whole window", make<MatrixWindow> },

@@ -3,7 +3,6 @@
 #include "PassScene.h"
 
 #include <memory>
-#include <vector>
 
 namespace gnomon::test
 {

@@ -2,16 +2,7 @@
 
 #include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
 #include "plugin/plan/MemoryBudget.h"
-#include "shadowtech/Registry.h"
-
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace gnomon;
 using namespace gnomon::test;
@@ -51,7 +42,6 @@ constexpr std::size_t megapixel = 1024 * 1024; // an image of numbers takes 4 Mi
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(MemoryBudget, brightLightsKeepTheirMaps)
 {
   const std::vector<LightNeed> lights = { lamp(1.0), lamp(3.0), lamp(2.0) };
@@ -63,7 +53,6 @@ TEST(MemoryBudget, brightLightsKeepTheirMaps)
     (std::vector{ 256, 1024, 512 }));
 }
 
-//------------------------------------------------------------------------------
 // Images come first, since they also show the shadows of rays. Maps share the rest.
 TEST(MemoryBudget, thenTheyTakeRaysAndThenNone)
 {
@@ -78,7 +67,6 @@ TEST(MemoryBudget, thenTheyTakeRaysAndThenNone)
     sidesOf(shareMemory(lights, 7.0 * mebibyte, megapixel, false)), (std::vector{ -1, -1, -1 }));
 }
 
-//------------------------------------------------------------------------------
 TEST(MemoryBudget, mapsWhoseSizeNobodyKnowsGiveWayToRays)
 {
   LightNeed unknown = lamp(1.0);
@@ -91,7 +79,6 @@ TEST(MemoryBudget, mapsWhoseSizeNobodyKnowsGiveWayToRays)
     sidesOf(shareMemory({ unknown }, 8.0 * mebibyte, megapixel, true)), (std::vector{ 1024 }));
 }
 
-//------------------------------------------------------------------------------
 // 64 hard lights share an image of bits. Other lights, and techniques with their own images, take
 // one each.
 TEST(MemoryBudget, imagesAreCountedWhereThereAreAny)
@@ -116,7 +103,6 @@ TEST(MemoryBudget, imagesAreCountedWhereThereAreAny)
     noneAmong(shareMemory(std::vector<LightNeed>(2, soft), 47.0 * mebibyte, megapixel, true)), 1);
 }
 
-//------------------------------------------------------------------------------
 TEST(MemoryBudget, lampsGiveMostAtTheNearestPoint)
 {
   Bounds seen;
@@ -166,7 +152,6 @@ protected:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 // The bytes of a map are known before baking, for all techniques that state them.
 TEST_F(MemoryBudgetOfPass, mapsTakeAtMostWhatIsExpected)
 {
@@ -198,7 +183,6 @@ TEST_F(MemoryBudgetOfPass, mapsTakeAtMostWhatIsExpected)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(MemoryBudgetOfPass, theReportSaysWhatIsLeft)
 {
   this->addLamp(-2.0, 0.2);
@@ -238,7 +222,6 @@ TEST_F(MemoryBudgetOfPass, theReportSaysWhatIsLeft)
   EXPECT_EQ(this->pass->GetMemoryBudget(), 0.0);
 }
 
-//------------------------------------------------------------------------------
 // Memory of lights with named techniques is not available to `auto`.
 TEST_F(MemoryBudgetOfPass, automaticLightsTakeWhatOthersLeave)
 {
@@ -256,7 +239,6 @@ TEST_F(MemoryBudgetOfPass, automaticLightsTakeWhatOthersLeave)
   }
 }
 
-//------------------------------------------------------------------------------
 // `auto` is exact at rest with any budget. In motion it uses maps only if they fit the budget.
 TEST_F(MemoryBudgetOfPass, automaticLightsKeepToIt)
 {

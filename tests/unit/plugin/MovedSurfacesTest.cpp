@@ -3,19 +3,6 @@
 
 #include "PassScene.h"
 
-#include "lights/vtkGnomonAreaLight.h"
-#include "plugin/vtkGnomonPropKeys.h"
-
-#include <vtkProperty.h>
-#include <vtkSphereSource.h>
-
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <random>
-#include <string>
-#include <vector>
-
 using namespace gnomon::test;
 
 namespace
@@ -149,7 +136,6 @@ INSTANTIATE_TEST_SUITE_P(Lights, MovedSurfaces,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(MovedSurfaces, areTracedAlone)
 {
   std::mt19937 random(7);
@@ -189,7 +175,6 @@ TEST_P(MovedSurfaces, areTracedAlone)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_P(RecolouredSurfaces, areNotTraced)
 {
   drawKept(this->scene);

@@ -3,8 +3,6 @@
 
 #include "PassScene.h"
 
-#include "plugin/vtkGnomonPropKeys.h"
-#include "shadowtech/Registry.h"
 #include "shadowtech/base/Kernel.h"
 
 #include <vtkActor2D.h>
@@ -13,17 +11,13 @@
 #include <vtkFixedPointVolumeRayCastMapper.h>
 #include <vtkHardwareSelector.h>
 #include <vtkIdTypeArray.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPiecewiseFunction.h>
-#include <vtkPlaneSource.h>
 #include <vtkPolyDataMapper2D.h>
-#include <vtkProperty.h>
 #include <vtkProperty2D.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
-#include <vtkSphereSource.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkVolume.h>
@@ -31,11 +25,7 @@
 #include <vtkVolumeProperty.h>
 #include <vtkWorldPointPicker.h>
 
-#include <gmock/gmock.h>
-
-#include <cmath>
 #include <set>
-#include <string>
 
 using namespace gnomon::test;
 
@@ -166,7 +156,6 @@ std::set<std::string> selectedIds(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(Neighbours, hardwareSelectionGivesTheSameAnswers)
 {
   const std::array<std::array<unsigned, 4>, 4> boxes = { { { { 100, 100, 100, 100 } },
@@ -189,7 +178,6 @@ TEST_P(Neighbours, hardwareSelectionGivesTheSameAnswers)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Neighbours, worldPointPickerGivesTheSamePoints)
 {
   vtkNew<vtkWorldPointPicker> picker;
@@ -212,7 +200,6 @@ TEST_P(Neighbours, worldPointPickerGivesTheSamePoints)
   EXPECT_NEAR(pick(100, 40).z, 0.0, 0.05) << "the floor";
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
 {
   // A pane in front of a shadow, and half in the sphere's shadow itself.
@@ -285,7 +272,6 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
   EXPECT_EQ(this->scene.report().mapBakes, 0);
 }
 
-//------------------------------------------------------------------------------
 /// VTK shades coarse spheres by their corners' normals. Facets that are turned away from the light
 /// may then be bright. If the sphere casts nothing, nothing hides the light.
 TEST_P(Neighbours, translucentFacetsAreDarkOnlyWhereTheLightIsHidden)
@@ -320,36 +306,6 @@ TEST_P(Neighbours, translucentFacetsAreDarkOnlyWhereTheLightIsHidden)
   EXPECT_EQ(differingPixels(this->scene.render(), hidden, 2), 0u);
 }
 
-//------------------------------------------------------------------------------
-TEST_P(Neighbours, overlaysAreDrawnAsVtkDrawsThem)
-{
-  vtkNew<vtkTextActor> text;
-  text->SetInput("shadows");
-  text->GetTextProperty()->SetFontSize(30);
-  text->GetTextProperty()->SetColor(1.0, 1.0, 0.0);
-  text->SetPosition(5.0, 5.0);
-  this->scene.renderer->AddViewProp(text);
-  vtkNew<vtkPlaneSource> square;
-  square->SetOrigin(105.0, 60.0, 0.0);
-  square->SetPoint1(135.0, 60.0, 0.0);
-  square->SetPoint2(105.0, 85.0, 0.0);
-  vtkNew<vtkPolyDataMapper2D> mapper;
-  mapper->SetInputConnection(square->GetOutputPort());
-  vtkNew<vtkActor2D> overlay;
-  overlay->SetMapper(mapper);
-  overlay->GetProperty()->SetColor(0.0, 1.0, 0.0);
-  this->scene.renderer->AddViewProp(overlay);
-  this->expectKept(
-    [](const Picture& picture, int x, int y)
-    {
-      const glm::ivec3 colour = picture.at(x, y);
-      const bool isText = colour.r > 200 && colour.b < 60;
-      const bool isSquare = colour == glm::ivec3(0, 255, 0);
-      return isText || isSquare;
-    });
-}
-
-//------------------------------------------------------------------------------
 TEST_P(Neighbours, volumesAreDrawnAsVtkDrawsThem)
 {
   vtkNew<vtkFixedPointVolumeRayCastMapper> mapper;
@@ -357,7 +313,6 @@ TEST_P(Neighbours, volumesAreDrawnAsVtkDrawsThem)
   this->expectVolumeKept(mapper);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Neighbours, volumesOnTheGpuAreDrawnAsVtkDrawsThem)
 {
   vtkNew<vtkOpenGLGPUVolumeRayCastMapper> mapper;
@@ -365,7 +320,6 @@ TEST_P(Neighbours, volumesOnTheGpuAreDrawnAsVtkDrawsThem)
   this->expectVolumeKept(mapper);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Neighbours, fxaaIsHonoured)
 {
   const Picture without = this->scene.render();
@@ -377,7 +331,6 @@ TEST_P(Neighbours, fxaaIsHonoured)
   this->expectPlainWhereNothingCasts();
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Neighbours, depthPeelingIsHonoured)
 {
   // Two panes that pierce each other: only peeling sorts them.
@@ -399,7 +352,6 @@ TEST_P(Neighbours, depthPeelingIsHonoured)
   this->expectPlainWhereNothingCasts();
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Neighbours, renderedPropsAreCounted)
 {
   this->scene.usePlain();

@@ -7,11 +7,8 @@
 #include <vtkDepthPeelingPass.h>
 #include <vtkDualDepthPeelingPass.h>
 #include <vtkEDLShading.h>
-#include <vtkLightCollection.h>
 #include <vtkOpenGLFXAAPass.h>
 #include <vtkPanoramicProjectionPass.h>
-#include <vtkPlaneSource.h>
-#include <vtkProperty.h>
 #include <vtkRenderPassCollection.h>
 #include <vtkRenderStepsPass.h>
 #include <vtkSSAAPass.h>
@@ -19,10 +16,6 @@
 #include <vtkSequencePass.h>
 #include <vtkToneMappingPass.h>
 #include <vtkTranslucentPass.h>
-
-#include <gmock/gmock.h>
-
-#include <tuple>
 
 using namespace gnomon::test;
 
@@ -160,7 +153,6 @@ INSTANTIATE_TEST_SUITE_P(All, PassChains,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(PassChains, ShadowsAreWhereTheyAreAlone)
 {
   this->useChain(chains()[std::get<0>(GetParam())]);
@@ -175,7 +167,6 @@ TEST_P(PassChains, ShadowsAreWhereTheyAreAlone)
   EXPECT_EQ(this->scene.report().mapBakes, 0);
 }
 
-//------------------------------------------------------------------------------
 /// Without a casting light the chain draws what it draws without the shadow pass.
 TEST_P(PassChains, WithoutShadowsTheyDrawTheSame)
 {
@@ -198,7 +189,6 @@ TEST_P(PassChains, WithoutShadowsTheyDrawTheSame)
   EXPECT_EQ(differingPixels(with, this->scene.render(), 1), 0u);
 }
 
-//------------------------------------------------------------------------------
 /// A pass that shades at another resolution inside the shadow pass: fine for functions of the
 /// point, refused for what is per pixel.
 TEST_F(ChainedScene, SupersamplingInsideIsForFunctionsOfThePoint)
@@ -220,27 +210,6 @@ TEST_F(ChainedScene, SupersamplingInsideIsForFunctionsOfThePoint)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(ChainedScene, DepthLightingInsideIsAsAround)
-{
-  for (const char* technique : { "raytraced", "pcf" })
-  {
-    this->scene.pass->SetTechnique(technique);
-    const Pass outer = around<vtkEDLShading>(this->scene.pass);
-    const Pass inner = around<vtkEDLShading>(steps());
-    this->scene.renderer->SetPass(outer);
-    const Picture outside = this->scene.render();
-    this->scene.pass->SetDelegatePass(inner);
-    this->scene.renderer->SetPass(this->scene.pass);
-    EXPECT_EQ(differingPixels(this->scene.render(), outside, 1), 0u) << technique;
-    this->scene.pass->SetDelegatePass(nullptr);
-    outer->ReleaseGraphicsResources(this->scene.window);
-    inner->ReleaseGraphicsResources(this->scene.window);
-    EXPECT_EQ(this->takeErrors(), "");
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(ChainedScene, PassesInsideWithCamerasOfTheirOwnAreRefused)
 {
   const auto panorama = []
@@ -271,7 +240,6 @@ TEST_F(ChainedScene, PassesInsideWithCamerasOfTheirOwnAreRefused)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ChainedScene, ReportSaysThatAnotherPassDrewSince)
 {
   const auto namesOther = [this](const char* name)

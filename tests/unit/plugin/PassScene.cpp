@@ -3,26 +3,11 @@
 #include "shadowtech/base/Gl.h"
 
 #include <vtkCallbackCommand.h>
-#include <vtkCameraPass.h>
-#include <vtkCubeSource.h>
-#include <vtkPlaneSource.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkRenderPassCollection.h>
-#include <vtkSequencePass.h>
-#include <vtkShadowMapBakerPass.h>
-#include <vtkShadowMapPass.h>
-#include <vtkSphereSource.h>
 #include <vtkTrivialProducer.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
 
 namespace gnomon::test
 {
 
-//------------------------------------------------------------------------------
 std::string nameOf(const testing::TestParamInfo<Way>& way)
 {
   return std::string(way.param.technique) +
@@ -31,20 +16,17 @@ std::string nameOf(const testing::TestParamInfo<Way>& way)
                                                               : "");
 }
 
-//------------------------------------------------------------------------------
 std::ostream& operator<<(std::ostream& stream, const Way& way)
 {
   return stream << way.technique << ", route " << way.route;
 }
 
-//------------------------------------------------------------------------------
 void choose(vtkGnomonShadowPass* pass, const Way& way)
 {
   pass->SetTechnique(way.technique);
   pass->SetRoute(way.route);
 }
 
-//------------------------------------------------------------------------------
 PassScene::PassScene(int width, int height)
 {
   this->window->SetSize(width, height);
@@ -56,7 +38,6 @@ PassScene::PassScene(int width, int height)
   this->useGnomon();
 }
 
-//------------------------------------------------------------------------------
 vtkActor* PassScene::add(vtkAlgorithm* source)
 {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -67,7 +48,6 @@ vtkActor* PassScene::add(vtkAlgorithm* source)
   return actor;
 }
 
-//------------------------------------------------------------------------------
 vtkActor* PassScene::add(vtkPolyData* data)
 {
   vtkNew<vtkTrivialProducer> producer;
@@ -75,7 +55,6 @@ vtkActor* PassScene::add(vtkPolyData* data)
   return this->add(producer);
 }
 
-//------------------------------------------------------------------------------
 vtkActor* PassScene::addBox(const glm::dvec3& lower, const glm::dvec3& upper)
 {
   vtkNew<vtkCubeSource> box;
@@ -83,7 +62,6 @@ vtkActor* PassScene::addBox(const glm::dvec3& lower, const glm::dvec3& upper)
   return this->add(box);
 }
 
-//------------------------------------------------------------------------------
 vtkActor* PassScene::addFloor(double extent, double z)
 {
   vtkNew<vtkPlaneSource> plane;
@@ -93,7 +71,6 @@ vtkActor* PassScene::addFloor(double extent, double z)
   return this->add(plane);
 }
 
-//------------------------------------------------------------------------------
 vtkActor* PassScene::addSphere(const glm::dvec3& centre, double radius)
 {
   vtkNew<vtkSphereSource> sphere;
@@ -104,7 +81,6 @@ vtkActor* PassScene::addSphere(const glm::dvec3& centre, double radius)
   return this->add(sphere);
 }
 
-//------------------------------------------------------------------------------
 vtkLight* PassScene::addSun(const glm::dvec3& direction)
 {
   vtkNew<vtkLight> light;
@@ -115,7 +91,6 @@ vtkLight* PassScene::addSun(const glm::dvec3& direction)
   return light;
 }
 
-//------------------------------------------------------------------------------
 vtkLight* PassScene::addSpot(
   const glm::dvec3& position, const glm::dvec3& target, double coneAngleDegrees)
 {
@@ -130,7 +105,6 @@ vtkLight* PassScene::addSpot(
   return light;
 }
 
-//------------------------------------------------------------------------------
 void PassScene::lookDown(double halfHeight, double x, double y)
 {
   vtkCamera* camera = this->renderer->GetActiveCamera();
@@ -143,7 +117,6 @@ void PassScene::lookDown(double halfHeight, double x, double y)
   this->down_ = { x, y, halfHeight };
 }
 
-//------------------------------------------------------------------------------
 glm::dvec2 PassScene::floorAt(int x, int y) const
 {
   const int* size = const_cast<vtkGnomonEGLRenderWindow*>(this->window.Get())->GetSize();
@@ -152,7 +125,6 @@ glm::dvec2 PassScene::floorAt(int x, int y) const
     this->down_.y + (y + 0.5 - 0.5 * size[1]) * pixel };
 }
 
-//------------------------------------------------------------------------------
 int PassScene::redAt(const Picture& picture, double x, double y) const
 {
   const double pixel = 2.0 * this->down_.z / picture.height;
@@ -160,7 +132,6 @@ int PassScene::redAt(const Picture& picture, double x, double y) const
     static_cast<int>((y - this->down_.y) / pixel + 0.5 * picture.height));
 }
 
-//------------------------------------------------------------------------------
 void PassScene::lookFrom(const glm::dvec3& position, const glm::dvec3& target)
 {
   vtkCamera* camera = this->renderer->GetActiveCamera();
@@ -171,7 +142,33 @@ void PassScene::lookFrom(const glm::dvec3& position, const glm::dvec3& target)
   this->renderer->ResetCameraClippingRange();
 }
 
-//------------------------------------------------------------------------------
+void PassScene::addThings()
+{
+  this->addFloor(4.0);
+  this->addBox({ -0.7, -0.7, 0.0 }, { 0.7, 0.7, 1.0 });
+  this->addSphere({ 1.3, 0.8, 1.4 }, 0.5);
+  this->lookFrom({ 2.0, -8.0, 7.0 });
+}
+
+std::vector<float> PassScene::visibilityBy(const char* technique)
+{
+  this->pass->SetTechnique(technique);
+  return drawKept(*this).visibility.at(0);
+}
+
+VisibilityImages PassScene::drawAnew()
+{
+  vtkNew<vtkGnomonShadowPass> fresh;
+  fresh->SetSettings(this->pass->GetSettings());
+  fresh->SetRoute(this->pass->GetRoute());
+  fresh->SetSmoothTerminators(this->pass->GetSmoothTerminators());
+  fresh->KeepVisibilityOn();
+  this->renderer->SetPass(fresh);
+  this->window->Render();
+  this->useGnomon();
+  return fresh->GetVisibility();
+}
+
 Picture PassScene::render()
 {
   this->window->Render();
@@ -181,37 +178,14 @@ Picture PassScene::render()
   return readPicture(this->window);
 }
 
-//------------------------------------------------------------------------------
-void PassScene::useVtkShadows(int mapSize)
-{
-  vtkNew<vtkShadowMapPass> shadows;
-  shadows->GetShadowMapBakerPass()->SetResolution(static_cast<unsigned int>(mapSize));
-  vtkNew<vtkRenderPassCollection> passes;
-  passes->AddItem(shadows->GetShadowMapBakerPass());
-  passes->AddItem(shadows);
-  vtkNew<vtkSequencePass> sequence;
-  sequence->SetPasses(passes);
-  vtkNew<vtkCameraPass> camera;
-  camera->SetDelegatePass(sequence);
-  if (this->renderer->GetPass())
-  {
-    this->renderer->GetPass()->ReleaseGraphicsResources(this->window);
-  }
-  this->renderer->SetPass(camera);
-  this->vtkShadows = shadows;
-}
-
-//------------------------------------------------------------------------------
 const double slantingSunValue = 255.0 * std::sqrt(0.5);
 
-//------------------------------------------------------------------------------
 bool isUnder(const glm::dvec2& floor, const Box& box)
 {
   return floor.x >= box.lower.x && floor.x <= box.upper.x && floor.y >= box.lower.y &&
     floor.y <= box.upper.y;
 }
 
-//------------------------------------------------------------------------------
 ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction, double value)
 {
   return [=](const glm::dvec2& floor)
@@ -224,7 +198,6 @@ ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direct
   };
 }
 
-//------------------------------------------------------------------------------
 ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& directions)
 {
   return [=](const glm::dvec2& floor)
@@ -239,7 +212,6 @@ ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& dir
   };
 }
 
-//------------------------------------------------------------------------------
 FloorCheck checkFloor(
   const PassScene& scene, const Picture& picture, const ExactFloor& exact, double band)
 {
@@ -269,7 +241,6 @@ FloorCheck checkFloor(
   return check;
 }
 
-//------------------------------------------------------------------------------
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
   const glm::dvec3& upper)
 {
@@ -294,7 +265,6 @@ bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec
   return first <= last;
 }
 
-//------------------------------------------------------------------------------
 const VisibilityImages& drawKept(PassScene& scene)
 {
   scene.pass->KeepVisibilityOn();
@@ -316,7 +286,6 @@ const VisibilityImages& drawKept(PassScene& scene)
   return kept;
 }
 
-//------------------------------------------------------------------------------
 std::vector<double> columnMeans(const VisibilityImages& kept)
 {
   std::vector<double> means(static_cast<std::size_t>(kept.width), 0.0);
@@ -327,7 +296,6 @@ std::vector<double> columnMeans(const VisibilityImages& kept)
   return means;
 }
 
-//------------------------------------------------------------------------------
 glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel)
 {
   if (kept.coverage[pixel] == 0.0f)
@@ -338,7 +306,6 @@ glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel)
     kept.origin[2] + kept.positionZ[pixel] };
 }
 
-//------------------------------------------------------------------------------
 double cosineTowards(const VisibilityImages& kept, std::size_t pixel, vtkLight* light)
 {
   const auto vector = [](const double* v) { return glm::dvec3(v[0], v[1], v[2]); };
@@ -351,7 +318,6 @@ double cosineTowards(const VisibilityImages& kept, std::size_t pixel, vtkLight* 
   return distance > 0.0 ? glm::dot(normal, toLight) / distance : 0.0;
 }
 
-//------------------------------------------------------------------------------
 Acne countAcne(const VisibilityImages& kept,
   const std::function<glm::dvec3(const glm::dvec3&)>& toLight, double leastCosine)
 {
@@ -372,21 +338,18 @@ Acne countAcne(const VisibilityImages& kept,
   return acne;
 }
 
-//------------------------------------------------------------------------------
 Acne countAcneOfSun(const VisibilityImages& kept, const glm::dvec3& toLight, double leastCosine)
 {
   return countAcne(
     kept, [&](const glm::dvec3&) { return toLight; }, leastCosine);
 }
 
-//------------------------------------------------------------------------------
 Acne countAcneOfLamp(const VisibilityImages& kept, const glm::dvec3& lightWorld, double leastCosine)
 {
   return countAcne(
     kept, [&](const glm::dvec3& position) { return lightWorld - position; }, leastCosine);
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> makeImage(
   int width, int height, const std::function<glm::dvec3(int, int)>& colourOf)
 {
@@ -406,7 +369,6 @@ vtkSmartPointer<vtkImageData> makeImage(
   return image;
 }
 
-//------------------------------------------------------------------------------
 void listenToProgress(vtkObject* teller, std::vector<double>& told)
 {
   vtkNew<vtkCallbackCommand> listener;
@@ -421,7 +383,6 @@ void listenToProgress(vtkObject* teller, std::vector<double>& told)
   teller->AddObserver(vtkCommand::EndEvent, listener);
 }
 
-//------------------------------------------------------------------------------
 Agreement compareVisibility(const VisibilityImages& a, const VisibilityImages& b, std::size_t light)
 {
   Agreement result;
@@ -442,24 +403,53 @@ Agreement compareVisibility(const VisibilityImages& a, const VisibilityImages& b
   return result;
 }
 
-//------------------------------------------------------------------------------
-double meanVisibilityDifference(const std::vector<float>& a, const std::vector<float>& b)
+double meanDifference(const std::vector<float>& a, const std::vector<float>& b)
 {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i)
   {
-    sum += std::abs(a[i] - b[i]);
+    sum += std::abs(a[i] - b.at(i));
   }
   return sum / static_cast<double>(a.size());
 }
 
-//------------------------------------------------------------------------------
+double largestDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    largest = std::max<double>(largest, std::abs(a[i] - b.at(i)));
+  }
+  return largest;
+}
+
+std::size_t countDifferences(
+  const std::vector<float>& a, const std::vector<float>& b, double tolerance)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    count += std::abs(a[i] - b.at(i)) > tolerance ? 1 : 0;
+  }
+  return count;
+}
+
+std::size_t countBetween(const std::vector<float>& visibility)
+{
+  return static_cast<std::size_t>(std::count_if(
+    visibility.begin(), visibility.end(), [](float v) { return v > 0.0f && v < 1.0f; }));
+}
+
+vtkLight* lightOf(vtkRenderer* renderer, int index)
+{
+  return vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(index));
+}
+
 void PassTest::TearDown()
 {
   EXPECT_EQ(this->takeErrors(), "");
 }
 
-//------------------------------------------------------------------------------
 std::string PassTest::takeErrors()
 {
   std::string text;

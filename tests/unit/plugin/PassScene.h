@@ -4,31 +4,65 @@
 
 #include "VtkMessages.h"
 
+#include "lights/vtkGnomonAreaLight.h"
+#include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
+#include "shadowtech/Registry.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkActor.h>
+#include <vtkActorCollection.h>
 #include <vtkAlgorithm.h>
 #include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCubeSource.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkLight.h>
+#include <vtkLightCollection.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkSphereSource.h>
+#include <vtkTexture.h>
+#include <vtkTransform.h>
 
 #include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <map>
+#include <memory>
 #include <ostream>
+#include <random>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
+
+/// @file
+/// The scene, the oracles and the lists that most tests of the pass share. It includes the headers
+/// of their types.
 
 namespace gnomon::test
 {
@@ -40,6 +74,9 @@ struct Way
   int route;
 };
 std::string nameOf(const testing::TestParamInfo<Way>& way);
+
+/// Return the name of a test's value of any type with a member `name`.
+inline constexpr auto byName = [](const auto& info) { return std::string(info.param.name); };
 inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, Way{ "pcf", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "pcf", vtkGnomonShadowPass::ROUTE_IMAGE },
@@ -81,26 +118,35 @@ public:
   /// Return the red value of the pixel at which lookDown shows a floor point.
   int redAt(const Picture& picture, double x, double y) const;
   void lookFrom(const glm::dvec3& position, const glm::dvec3& target = glm::dvec3(0.0));
+  /// Add a floor with a box on it and a sphere above it, and look at them.
+  void addThings();
 
   /// Draw a frame, which must raise no OpenGL error.
   Picture render();
 
   ///@{
-  /// Draw by Gnomon's pass, by VTK's own shadow pass, or without a pass.
+  /// Draw by Gnomon's pass or without a pass.
   void useGnomon() { this->renderer->SetPass(this->pass); }
-  void useVtkShadows(int mapSize = 1024);
   void usePlain() { this->renderer->SetPass(nullptr); }
   ///@}
 
   void choose(const Way& way) { test::choose(this->pass, way); }
+  ///@{
+  /// Set a setting of the pass.
+  void set(const char* name, const char* value) { this->pass->SetSetting(name, value); }
+  void set(const char* name, int value) { this->set(name, std::to_string(value).c_str()); }
+  ///@}
+  /// Return the first light's visibility by a technique, which stays chosen.
+  std::vector<float> visibilityBy(const char* technique);
+  /// Return the visibility of a new pass with the same settings, which has no earlier frames.
+  VisibilityImages drawAnew();
 
   const FrameReport& report() const { return this->pass->GetReport(); }
 
   vtkNew<vtkGnomonEGLRenderWindow> window;
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkGnomonShadowPass> pass;
-  bool numbersAreWrong = false;          ///< render() expects FrameReport::numbersWrong
-  vtkSmartPointer<vtkObject> vtkShadows; ///< the vtkShadowMapPass of useVtkShadows()
+  bool numbersAreWrong = false; ///< render() expects FrameReport::numbersWrong
 
 private:
   glm::dvec3 down_{ 0.0 }; ///< the middle and the half height of lookDown()
@@ -207,8 +253,24 @@ struct Agreement
 Agreement compareVisibility(
   const VisibilityImages& a, const VisibilityImages& b, std::size_t light = 0);
 
-/// Return the mean absolute difference of the pixels' visibilities.
-double meanVisibilityDifference(const std::vector<float>& a, const std::vector<float>& b);
+///@{
+/// Differences of the pixels' visibilities: their mean and largest absolute value, and how many are
+/// larger than a tolerance.
+double meanDifference(const std::vector<float>& a, const std::vector<float>& b);
+double largestDifference(const std::vector<float>& a, const std::vector<float>& b);
+std::size_t countDifferences(
+  const std::vector<float>& a, const std::vector<float>& b, double tolerance = 0.0);
+///@}
+/// Count the pixels between light and shadow.
+std::size_t countBetween(const std::vector<float>& visibility);
+
+/// Set a light's setting.
+inline void set(vtkLight* light, const char* name, const char* value)
+{
+  vtkGnomonLightKeys::SetSetting(light, name, value);
+}
+/// Return the light with this place among the renderer's.
+vtkLight* lightOf(vtkRenderer* renderer, int index = 0);
 
 /// After each test, VTK must have reported no error except those that the test takes.
 class PassTest : public testing::Test

@@ -4,21 +4,10 @@
 #include "PassScene.h"
 
 #include "lights/LightViews.h"
-#include "lights/vtkGnomonLightKeys.h"
-#include "plugin/vtkGnomonPropKeys.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/depth_map/Pcf.h"
 
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
-#include <vtkTransform.h>
-
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <ostream>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -85,7 +74,6 @@ protected:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(Pcf, shadowsBeginWithinTheKernelsReachOfTheirCasters)
 {
   // A wall on a floor, thinner than a texel, so it casts with the face that is pushed back. Its
@@ -130,12 +118,10 @@ TEST_P(Pcf, shadowsBeginWithinTheKernelsReachOfTheirCasters)
       ASSERT_LT(begin, 0.8) << "row " << y;
       farthest = std::max(farthest, glm::distance(texelOf(begin), texelOf(0.1)));
     }
-    RecordProperty("detachmentTexels" + std::to_string(direction.x), std::to_string(farthest));
     EXPECT_LE(farthest, 0.5 * GetParam().texels + 1.0) << "sun along " << direction.x;
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
 {
   // The box alone casts, so the map ends at the shadow's end, except for the border.
@@ -170,39 +156,6 @@ TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
   EXPECT_LE(largestStep, column);
 }
 
-//------------------------------------------------------------------------------
-TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
-{
-  // A plate's shadow on the floor ends at x = 3.98, and two faces of the lamp's cube meet at x = 4.
-  // Only the plate casts, so it is on one face only.
-  PassScene scene(400, 40);
-  vtkGnomonPropKeys::SetCasts(scene.addFloor(10.0), false);
-  scene.addBox({ 1.0, -1.0, 2.0 }, { 1.99, 1.0, 2.001 });
-  vtkLight* lamp = scene.addSpot({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), allDirections);
-  scene.pass->SetTechnique("pcf");
-  scene.pass->SetMapSize(256);
-  vtkGnomonLightKeys::SetSetting(lamp, "kernel_size", "32");
-  scene.lookDown(0.1, 4.0);
-  for (const char* kernel : { "bilinear", "box" })
-  {
-    vtkGnomonLightKeys::SetSetting(lamp, "kernel", kernel);
-    const VisibilityImages& kept = drawKept(scene);
-    const auto lit = [&](int x)
-    { return static_cast<double>(kept.visibility[0][20 * 400 + static_cast<std::size_t>(x)]); };
-    // Visible from x = 3 to 5, with the edge in the middle.
-    double largestStep = 0.0;
-    for (int x = 1; x < 400; ++x)
-    {
-      largestStep = std::max(largestStep, std::abs(lit(x) - lit(x - 1)));
-    }
-    EXPECT_LT(lit(0), 0.01);
-    EXPECT_LT(lit(205), 0.75);
-    EXPECT_GT(lit(399), 0.99);
-    EXPECT_LT(largestStep, 0.1) << kernel;
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_P(Pcf, steepCastersStayCastersForWhatLiesBehindAllOfThem)
 {
   // A sheet that stands steeply in the light is the only caster. Pushed back far beyond the end of
@@ -241,36 +194,6 @@ TEST_P(Pcf, steepCastersStayCastersForWhatLiesBehindAllOfThem)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(KernelSettings, anotherKernelIsBakedOnceAndReported)
-{
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().lights[0].kernel, "bilinear");
-  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 3);
-  // The border is the same, but the reach differs.
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "poisson");
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().mapBakes, 1);
-  EXPECT_EQ(this->scene.report().lights[0].kernel, "poisson");
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().mapBakes, 0);
-  EXPECT_EQ(this->scene.report().programCompiles, 0);
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", "32");
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().mapBakes, 1);
-  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 32);
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", nullptr);
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", nullptr);
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().lights[0].kernel, "bilinear");
-  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 3);
-  this->scene.pass->SetTechnique("nsm");
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().lights[0].kernel, "");
-  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 0);
-}
-
-//------------------------------------------------------------------------------
 TEST_F(KernelSettings, kernelsOfTechniquesThatHaveTheirOwnAreReported)
 {
   this->scene.pass->SetSetting(
@@ -286,30 +209,6 @@ TEST_F(KernelSettings, kernelsOfTechniquesThatHaveTheirOwnAreReported)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(KernelSettings, thePassGivesLightsTheKernelThatTheyDoNotName)
-{
-  const Picture narrow = this->scene.render();
-  this->scene.pass->SetSetting("kernel", "box");
-  this->scene.pass->SetSetting("kernel_size", "9");
-  const Picture wide = this->scene.render();
-  EXPECT_EQ(this->scene.report().lights[0].kernel, "box");
-  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 9);
-  EXPECT_EQ(this->scene.report().mapBakes, 1);
-  EXPECT_GT(differingPixels(narrow, wide), 20u);
-
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "bilinear");
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().lights[0].kernel, "bilinear");
-  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 9);
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", "3");
-  EXPECT_EQ(differingPixels(narrow, this->scene.render()), 0u);
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", nullptr);
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", nullptr);
-  EXPECT_EQ(differingPixels(wide, this->scene.render()), 0u);
-}
-
-//------------------------------------------------------------------------------
 TEST_F(KernelSettings, unknownKernelIsAnErrorThatNamesTheOthers)
 {
   vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "magic");
@@ -326,14 +225,4 @@ TEST_F(KernelSettings, unknownKernelIsAnErrorThatNamesTheOthers)
   EXPECT_EQ(this->scene.report().route, "none");
   EXPECT_EQ(this->scene.report().lights[0].reason,
     "its setting 'kernel' is 'magic', expected one of: bilinear, box, poisson, castano");
-}
-
-//------------------------------------------------------------------------------
-TEST_F(KernelSettings, castanosKernelOfAnotherSizeIsAnErrorThatNamesItsSizes)
-{
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "castano");
-  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", "4");
-  this->scene.render();
-  EXPECT_THAT(
-    this->takeErrors(), HasSubstr("light 0: the kernel 'castano' has the sizes 3, 5 and 7, not 4"));
 }

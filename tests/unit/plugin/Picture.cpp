@@ -9,7 +9,6 @@
 namespace gnomon::test
 {
 
-//------------------------------------------------------------------------------
 glm::ivec3 Picture::at(int x, int y) const
 {
   const std::size_t first = 3 *
@@ -18,7 +17,6 @@ glm::ivec3 Picture::at(int x, int y) const
   return { this->rgb.at(first), this->rgb.at(first + 1), this->rgb.at(first + 2) };
 }
 
-//------------------------------------------------------------------------------
 Picture readPicture(vtkRenderWindow* window)
 {
   vtkNew<vtkUnsignedCharArray> values;
@@ -28,7 +26,6 @@ Picture readPicture(vtkRenderWindow* window)
   return { size[0], size[1], { first, first + values->GetNumberOfValues() } };
 }
 
-//------------------------------------------------------------------------------
 std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance)
 {
   if (a.rgb.size() != b.rgb.size())

@@ -4,14 +4,7 @@
 #include "ChangingProps.h"
 #include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
-
-#include <gmock/gmock.h>
-
-#include <cstddef>
-#include <functional>
-#include <string>
 
 namespace gnomon::test
 {
@@ -127,31 +120,26 @@ struct PropChanges : PassTest
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(PropChanges, showInTheNextFrame)
 {
   showChanges(0);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(PropChanges, ofMoreKindsShowInTheNextFrame)
 {
   showChanges(1);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(PropChanges, restartSamples)
 {
   sampleChanges(0);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(PropChanges, ofMoreKindsRestartSamples)
 {
   sampleChanges(1);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(PropChanges, ofUnknownKindsAreSaidToBeUncertain)
 {
   const auto hint = testing::HasSubstr("only VTK's redraw time tells of changes of ");

@@ -2,18 +2,9 @@
 
 #include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
 
-#include <vtkLightCollection.h>
-#include <vtkProperty.h>
-
-#include <gmock/gmock.h>
-
-#include <algorithm>
 #include <sstream>
-#include <utility>
 
 using namespace gnomon::test;
 using testing::HasSubstr;
@@ -54,46 +45,6 @@ INSTANTIATE_TEST_SUITE_P(OnPlanes, SettingsOfWay, testing::Values(planarWay), na
 
 } // namespace
 
-//------------------------------------------------------------------------------
-TEST_F(Settings, unknownTechniqueIsAnErrorAndChangesNothing)
-{
-  vtkNew<vtkGnomonShadowPass> pass;
-  EXPECT_STREQ(pass->GetTechnique(), vtkGnomonShadowPass::GetDefaultTechnique());
-  pass->SetTechnique("raytraced");
-  const vtkMTimeType time = pass->GetMTime();
-  for (const char* name : { "magic", "", "NSM", static_cast<const char*>(nullptr) })
-  {
-    pass->SetTechnique(name);
-    EXPECT_THAT(this->takeErrors(), HasSubstr("expected one of: auto, nsm, "));
-    EXPECT_STREQ(pass->GetTechnique(), "raytraced");
-    EXPECT_EQ(pass->GetMTime(), time);
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Settings, refusedValuesAreErrorsAndChangeNothing)
-{
-  vtkNew<vtkGnomonShadowPass> pass;
-  EXPECT_EQ(pass->GetSetting("kernel"), "bilinear");
-  pass->SetSetting("kernel", "poisson");
-  pass->SetSetting("kernel_size", "32");
-  const vtkMTimeType time = pass->GetMTime();
-  for (const char* name : { "magic", "", "Box", static_cast<const char*>(nullptr) })
-  {
-    pass->SetSetting("kernel", name);
-    EXPECT_THAT(this->takeErrors(), HasSubstr("one of: bilinear, box, poisson"));
-    EXPECT_EQ(pass->GetSetting("kernel"), "poisson");
-    pass->SetSetting(name, "1");
-    EXPECT_THAT(this->takeErrors(), HasSubstr("There are: technique, "));
-  }
-  pass->SetSetting("kernel_size", "33");
-  EXPECT_THAT(this->takeErrors(), HasSubstr("an integer in [1, 32]"));
-  EXPECT_EQ(pass->GetSetting("kernel_size"), "32");
-  EXPECT_EQ(pass->GetSetting("magic"), "");
-  EXPECT_EQ(pass->GetMTime(), time);
-}
-
-//------------------------------------------------------------------------------
 TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
 {
   this->scene.pass->SetTechnique("pcf");
@@ -120,7 +71,6 @@ TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
   EXPECT_TRUE(this->scene.report().misfits.empty());
 }
 
-//------------------------------------------------------------------------------
 TEST_F(Settings, anEmptyEstimatorIsTheTechniquesOwnAgain)
 {
   this->scene.pass->SetSetting("estimator", "pcf");
@@ -133,7 +83,6 @@ TEST_F(Settings, anEmptyEstimatorIsTheTechniquesOwnAgain)
   EXPECT_THAT(this->takeErrors(), HasSubstr("one of: adaptive, compare, pcf, "));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(Settings, techniquesAreListed)
 {
   ASSERT_GE(vtkGnomonShadowPass::GetNumberOfTechniques(), 2);
@@ -149,7 +98,6 @@ TEST_F(Settings, techniquesAreListed)
     vtkGnomonShadowPass::GetTechniqueName(vtkGnomonShadowPass::GetNumberOfTechniques()), nullptr);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(Settings, numbersAreClamped)
 {
   vtkNew<vtkGnomonShadowPass> pass;
@@ -165,35 +113,6 @@ TEST_F(Settings, numbersAreClamped)
   EXPECT_THAT(text.str(), HasSubstr("Setting map_size: 16384"));
 }
 
-//------------------------------------------------------------------------------
-TEST_F(Settings, inlineRouteAskedOfAScreenTechniqueIsAnErrorAndTheImageRoute)
-{
-  this->scene.pass->SetTechnique("raytraced");
-  const Picture image = this->scene.render();
-  this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-  EXPECT_EQ(differingPixels(image, this->scene.render()), 0u);
-  EXPECT_EQ(this->scene.report().route, "image");
-  const std::string errors = this->takeErrors();
-  EXPECT_THAT(errors, HasSubstr("inline"));
-  EXPECT_THAT(errors, HasSubstr("raytraced"));
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Settings, inlineRouteWithKeptVisibilityIsTheImageRoute)
-{
-  this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-  this->scene.pass->KeepVisibilityOn();
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().route, "image");
-  EXPECT_THAT(this->scene.report().routeReason, HasSubstr("kept"));
-  EXPECT_EQ(this->scene.pass->GetVisibility().visibility.size(), 1u);
-  this->scene.pass->KeepVisibilityOff();
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().route, "inline");
-  EXPECT_TRUE(this->scene.pass->GetVisibility().visibility.empty());
-}
-
-//------------------------------------------------------------------------------
 TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)
 {
   this->scene.render();
@@ -212,7 +131,6 @@ TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)
   EXPECT_LE(sum, this->scene.report().wallMilliseconds);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyed)
 {
   EXPECT_FALSE(this->scene.pass->GetObeyUseShadows());
@@ -230,7 +148,6 @@ TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyed)
   EXPECT_GT(differingPixels(shadowed, unshadowed), 300u);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(SettingsOfWay, useShadowsDoesNotBringVtksOwn)
 {
   const Picture own = this->scene.render();
@@ -245,7 +162,6 @@ TEST_P(SettingsOfWay, useShadowsDoesNotBringVtksOwn)
   EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(SettingsOfWay, windowsOfOnePixel)
 {
   for (const std::array<int, 2>& size :
@@ -259,37 +175,31 @@ TEST_P(SettingsOfWay, windowsOfOnePixel)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_P(SettingsOfWay, viewportThatDoesNotFillTheWindow)
+/// Every pixel of a picture for both eyes belongs to one of the two eyes' pictures.
+TEST_P(SettingsOfWay, bothEyesAreMixedFromEach)
 {
-  PassScene whole(120, 80);
-  fillUnderSun(whole);
-  whole.choose(GetParam());
-  whole.pass->KeepVisibilityOn();
-  const Picture expected = whole.render();
-
-  PassScene part(300, 200);
-  fillUnderSun(part);
-  part.choose(GetParam());
-  part.pass->KeepVisibilityOn();
-  part.renderer->SetViewport(0.5, 0.25, 0.9, 0.65); // 120 x 80 pixels at (150, 50)
-  const Picture picture = part.render();
-  std::size_t different = 0;
-  for (int y = 0; y < picture.height; ++y)
+  this->scene.renderer->GetActiveCamera()->SetEyeAngle(8.0);
+  this->scene.window->SetStereoRender(1);
+  const auto drawAs = [&](int kind)
   {
-    for (int x = 0; x < picture.width; ++x)
+    this->scene.window->SetStereoType(kind);
+    return this->scene.render();
+  };
+  const Picture left = drawAs(VTK_STEREO_LEFT);
+  const Picture right = drawAs(VTK_STEREO_RIGHT);
+  EXPECT_GT(differingPixels(left, right), 500u);
+  for (const int kind : { VTK_STEREO_INTERLACED, VTK_STEREO_CHECKERBOARD, VTK_STEREO_DRESDEN })
+  {
+    const Picture mixed = drawAs(kind);
+    int strange = 0;
+    for (std::size_t i = 0; i < mixed.rgb.size(); ++i)
     {
-      const bool inside = x >= 150 && x < 270 && y >= 50 && y < 130;
-      const glm::ivec3 exact = inside ? expected.at(x - 150, y - 50) : glm::ivec3(0);
-      different += picture.at(x, y) != exact ? 1 : 0;
+      strange += mixed.rgb[i] != left.rgb[i] && mixed.rgb[i] != right.rgb[i] ? 1 : 0;
     }
+    EXPECT_EQ(strange, 0) << "kind " << kind;
   }
-  EXPECT_EQ(different, 0u);
-  EXPECT_EQ(whole.pass->GetVisibility().width, part.pass->GetVisibility().width);
-  EXPECT_EQ(whole.pass->GetVisibility().visibility, part.pass->GetVisibility().visibility);
 }
 
-//------------------------------------------------------------------------------
 /// The halves of one window equal the pictures of separate windows.
 TEST_P(SettingsOfWay, onePassForTwoRenderersSideBySide)
 {
@@ -389,7 +299,6 @@ protected:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 /// Techniques traced on the CPU show the known shadow. Lights with other techniques get
 /// `raytraced`, which is reported once.
 TEST_F(OldOpenGL, showsWhatTheCpuTraces)
@@ -414,7 +323,6 @@ TEST_F(OldOpenGL, showsWhatTheCpuTraces)
   EXPECT_EQ(this->scene.report().lights.at(0).lightSamples, 64);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(OldOpenGL, hasRaysInPlaceOfWhatItCannotDraw)
 {
   for (const char* technique : { "nsm", "pcss", "montecarlo", "planar", "selective", "coherence" })
@@ -426,7 +334,6 @@ TEST_F(OldOpenGL, hasRaysInPlaceOfWhatItCannotDraw)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(OldOpenGL, hasNoMapsForTranslucentReceivers)
 {
   this->scene.pass->SetTechnique("raytraced");
@@ -436,7 +343,6 @@ TEST_F(OldOpenGL, hasNoMapsForTranslucentReceivers)
   EXPECT_EQ(this->takeErrors(), "");
 }
 
-//------------------------------------------------------------------------------
 TEST_F(OldOpenGL, isOneClearErrorOfLightSampling)
 {
   this->scene.usePlain();

@@ -3,12 +3,7 @@
 #include "PassScene.h"
 #include "Variant.h"
 
-#include <vtkActor.h>
-#include <vtkProperty.h>
 #include <vtkShaderProperty.h>
-#include <vtkTexture.h>
-
-#include <algorithm>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -31,7 +26,6 @@ bool hasSamplersOfItsOwn(const Variant& variant)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 /// The shaders that draw the first frame's receivers have samplers of maps that do not exist yet.
 TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersOfItsOwn)
 {
@@ -59,7 +53,6 @@ TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersO
   EXPECT_EQ(differingPixels(scene.render(), first), 0u);
 }
 
-//------------------------------------------------------------------------------
 /// A user's own code after VTK's lighting can use its results.
 TEST(ShaderManagerWithCode, ReadsVtksLightingByBothRoutes)
 {
@@ -92,7 +85,6 @@ TEST(ShaderManagerWithCode, ReadsVtksLightingByBothRoutes)
     1u);
 }
 
-//------------------------------------------------------------------------------
 /// A user's whole shader has no marks for lighting. What it draws hides receivers, and has no rays.
 TEST(ShaderManagerWithCode, LeavesNoReceiverWhereAWholeShaderDraws)
 {

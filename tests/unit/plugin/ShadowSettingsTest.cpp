@@ -3,17 +3,9 @@
 #include "PassScene.h"
 
 #include "lights/SettingsTable.h"
-#include "lights/vtkGnomonLightKeys.h"
 #include "vtkGnomonShadowSettings.h"
 
-#include <vtkNew.h>
-
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <limits>
 #include <set>
-#include <string>
 
 using namespace gnomon::test;
 using testing::HasSubstr;
@@ -39,7 +31,6 @@ protected:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(ShadowSettingsTest, gettersReadWhatSettersSet)
 {
   this->settings->SetTechnique("pcf");
@@ -56,7 +47,6 @@ TEST_F(ShadowSettingsTest, gettersReadWhatSettersSet)
   EXPECT_EQ(this->settings->GetSetting("kernel_size"), "5");
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ShadowSettingsTest, numbersAreClampedToTheirRange)
 {
   this->settings->SetMapSize(1);
@@ -72,7 +62,6 @@ TEST_F(ShadowSettingsTest, numbersAreClampedToTheirRange)
     std::get<gnomon::ChoiceSetting>(gnomon::findSetting("kernel")->values).names.back());
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ShadowSettingsTest, mistakesAreErrorsAndChangeNothing)
 {
   const vtkMTimeType before = this->settings->GetMTime();
@@ -87,7 +76,6 @@ TEST_F(ShadowSettingsTest, mistakesAreErrorsAndChangeNothing)
   EXPECT_EQ(this->settings->GetMTime(), before);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ShadowSettingsTest, theListHasAllOfThem)
 {
   std::set<std::string> names;
@@ -103,7 +91,6 @@ TEST_F(ShadowSettingsTest, theListHasAllOfThem)
   EXPECT_EQ(vtkGnomonShadowSettings::GetSettingUnit(1000), "");
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ShadowSettingsTest, passesShareThem)
 {
   this->addSun(slantingSun);
@@ -124,7 +111,6 @@ TEST_F(ShadowSettingsTest, passesShareThem)
   EXPECT_STREQ(other->GetTechnique(), "vsm");
 }
 
-//------------------------------------------------------------------------------
 // A setting by name overrides one by object, and that overrides the pass's. Settings that an object
 // leaves unset are the pass's.
 TEST_F(ShadowSettingsTest, lightsHaveTheirOwn)

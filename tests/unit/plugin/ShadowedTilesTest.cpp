@@ -45,7 +45,6 @@ bool holds(const Rectangles& rectangles, int x, int y)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(ShadowedTiles, AreNoneWhereAllIsLit)
 {
   const ShadowedTiles tiles = findShadowedTiles(litBut({ 50, 40 }, {}), { 50, 40 });
@@ -53,7 +52,6 @@ TEST(ShadowedTiles, AreNoneWhereAllIsLit)
   EXPECT_TRUE(tiles.whole.empty());
 }
 
-//------------------------------------------------------------------------------
 TEST(ShadowedTiles, JoinNeighboursOfOneKind)
 {
   // The last tiles of a row and of a column have 2 and 8 pixels.
@@ -64,7 +62,6 @@ TEST(ShadowedTiles, JoinNeighboursOfOneKind)
   EXPECT_EQ(tiles.inPart, (Rectangles{ { { 32, 32 }, { 48, 40 } } }));
 }
 
-//------------------------------------------------------------------------------
 TEST(ShadowedTiles, HoldEveryPixelInShadow)
 {
   std::mt19937 random(7);
@@ -90,7 +87,6 @@ TEST(ShadowedTiles, HoldEveryPixelInShadow)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(ShadowedTiles, TellOfPixelsBetweenLightAndShadow)
 {
   const glm::ivec2 size(32, 16);

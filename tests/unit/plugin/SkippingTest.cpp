@@ -3,14 +3,6 @@
 #include "BuiltinPass.h"
 #include "PassScene.h"
 
-#include <vtkLightCollection.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <vector>
-
 namespace gnomon::test
 {
 namespace
@@ -19,12 +11,6 @@ namespace
 constexpr int side = 200; // pixels
 
 using Skipping = PassTest;
-
-Picture drawIn(const BuiltinPass& scene)
-{
-  scene.window->Render();
-  return readPicture(scene.window);
-}
 
 vtkLight* lightOf(const BuiltinPass& scene, int index)
 {
@@ -55,7 +41,6 @@ bool isLit(const std::vector<float>& visibility)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(Skipping, leavesEachLampOfABuildingAsItIs)
 {
   const BuiltinPass all("building", side);
@@ -94,20 +79,6 @@ TEST_F(Skipping, leavesEachLampOfABuildingAsItIs)
   EXPECT_GE(inSight, 3);
 }
 
-//------------------------------------------------------------------------------
-TEST_F(Skipping, showsABuildingByItsLampsInSight)
-{
-  const BuiltinPass all("building", side);
-  const BuiltinPass few("building-lit", side);
-  for (const BuiltinPass* scene : { &all, &few })
-  {
-    scene->pass->SetSetting("technique", "raytraced");
-  }
-  const Picture ofAll = drawIn(all);
-  const Picture ofFew = drawIn(few);
-  EXPECT_EQ(differingPixels(ofAll, ofFew, 1), 0u);
-}
-
 namespace
 {
 
@@ -134,7 +105,6 @@ struct Rooms
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(Skipping, followsCastersThatMove)
 {
   Rooms all;

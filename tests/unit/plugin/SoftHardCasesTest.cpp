@@ -1,23 +1,9 @@
 // Techniques with soft shadows under area lights, in difficult scenes. Values stay finite, OpenGL
 // reports no error, and visibility differs from the ray-traced one by no more than is stated here.
 
-#include "PassScene.h"
+#include "AreaLights.h"
 
-#include "lights/vtkGnomonAreaLight.h"
-#include "lights/vtkGnomonLightKeys.h"
-#include "plugin/vtkGnomonPropKeys.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
-
-#include <vtkPlaneSource.h>
-#include <vtkSphereSource.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <iterator>
-#include <ostream>
-#include <string>
-#include <vector>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -54,41 +40,19 @@ void addThings(PassScene& scene, double unit = 1.0, const glm::dvec3& offset = g
 /// Add a light.
 Build softSun(const glm::dvec3& direction, const char* degrees)
 {
-  return [=](PassScene& scene)
-  {
-    vtkLight* light = scene.addSun(direction);
-    vtkGnomonLightKeys::SetSetting(light, "light_radius", degrees);
-    return light;
-  };
+  return [=](PassScene& scene) { return addSoftSun(scene, direction, degrees); };
 }
-
 Build softBall(const glm::dvec3& place, const char* radius)
 {
-  return [=](PassScene& scene)
-  {
-    vtkLight* light = scene.addSpot(place, place + glm::dvec3(-0.1, 0.2, -1.0), allDirections);
-    vtkGnomonLightKeys::SetSetting(light, "light_radius", radius);
-    return light;
-  };
+  return [=](PassScene& scene) { return addBall(scene, place, radius); };
 }
-
 const glm::dvec3 down(0.0, 0.0, -1.0);
-
 Build softDisk(const glm::dvec3& place, double radius, const glm::dvec3& travel = down,
   double coneAngleDegrees = 90.0)
 {
   return [=](PassScene& scene)
-  {
-    vtkNew<vtkGnomonAreaLight> light;
-    light->SetPosition(place.x, place.y, place.z);
-    light->SetFocalPoint(place.x + travel.x, place.y + travel.y, place.z + travel.z);
-    light->SetConeAngle(coneAngleDegrees);
-    light->SetRadius(radius);
-    scene.renderer->AddLight(light);
-    return light.Get();
-  };
+  { return addDisk(scene, place, place + travel, radius, coneAngleDegrees); };
 }
-
 const glm::dvec3 slantingSoftly(1.0, 0.4, -1.5);
 const glm::dvec3 over(2.0, -2.0, 5.0);
 
@@ -366,11 +330,11 @@ TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
     scene.pass->SetTechnique(technique);
     return drawKept(scene); // checks that numbers are finite and in [0, 1]
   };
-  scene.pass->SetSetting("light_samples", "1024");
-  scene.pass->SetSetting("light_seed", "1");
+  scene.set("light_samples", "1024");
+  scene.set("light_seed", "1");
   const VisibilityImages truth = draw("raytraced");
-  scene.pass->SetSetting("light_samples", "64");
-  scene.pass->SetSetting("light_seed", "0");
+  scene.set("light_samples", "64");
+  scene.set("light_seed", "0");
   const std::vector<float> traced = draw("raytraced").visibility[0];
   EXPECT_EQ(draw("penumbra").visibility[0], traced);
   const auto measure = [&](
@@ -388,7 +352,6 @@ TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Bounds that replace a search give the same result as the search.
 TEST_P(SoftHardCases, showTheSameByBounds)
 {
@@ -398,12 +361,12 @@ TEST_P(SoftHardCases, showTheSameByBounds)
   const auto draw = [&](const char* technique, const char* setting, const char* value)
   {
     scene.pass->SetTechnique(technique);
-    scene.pass->SetSetting(setting, value);
+    scene.set(setting, value);
     return drawKept(scene).visibility[0];
   };
   const std::vector<float> asked = draw("pcss", "early_out", "exact");
   EXPECT_EQ(draw("pcss", "early_out", "none"), asked);
-  scene.pass->SetSetting("mc_filter", "0");
+  scene.set("mc_filter", "0");
   const std::vector<float> searched = draw("montecarlo", "mc_classify", "off");
   for (const char* classify : { "pixels", "rays" })
   {
@@ -417,88 +380,51 @@ TEST_P(SoftHardCases, showTheSameByBounds)
   }
 }
 
-//------------------------------------------------------------------------------
-/// Unoccluded receivers are fully lit, for lights of any size and place.
+/// Unoccluded receivers are as lit as by the light's centre, for lights of any size and place: over
+/// the floor, in it, cut by it and far away.
 TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
 {
-  PassScene scene(72, 48);
-  scene.pass->SetMapSize(256);
-  scene.pass->SetSetting("light_samples", "16");
-  scene.addBox({ -4.0, -4.0, -0.2 }, { 4.0, 4.0, 0.0 });
-  scene.lookFrom({ 2.0, -8.0, 7.0 });
-  struct Place
+  PassScene scene(60, 40);
+  scene.pass->SetMapSize(128);
+  scene.set("light_samples", 9);
+  scene.set("progressive", 4);
+  scene.addFloor(4.0);
+  scene.lookFrom({ 2.0, -6.0, 5.0 });
+  const std::pair<glm::dvec3, glm::dvec3> places[] = { { { 0.5, 0.2, 4.0 }, down },
+    { { 0.5, 0.2, 0.001 }, down }, { { 0.5, 0.2, 0.0 }, down }, { { 0.5, 0.2, -0.1 }, down },
+    { { 0.5, 0.2, 0.3 }, { 1.0, 0.3, 0.0 } }, { { 0.5, 0.2, 0.0 }, { -0.1, 1.0, 0.0 } },
+    { { 30.0, 5.0, 0.5 }, { -1.0, 0.0, 0.0 } } };
+  for (const auto& [position, travel] : places)
   {
-    glm::dvec3 position;
-    glm::dvec3 travel;
-  };
-  const Place places[] = { { { 0.5, 0.2, 4.0 }, down }, { { 0.5, 0.2, 0.05 }, down },
-    { { 0.5, 0.2, 0.3 }, { 1.0, 0.3, 0.0 } }, { { 30.0, 5.0, 0.5 }, { -1.0, 0.0, 0.0 } } };
-  for (const Place& place : places)
-  {
-    for (const double cone : { 40.0, 90.0 })
+    for (const double cone : { 30.0, 90.0 })
     {
-      for (const double radius : { 0.0, 1e-6, 0.3, 50.0 })
+      for (const double radius : { 0.0, 1e-6, 0.3, 1e4 })
       {
-        vtkLight* const light = softDisk(place.position, radius, place.travel, cone)(scene);
-        scene.pass->SetTechnique("nsm");
-        const VisibilityImages& kept = drawKept(scene);
-        const std::vector<float> plain = kept.visibility[0];
-        if (place.travel == down && cone == 90.0)
+        // Of points in the floor, rounding decides the side.
+        const bool isInFloor = position.z < 0.01;
+        if (isInFloor && radius == 1e-6)
         {
-          // The top, which fills nearly all of the picture.
-          const auto covered =
-            static_cast<double>(std::count(kept.coverage.begin(), kept.coverage.end(), 1));
-          EXPECT_GT(
-            static_cast<double>(std::count(plain.begin(), plain.end(), 1.0f)), 0.9 * covered);
-          EXPECT_GT(covered, 640.0);
+          continue;
         }
-        for (const char* technique :
-          { "pcss", "montecarlo", "sampled", "coherence", "penumbra", "raytraced" })
+        vtkLight* const light = addDisk(scene, position, position + travel, radius, cone);
+        const std::vector<float> plain = scene.visibilityBy("nsm");
+        const auto lit = static_cast<double>(std::count(plain.begin(), plain.end(), 1.0f));
+        EXPECT_TRUE(position.z < 3.0 || cone < 90.0 || lit > 0.5 * 60 * 40);
+        const std::vector<const char*> techniques = isInFloor
+          ? std::vector{ "pcss", "sampled" }
+          : std::vector{ "pcss", "montecarlo", "sampled", "coherence", "penumbra", "raytraced" };
+        for (const char* technique : techniques)
         {
-          scene.pass->SetTechnique(technique);
-          EXPECT_EQ(drawKept(scene).visibility[0], plain)
-            << technique << " at " << place.position.z << ", cone " << cone << ", radius "
-            << radius;
+          for (int frame = 0; frame < 4; ++frame)
+          {
+            EXPECT_EQ(scene.visibilityBy(technique), plain)
+              << technique << " at " << position.z << ", cone " << cone << ", radius " << radius;
+          }
+          EXPECT_EQ(scene.pass->GetProgress(), 1.0);
         }
         scene.renderer->RemoveLight(light);
       }
     }
-  }
-}
-
-//------------------------------------------------------------------------------
-/// Across the penumbra of a half plane, mean visibility falls from column to column without steps,
-/// which would show as bands. The truth is constant along a column.
-TEST(SoftPenumbras, haveNoBandsByDefault)
-{
-  PassScene scene(200, 100);
-  scene.addFloor(20.0);
-  scene.addBox({ -12.0, -4.0, 1.999 }, { 0.0, 4.0, 2.0 });
-  scene.lookDown(0.5);
-  scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 1.5); // below the half plane
-  scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
-  softDisk({ 0.0, 0.0, 10.0 }, 1.2, down, 50.0)(scene);
-  // The penumbra is 60 columns wide, and steepest in its middle, where the edge cuts the light's
-  // diameter.
-  const double steepest = 4.0 / std::acos(-1.0) / 60.0;
-  for (const char* technique :
-    { "raytraced", "penumbra", "pcss", "montecarlo", "coherence", "sampled" })
-  {
-    scene.pass->SetTechnique(technique);
-    if (technique == std::string("sampled"))
-    {
-      scene.pass->SetSetting(
-        "light_samples", "512"); // all pixels see the same points: the 64 of the default show
-    }
-    const std::vector<double> columns = columnMeans(drawKept(scene));
-    double step = 0.0;
-    for (std::size_t x = 1; x < columns.size(); ++x)
-    {
-      step = std::max(step, std::abs(columns[x] - columns[x - 1]));
-    }
-    EXPECT_LT(columns.front(), 0.01) << technique;
-    EXPECT_GT(columns.back(), 0.99) << technique;
-    EXPECT_LT(step, 1.4 * steepest) << technique;
   }
 }
 

@@ -3,17 +3,12 @@
 #include "PassScene.h"
 #include "RandomScenes.h"
 
-#include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtk_versions/SharedBlocksMapper.h"
 
-#include <vtkActorCollection.h>
-#include <vtkCellArray.h>
 #include <vtkCompositeDataDisplayAttributes.h>
 #include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
 #include <vtkImageActor.h>
 #include <vtkImageProperty.h>
-#include <vtkLightCollection.h>
 #include <vtkMatrix4x4.h>
 #include <vtkMolecule.h>
 #include <vtkMultiBlockDataSet.h>
@@ -22,22 +17,11 @@
 #include <vtkOpenGLStickMapper.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
-#include <vtkPointData.h>
 #include <vtkPointGaussianMapper.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkPropAssembly.h>
-#include <vtkProperty.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
 #include <optional>
-#include <random>
-#include <string>
-#include <vector>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -238,26 +222,12 @@ public:
     : scene_(scene)
     , light_(light)
   {
-    vtkNew<vtkMatrix4x4> inverse;
-    inverse->DeepCopy(scene.renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
-      scene.renderer->GetTiledAspectRatio(), -1.0, 1.0));
-    vtkNew<vtkMatrix4x4> view;
-    view->DeepCopy(scene.renderer->GetActiveCamera()->GetViewTransformMatrix());
-    for (int row = 0; row < 4; ++row)
-    {
-      for (int column = 0; column < 4; ++column)
-      {
-        this->viewFromWorld_[column][row] = view->GetElement(row, column);
-      }
-    }
-    inverse->Invert();
-    for (int row = 0; row < 4; ++row)
-    {
-      for (int column = 0; column < 4; ++column)
-      {
-        this->worldFromClip_[column][row] = inverse->GetElement(row, column);
-      }
-    }
+    vtkCamera* const camera = scene.renderer->GetActiveCamera();
+    const auto read = [](vtkMatrix4x4* matrix)
+    { return glm::transpose(glm::dmat4(glm::make_mat4(matrix->GetData()))); };
+    this->viewFromWorld_ = read(camera->GetViewTransformMatrix());
+    this->worldFromClip_ = glm::inverse(read(camera->GetCompositeProjectionTransformMatrix(
+      scene.renderer->GetTiledAspectRatio(), -1.0, 1.0)));
   }
 
   /// @param y from the top
@@ -307,10 +277,8 @@ private:
 
   bool isLit(PixelTruth& truth) const
   {
-    const glm::dvec3 position(this->light_->GetPosition()[0], this->light_->GetPosition()[1],
-      this->light_->GetPosition()[2]);
-    const glm::dvec3 target(this->light_->GetFocalPoint()[0], this->light_->GetFocalPoint()[1],
-      this->light_->GetFocalPoint()[2]);
+    const glm::dvec3 position = glm::make_vec3(this->light_->GetPosition());
+    const glm::dvec3 target = glm::make_vec3(this->light_->GetFocalPoint());
     const bool positional = this->light_->GetPositional();
     const glm::dvec3 way = positional ? position - truth.position : position - target;
     const double cosine = glm::dot(truth.normal, glm::normalize(way));
@@ -334,30 +302,17 @@ void setTechnique(SolidsScene& scene, const char* technique)
   scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
 }
 
-/// Return the visibility of a pass without earlier frames.
-std::vector<float> visibilityByFreshPass(PassScene& scene)
+/// Compare the frame after each change with that of a pass without earlier frames.
+void expectFresh(PassScene& scene)
 {
-  vtkNew<vtkGnomonShadowPass> fresh;
-  fresh->SmoothTerminatorsOff();
-  fresh->SetTechnique("raytraced");
-  fresh->KeepVisibilityOn();
-  scene.renderer->SetPass(fresh);
-  scene.window->Render();
-  std::vector<float> visibility = fresh->GetVisibility().visibility[0];
-  scene.useGnomon();
-  return visibility;
+  const std::vector<float> seen = drawKept(scene).visibility[0];
+  EXPECT_EQ(scene.drawAnew().visibility[0], seen);
 }
 
-/// The fixture's window is drawn with its first light's visibility kept.
-class SolidsTest : public PassTest
-{
-protected:
-  static std::vector<float> visibility(SolidsScene& scene) { return drawKept(scene).visibility[0]; }
-};
+using SolidsTest = PassTest;
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(SolidsTest, agreeWithClosedForms)
 {
   for (const bool parallel : { false, true })
@@ -410,7 +365,6 @@ TEST_F(SolidsTest, agreeWithClosedForms)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Include an image, which casts and receives as its rectangle.
 TEST_F(SolidsTest, exactTechniquesAgree)
 {
@@ -433,28 +387,27 @@ TEST_F(SolidsTest, exactTechniquesAgree)
              : scene.addSpot({ uniform(-4, 4), uniform(-4, 4), 9.0 }, { 0, 0, 0 }, 80.0);
     scene.lookFrom({ uniform(-8, 8), uniform(-8, 8), uniform(3, 9) }, { 0.0, 0.0, 1.0 });
     setTechnique(scene, "raytraced");
-    const std::vector<float> truth = this->visibility(scene);
+    const std::vector<float> truth = drawKept(scene).visibility[0];
     EXPECT_EQ(scene.report().leftOut.size(), 0u);
     for (const char* technique : { "crsm", "crsma", "silhouette", "penumbra" })
     {
       SCOPED_TRACE(testing::Message() << technique << " " << seed);
       setTechnique(scene, technique);
-      EXPECT_EQ(this->visibility(scene), truth);
+      EXPECT_EQ(drawKept(scene).visibility[0], truth);
     }
   }
 }
 
-//------------------------------------------------------------------------------
 /// A map of triangles alone would miss the solids.
 TEST_F(SolidsTest, conservativeMapsAreNotAsked)
 {
   SolidsScene scene(3);
   scene.addSun({ 0.5, 0.3, -1.0 });
   setTechnique(scene, "raytraced");
-  const std::vector<float> truth = this->visibility(scene);
+  const std::vector<float> truth = drawKept(scene).visibility[0];
   scene.pass->SetSetting("bake", "always");
   setTechnique(scene, "crsm");
-  EXPECT_EQ(this->visibility(scene), truth);
+  EXPECT_EQ(drawKept(scene).visibility[0], truth);
   EXPECT_EQ(scene.report().mapBakes, 0);
   EXPECT_THAT(scene.report().lights[0].mapReason, testing::HasSubstr("spheres or cylinders"));
   scene.ballActor->VisibilityOff();
@@ -464,7 +417,6 @@ TEST_F(SolidsTest, conservativeMapsAreNotAsked)
   EXPECT_EQ(scene.report().mapBakes, 1);
 }
 
-//------------------------------------------------------------------------------
 /// A map holds meshes inside the solids, so no solid shadows itself.
 TEST_F(SolidsTest, mapsShowThemWithoutAcne)
 {
@@ -501,7 +453,6 @@ TEST_F(SolidsTest, mapsShowThemWithoutAcne)
   }
 }
 
-//------------------------------------------------------------------------------
 /// While the picture moves, `auto` takes a map, or few samples of an area light. These are probed
 /// on the solids, too: without the floor there is nothing else.
 TEST_F(SolidsTest, movingPicturesAreProbedOnSolids)
@@ -525,36 +476,19 @@ TEST_F(SolidsTest, movingPicturesAreProbedOnSolids)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(SolidsTest, bothRoutesAgree)
-{
-  SolidsScene scene(7);
-  scene.addSun({ 0.5, 0.3, -1.0 });
-  for (const char* technique : { "nsm", "pcf" })
-  {
-    scene.pass->SetTechnique(technique);
-    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-    const Picture within = scene.render();
-    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
-    const Picture fetched = scene.render();
-    EXPECT_LE(differingPixels(within, fetched, 2), within.pixels() / 5000) << technique;
-  }
-}
-
-//------------------------------------------------------------------------------
 /// A pass with earlier frames shows the same as a new one.
 TEST_F(SolidsTest, changesAreSeen)
 {
   SolidsScene scene(8);
   scene.addSun({ 0.5, 0.3, -1.0 });
   setTechnique(scene, "raytraced");
-  std::vector<float> before = this->visibility(scene);
+  std::vector<float> before = drawKept(scene).visibility[0];
   const auto expectChange = [&](const char* what)
   {
     SCOPED_TRACE(what);
-    const std::vector<float> after = this->visibility(scene);
+    const std::vector<float> after = drawKept(scene).visibility[0];
     EXPECT_NE(after, before);
-    EXPECT_EQ(visibilityByFreshPass(scene), after);
+    EXPECT_EQ(scene.drawAnew().visibility[0], after);
     before = after;
   };
   scene.radii->SetValue(3, 1.5f);
@@ -580,32 +514,6 @@ TEST_F(SolidsTest, changesAreSeen)
   expectChange("fewer");
 }
 
-//------------------------------------------------------------------------------
-TEST_F(SolidsTest, unservedSolidsAreListed)
-{
-  SolidsScene scene(9, 4);
-  scene.addSun({ 0.5, 0.3, -1.0 });
-  const auto notes = [&]
-  {
-    scene.render();
-    std::string all;
-    for (const std::string& note : scene.report().notes)
-    {
-      all += note;
-    }
-    return all;
-  };
-  EXPECT_EQ(notes(), "");
-  scene.stickActor->SetScale(2.0);
-  EXPECT_THAT(notes(), testing::HasSubstr("vtkOpenGLStickMapper (its actor is scaled"));
-  scene.stickActor->SetScale(1.0);
-  scene.ballMapper->AddClippingPlane(vtkNew<vtkPlane>());
-  EXPECT_THAT(notes(), testing::HasSubstr("vtkOpenGLSphereMapper (clipped)"));
-  scene.ballMapper->RemoveAllClippingPlanes();
-  EXPECT_EQ(notes(), "");
-}
-
-//------------------------------------------------------------------------------
 TEST_F(SolidsTest, atomsAndBondsCast)
 {
   PassScene scene(200, 200);
@@ -645,47 +553,29 @@ TEST_F(SolidsTest, atomsAndBondsCast)
   EXPECT_LE(all, atoms + bonds);
 }
 
-//------------------------------------------------------------------------------
-/// In a window with several samples per pixel: all samples are in another prop's shadow.
-TEST_F(SolidsTest, outlinesAreAsDarkAsWhatTheyAreOf)
-{
-  SolidsScene scene(11);
-  scene.addBox({ -20.0, -20.0, 30.0 }, { 20.0, 20.0, 31.0 });
-  scene.addSun({ 0.2, 0.1, -1.0 });
-  scene.window->SetMultiSamples(4);
-  for (const char* technique : { "raytraced", "nsm" })
-  {
-    SCOPED_TRACE(technique);
-    setTechnique(scene, technique);
-    const Picture picture = scene.render();
-    EXPECT_EQ(*std::max_element(picture.rgb.begin(), picture.rgb.end()), 0);
-  }
-}
-
 namespace
 {
 
-/// Points on a ring and a line through them, over a floor, as spheres and tubes sized in pixels.
-class PixelSizedScene : public PassScene
+/// Points on a ring and a line through them, over a floor.
+class RingScene : public PassScene
 {
 public:
-  static constexpr int count = 60;
-  static constexpr float pointSize = 14.0f;
+  static constexpr float pointSize = 14.0f; // pixels
   static constexpr float lineWidth = 8.0f;
   static constexpr double height = 1.5;
 
-  PixelSizedScene()
+  explicit RingScene(int points = 60)
     : PassScene(300, 300)
   {
     this->addFloor(12.0);
-    this->addSun({ 0.4, 0.2, -1.0 });
+    this->sun = this->addSun({ 0.4, 0.2, -1.0 });
     this->data->SetPoints(vtkNew<vtkPoints>());
     this->data->SetVerts(vtkNew<vtkCellArray>());
     this->data->SetLines(vtkNew<vtkCellArray>());
-    this->data->GetLines()->InsertNextCell(count + 1);
-    for (int i = 0; i < count; ++i)
+    this->data->GetLines()->InsertNextCell(points + 1);
+    for (int i = 0; i < points; ++i)
     {
-      const double angle = 2.0 * 3.14159265358979 * i / count;
+      const double angle = glm::two_pi<double>() * i / points;
       addPoint(this->data, { 3.0 * std::cos(angle), 3.0 * std::sin(angle), height });
       this->data->GetLines()->InsertCellPoint(i);
     }
@@ -694,271 +584,12 @@ public:
     this->actor->GetProperty()->SetPointSize(pointSize);
     this->actor->GetProperty()->SetLineWidth(lineWidth);
     this->lookFrom({ 1.0, -9.0, 7.0 }, { 0.5, 0.0, 0.5 });
+    this->pass->SetTechnique("raytraced");
   }
 
   void showPoints() { this->actor->GetProperty()->RenderPointsAsSpheresOn(); }
   void showTubes() { this->actor->GetProperty()->RenderLinesAsTubesOn(); }
-
-  /// Return the world size of half of `pixels` at a point.
-  double radiusAt(const glm::dvec3& point, double pixels)
-  {
-    vtkCamera* camera = this->renderer->GetActiveCamera();
-    const double* from = camera->GetPosition();
-    const double* along = camera->GetDirectionOfProjection();
-    const double depth = (point.x - from[0]) * along[0] + (point.y - from[1]) * along[1] +
-      (point.z - from[2]) * along[2];
-    const double halfHeight = camera->GetParallelProjection()
-      ? camera->GetParallelScale()
-      : depth * std::tan(glm::radians(0.5 * camera->GetViewAngle()));
-    return pixels * halfHeight / 300.0;
-  }
-
-  vtkNew<vtkPolyData> data;
-  vtkActor* actor;
-};
-
-/// Pixels of surfaces above the floor: the number that face the light, and of these the dark ones.
-struct Darkness
-{
-  std::size_t facing = 0;
-  std::size_t dark = 0;
-};
-Darkness darknessAbove(const VisibilityImages& kept, double height, vtkLight* light)
-{
-  Darkness result;
-  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-  {
-    if (positionOf(kept, i).z > height && cosineTowards(kept, i, light) > 0.02)
-    {
-      ++result.facing;
-      result.dark += kept.visibility[0][i] < 0.5f ? 1 : 0;
-    }
-  }
-  return result;
-}
-
-} // namespace
-
-//------------------------------------------------------------------------------
-/// They cast like spheres of that size.
-TEST_F(SolidsTest, pointsAsSpheresCastAsSpheres)
-{
-  for (const bool parallel : { false, true })
-  {
-    SCOPED_TRACE(parallel);
-    PixelSizedScene scene;
-    scene.showPoints();
-    scene.renderer->GetActiveCamera()->SetParallelProjection(parallel);
-    scene.renderer->GetActiveCamera()->SetParallelScale(5.0);
-    scene.pass->SetTechnique("raytraced");
-    const VisibilityImages points = drawKept(scene);
-    EXPECT_EQ(scene.report().instances, 60u);
-    EXPECT_THAT(scene.report().notes, testing::IsEmpty());
-
-    vtkNew<vtkOpenGLSphereMapper> spheres;
-    vtkFloatArray* radii = addArray(scene.data, "radii", 1);
-    for (vtkIdType i = 0; i < PixelSizedScene::count; ++i)
-    {
-      const double* at = scene.data->GetPoint(i);
-      radii->InsertNextTuple1(scene.radiusAt({ at[0], at[1], at[2] }, scene.pointSize));
-    }
-    spheres->SetInputData(scene.data);
-    spheres->SetScaleArray("radii");
-    scene.actor->SetMapper(spheres);
-    const VisibilityImages truth = drawKept(scene);
-    std::size_t floor = 0;
-    std::size_t dark = 0;
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < truth.coverage.size(); ++i)
-    {
-      if (positionOf(points, i).z < 0.1 && positionOf(truth, i).z < 0.1)
-      {
-        ++floor;
-        dark += truth.visibility[0][i] == 0.0f ? 1 : 0;
-        different += truth.visibility[0][i] != points.visibility[0][i] ? 1 : 0;
-      }
-    }
-    EXPECT_GT(floor, 50000u);
-    EXPECT_GT(dark, 1000u);
-    EXPECT_LE(different, 5u); // outlines, to within a rounding of the radius
-  }
-}
-
-//------------------------------------------------------------------------------
-/// A mapper of composite data, as ParaView's, draws the same spheres and tubes of each block.
-TEST_F(SolidsTest, pixelSizedSolidsOfBlocksAreThoseOfTheirData)
-{
-  PixelSizedScene scene;
-  scene.showPoints();
-  scene.showTubes();
-  scene.pass->SetTechnique("raytraced");
-  const VisibilityImages truth = drawKept(scene);
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, scene.data);
-  vtkNew<vtkPolyData> empty;
-  blocks->SetBlock(1, empty);
-  vtkNew<gnomon::SharedBlocksMapper> mapper;
-  vtkNew<vtkCompositeDataDisplayAttributes> attributes;
-  mapper->SetCompositeDataDisplayAttributes(attributes);
-  mapper->SetInputDataObject(blocks);
-  scene.actor->SetMapper(mapper);
-  const VisibilityImages kept = drawKept(scene);
-  EXPECT_EQ(scene.report().instances, 120u);
-  EXPECT_THAT(scene.report().notes, testing::IsEmpty());
-  std::size_t dark = 0;
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < truth.coverage.size(); ++i)
-  {
-    dark += truth.visibility[0][i] == 0.0f ? 1 : 0;
-    different += truth.visibility[0][i] != kept.visibility[0][i] ? 1 : 0;
-  }
-  EXPECT_GT(dark, 1000u);
-  EXPECT_LE(different, 5u); // outlines
-}
-
-//------------------------------------------------------------------------------
-/// Their shadows on the floor are as wide as the tubes look, all along.
-TEST_F(SolidsTest, linesAsTubesCastAsTubes)
-{
-  PixelSizedScene scene;
-  scene.showTubes();
-  vtkCamera* camera = scene.renderer->GetActiveCamera();
-  scene.lookFrom({ 0.0, 0.0, 20.0 });
-  camera->SetViewUp(0.0, 1.0, 0.0);
-  camera->ParallelProjectionOn();
-  camera->SetParallelScale(5.0);
-  scene.pass->SetTechnique("raytraced");
-  const VisibilityImages& kept = drawKept(scene);
-  EXPECT_EQ(scene.report().instances, 60u);
-  EXPECT_THAT(scene.report().notes, testing::IsEmpty());
-  std::size_t dark = 0;
-  std::size_t wrong = 0;
-  const double radius = scene.radiusAt(glm::dvec3(0.0), scene.lineWidth);
-  EXPECT_NEAR(radius, 8.0 * 5.0 / 300.0, 1e-9);
-  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-  {
-    const glm::dvec3 at = positionOf(kept, i);
-    // A tube is about as wide along the light, which is nearly upright, as across.
-    const glm::dvec2 lifted = glm::dvec2(at) - glm::dvec2(0.4, 0.2) * PixelSizedScene::height;
-    const double off = std::abs(glm::length(lifted) - 3.0);
-    if (at.z < 0.1)
-    {
-      dark += off < 0.9 * radius ? 1 : 0;
-      wrong += (off < 0.9 * radius && kept.visibility[0][i] != 0.0f) ||
-          (off > 1.25 * radius && kept.visibility[0][i] != 1.0f)
-        ? 1
-        : 0;
-    }
-  }
-  EXPECT_GT(dark, 2000u);
-  EXPECT_EQ(wrong, 0u);
-}
-
-//------------------------------------------------------------------------------
-/// Tubes and points are darkened neither by themselves nor by the next part of a bent line.
-TEST_F(SolidsTest, pixelSizedSolidsHaveNoSpecks)
-{
-  for (const bool tubes : { false, true })
-  {
-    PixelSizedScene scene;
-    tubes ? scene.showTubes() : scene.showPoints();
-    auto* light = vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(0));
-    for (const char* technique : { "raytraced", "nsm", "silhouette" })
-    {
-      SCOPED_TRACE(testing::Message() << tubes << technique);
-      scene.pass->SetTechnique(technique);
-      const Darkness shown = darknessAbove(drawKept(scene), 0.5, light);
-      EXPECT_GT(shown.facing, 1000u);
-      // Neighbouring spheres shadow each other. At bends, a map cannot tell a tube from the next.
-      const bool none = tubes && technique != std::string("nsm");
-      EXPECT_LE(shown.dark, none ? 0u : shown.facing / 10);
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(SolidsTest, pixelSizedSolidsFollowTheCamera)
-{
-  PixelSizedScene scene;
-  scene.showPoints();
-  scene.showTubes();
-  scene.pass->SetTechnique("raytraced");
-  const auto expectFresh = [&]
-  {
-    const std::vector<float> after = drawKept(scene).visibility[0];
-    EXPECT_EQ(visibilityByFreshPass(scene), after);
-  };
-  expectFresh();
-  scene.lookFrom({ 4.0, -3.0, 3.0 });
-  expectFresh();
-  EXPECT_EQ(scene.report().surfacesExtracted, 0);
-  scene.lookFrom({ 0.5, 0.0, 1.6 }, { 3.0, 0.5, 1.5 }); // some of them are behind the camera
-  expectFresh();
-  scene.actor->GetProperty()->SetPointSize(30.0f);
-  expectFresh();
-  scene.actor->GetProperty()->RenderLinesAsTubesOff();
-  expectFresh();
-  scene.window->SetSize(200, 260);
-  expectFresh();
-}
-
-//------------------------------------------------------------------------------
-/// Both routes, with one sample per pixel and several; also surfaces in another prop's shadow.
-TEST_F(SolidsTest, pixelSizedSolidsReceiveByBothRoutes)
-{
-  for (const int samples : { 0, 4 })
-  {
-    SCOPED_TRACE(samples);
-    PixelSizedScene scene;
-    scene.showPoints();
-    scene.showTubes();
-    scene.window->SetMultiSamples(samples);
-    scene.pass->SetTechnique("nsm");
-    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-    const Picture within = scene.render();
-    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
-    const Picture fetched = scene.render();
-    if (samples == 0)
-    {
-      EXPECT_LE(differingPixels(within, fetched, 2), within.pixels() / 5000);
-    }
-    EXPECT_GT(*std::max_element(fetched.rgb.begin(), fetched.rgb.end()), 200);
-    scene.addBox({ -20.0, -20.0, 30.0 }, { 20.0, 20.0, 31.0 });
-    for (const int route : { vtkGnomonShadowPass::ROUTE_IMAGE, vtkGnomonShadowPass::ROUTE_INLINE })
-    {
-      scene.pass->SetRoute(route);
-      const Picture dark = scene.render();
-      EXPECT_EQ(*std::max_element(dark.rgb.begin(), dark.rgb.end()), 0) << route;
-    }
-  }
-}
-
-namespace
-{
-
-/// Points over a floor, with a mapper.
-class PointsScene : public PassScene
-{
-public:
-  PointsScene()
-    : PassScene(300, 300)
-  {
-    this->addFloor(12.0);
-    this->addSun({ 0.4, 0.2, -1.0 });
-    this->data->SetPoints(vtkNew<vtkPoints>());
-    this->data->SetVerts(vtkNew<vtkCellArray>());
-    for (int i = 0; i < 40; ++i)
-    {
-      const double angle = 2.0 * 3.14159265358979 * i / 40.0;
-      addPoint(this->data, { 3.0 * std::cos(angle), 3.0 * std::sin(angle), 1.5 });
-    }
-    this->actor = this->add(this->data);
-    this->actor->SetPosition(0.1, 0.2, 0.3);
-    this->lookFrom({ 1.0, -9.0, 7.0 }, { 0.5, 0.0, 0.5 });
-    this->pass->SetTechnique("raytraced");
-  }
-
-  /// Return the mapper of splats that looks like spheres.
+  /// Show splats with discs, which look like spheres.
   void showSplats(vtkDataObject* input)
   {
     vtkNew<vtkPointGaussianMapper> mapper;
@@ -972,26 +603,37 @@ public:
     this->splats = mapper;
     this->actor->SetMapper(mapper);
   }
+  /// Return the world size of half of `pixels` at a point.
+  double radiusAt(const glm::dvec3& point, double pixels)
+  {
+    vtkCamera* camera = this->renderer->GetActiveCamera();
+    const double depth = glm::dot(point - glm::make_vec3(camera->GetPosition()),
+      glm::make_vec3(camera->GetDirectionOfProjection()));
+    const double halfHeight = camera->GetParallelProjection()
+      ? camera->GetParallelScale()
+      : depth * std::tan(glm::radians(0.5 * camera->GetViewAngle()));
+    return pixels * halfHeight / 300.0;
+  }
 
   vtkNew<vtkPolyData> data;
   vtkSmartPointer<vtkPointGaussianMapper> splats;
   vtkActor* actor;
+  vtkLight* sun;
 };
 
-/// The difference of two pictures where both show the floor.
+/// The shadows of two pictures where both show the floor.
 struct FloorDifference
 {
   std::size_t dark = 0;
   std::size_t different = 0;
 };
+
 FloorDifference differenceOnFloor(const VisibilityImages& a, const VisibilityImages& b)
 {
   FloorDifference result;
   for (std::size_t i = 0; i < a.coverage.size(); ++i)
   {
-    const auto isFloor = [i](const VisibilityImages& images)
-    { return images.coverage[i] == 1.0f && positionOf(images, i).z < 0.1; };
-    if (isFloor(a) && isFloor(b))
+    if (positionOf(a, i).z < 0.1 && positionOf(b, i).z < 0.1)
     {
       result.dark += a.visibility[0][i] == 0.0f ? 1 : 0;
       result.different += a.visibility[0][i] != b.visibility[0][i] ? 1 : 0;
@@ -1000,17 +642,191 @@ FloorDifference differenceOnFloor(const VisibilityImages& a, const VisibilityIma
   return result;
 }
 
+/// Draw the same points as spheres of these radii.
+VisibilityImages drawAsSpheres(RingScene& scene, const std::vector<double>& radii)
+{
+  vtkFloatArray* array = addArray(scene.data, "radii", 1);
+  for (const double radius : radii)
+  {
+    array->InsertNextTuple1(radius);
+  }
+  vtkNew<vtkOpenGLSphereMapper> spheres;
+  spheres->SetInputData(scene.data);
+  spheres->SetScaleArray("radii");
+  scene.actor->SetMapper(spheres);
+  return drawKept(scene);
+}
+
+void expectAllServed(const PassScene& scene, std::size_t instances)
+{
+  EXPECT_EQ(scene.report().instances, instances);
+  EXPECT_THAT(scene.report().notes, testing::IsEmpty());
+}
+
 } // namespace
 
-//------------------------------------------------------------------------------
+TEST_F(SolidsTest, pointsAsSpheresCastAsSpheres)
+{
+  for (const bool parallel : { false, true })
+  {
+    SCOPED_TRACE(parallel);
+    RingScene scene;
+    scene.showPoints();
+    scene.renderer->GetActiveCamera()->SetParallelProjection(parallel);
+    scene.renderer->GetActiveCamera()->SetParallelScale(5.0);
+    const VisibilityImages points = drawKept(scene);
+    expectAllServed(scene, 60);
+    std::vector<double> radii;
+    for (vtkIdType i = 0; i < scene.data->GetNumberOfPoints(); ++i)
+    {
+      radii.push_back(scene.radiusAt(glm::make_vec3(scene.data->GetPoint(i)), scene.pointSize));
+    }
+    const FloorDifference difference = differenceOnFloor(drawAsSpheres(scene, radii), points);
+    EXPECT_GT(difference.dark, 1000u);
+    EXPECT_LE(difference.different, 5u); // outlines, to within a rounding of the radius
+  }
+}
+
+/// A mapper of composite data, as ParaView's, draws the same spheres and tubes of each block.
+TEST_F(SolidsTest, pixelSizedSolidsOfBlocksAreThoseOfTheirData)
+{
+  RingScene scene;
+  scene.showPoints();
+  scene.showTubes();
+  const std::vector<float> truth = drawKept(scene).visibility[0];
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, scene.data);
+  vtkNew<vtkPolyData> empty;
+  blocks->SetBlock(1, empty);
+  vtkNew<gnomon::SharedBlocksMapper> mapper;
+  vtkNew<vtkCompositeDataDisplayAttributes> attributes;
+  mapper->SetCompositeDataDisplayAttributes(attributes);
+  mapper->SetInputDataObject(blocks);
+  scene.actor->SetMapper(mapper);
+  EXPECT_LE(countDifferences(drawKept(scene).visibility[0], truth), 5u); // outlines
+  expectAllServed(scene, 120);
+  EXPECT_GT(std::count(truth.begin(), truth.end(), 0.0f), 1000);
+}
+
+/// Their shadows on the floor are as wide as the tubes look, all along.
+TEST_F(SolidsTest, linesAsTubesCastAsTubes)
+{
+  RingScene scene;
+  scene.showTubes();
+  scene.lookDown(5.0);
+  const VisibilityImages& kept = drawKept(scene);
+  expectAllServed(scene, 60);
+  std::size_t dark = 0;
+  std::size_t wrong = 0;
+  const double radius = scene.radiusAt(glm::dvec3(0.0), scene.lineWidth);
+  EXPECT_NEAR(radius, 8.0 * 5.0 / 300.0, 1e-9);
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const glm::dvec3 at = positionOf(kept, i);
+    // A tube is about as wide along the light, which is nearly upright, as across.
+    const glm::dvec2 lifted = glm::dvec2(at) - glm::dvec2(0.4, 0.2) * RingScene::height;
+    const double off = std::abs(glm::length(lifted) - 3.0);
+    if (at.z < 0.1 && (off < 0.9 * radius || off > 1.25 * radius))
+    {
+      dark += off < radius ? 1 : 0;
+      wrong += kept.visibility[0][i] != (off < radius ? 0.0f : 1.0f) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(dark, 2000u);
+  EXPECT_EQ(wrong, 0u);
+}
+
+/// Tubes and points are darkened neither by themselves nor by the next part of a bent line.
+TEST_F(SolidsTest, pixelSizedSolidsHaveNoSpecks)
+{
+  for (const bool tubes : { false, true })
+  {
+    RingScene scene;
+    tubes ? scene.showTubes() : scene.showPoints();
+    for (const char* technique : { "raytraced", "nsm", "silhouette" })
+    {
+      SCOPED_TRACE(testing::Message() << tubes << technique);
+      scene.pass->SetTechnique(technique);
+      const VisibilityImages& kept = drawKept(scene);
+      std::size_t facing = 0;
+      std::size_t dark = 0;
+      for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+      {
+        const bool faces = positionOf(kept, i).z > 0.5 && cosineTowards(kept, i, scene.sun) > 0.02;
+        facing += faces ? 1 : 0;
+        dark += faces && kept.visibility[0][i] < 0.5f ? 1 : 0;
+      }
+      EXPECT_GT(facing, 1000u);
+      // Neighbouring spheres shadow each other. At bends, a map cannot tell a tube from the next.
+      const bool none = tubes && technique != std::string("nsm");
+      EXPECT_LE(dark, none ? 0u : facing / 10);
+    }
+  }
+}
+
+TEST_F(SolidsTest, pixelSizedSolidsFollowTheCamera)
+{
+  RingScene scene;
+  scene.showPoints();
+  scene.showTubes();
+  expectFresh(scene);
+  scene.lookFrom({ 4.0, -3.0, 3.0 });
+  expectFresh(scene);
+  scene.render();
+  EXPECT_EQ(scene.report().surfacesExtracted, 0);
+  scene.lookFrom({ 0.5, 0.0, 1.6 }, { 3.0, 0.5, 1.5 }); // some of them are behind the camera
+  expectFresh(scene);
+  scene.actor->GetProperty()->SetPointSize(30.0f);
+  expectFresh(scene);
+  scene.actor->GetProperty()->RenderLinesAsTubesOff();
+  expectFresh(scene);
+  scene.window->SetSize(200, 260);
+  expectFresh(scene);
+}
+
+/// Solids of both sizes, with one sample per pixel and several: both routes show the same, and all
+/// is dark in another prop's shadow, to its outline.
+TEST_F(SolidsTest, bothRoutesAgree)
+{
+  SolidsScene solids(7);
+  solids.addSun({ 0.5, 0.3, -1.0 });
+  RingScene ring;
+  ring.showPoints();
+  ring.showTubes();
+  for (PassScene* scene : { static_cast<PassScene*>(&solids), static_cast<PassScene*>(&ring) })
+  {
+    vtkActor* lid = scene->addBox({ -60.0, -60.0, 30.0 }, { 60.0, 60.0, 31.0 });
+    for (const auto& [technique, samples] : { std::pair("nsm", 0), { "pcf", 0 }, { "nsm", 4 } })
+    {
+      SCOPED_TRACE(std::string(technique) + " " + std::to_string(samples));
+      scene->window->SetMultiSamples(samples);
+      lid->VisibilityOff();
+      scene->choose({ technique, vtkGnomonShadowPass::ROUTE_INLINE });
+      const Picture within = scene->render();
+      scene->choose({ technique, vtkGnomonShadowPass::ROUTE_IMAGE });
+      const Picture fetched = scene->render();
+      EXPECT_TRUE(samples > 0 || differingPixels(within, fetched, 2) <= within.pixels() / 5000);
+      EXPECT_GT(*std::max_element(fetched.rgb.begin(), fetched.rgb.end()), 200);
+      lid->VisibilityOn();
+      for (const Way& way : { Way{ technique, vtkGnomonShadowPass::ROUTE_IMAGE },
+             Way{ technique, vtkGnomonShadowPass::ROUTE_INLINE }, tracedWay })
+      {
+        scene->choose(way);
+        const Picture dark = scene->render();
+        EXPECT_EQ(*std::max_element(dark.rgb.begin(), dark.rgb.end()), 0) << way;
+      }
+    }
+  }
+}
+
 /// Sized by one component of an array, by a function of it, and block by block.
 TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
 {
-  PointsScene scene;
+  RingScene scene(40);
+  scene.actor->SetPosition(0.1, 0.2, 0.3);
   vtkNew<vtkDoubleArray> sizes;
   sizes->SetName("sizes");
   sizes->SetNumberOfComponents(2);
-  vtkFloatArray* radii = addArray(scene.data, "radii", 1);
   const int count = static_cast<int>(scene.data->GetNumberOfPoints());
   for (int i = 0; i < count; ++i)
   {
@@ -1021,16 +837,12 @@ TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
   {
     const VisibilityImages drawn = drawKept(scene);
     EXPECT_THAT(scene.report().notes, testing::IsEmpty());
+    std::vector<double> radii;
     for (int i = 0; i < count; ++i)
     {
-      radii->InsertValue(i, static_cast<float>(radiusOf(sizes->GetComponent(i, 1))));
+      radii.push_back(radiusOf(sizes->GetComponent(i, 1)));
     }
-    radii->Modified();
-    vtkNew<vtkOpenGLSphereMapper> spheres;
-    spheres->SetInputData(scene.data);
-    spheres->SetScaleArray("radii");
-    scene.actor->SetMapper(spheres);
-    const FloorDifference difference = differenceOnFloor(drawKept(scene), drawn);
+    const FloorDifference difference = differenceOnFloor(drawAsSpheres(scene, radii), drawn);
     EXPECT_GT(difference.dark, 1000u);
     EXPECT_EQ(difference.different, 0u);
     scene.actor->SetMapper(scene.splats);
@@ -1055,8 +867,7 @@ TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
   drawKept(scene);
   function->RemovePoint(0.6);
   function->AddPoint(0.6, 0.2); // without notice to the mapper
-  const std::vector<float> after = drawKept(scene).visibility[0];
-  EXPECT_EQ(visibilityByFreshPass(scene), after);
+  expectFresh(scene);
   expectSpheres(byFunction(0.2));
 
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -1080,11 +891,10 @@ TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
   expectSpheres([](double size) { return 0.5 * size; });
 }
 
-//------------------------------------------------------------------------------
 /// VTK draws solids and splats alike in all representations.
 TEST_F(SolidsTest, castAlikeInAllRepresentations)
 {
-  PointsScene scene;
+  RingScene scene(40);
   vtkNew<vtkOpenGLSphereMapper> spheres;
   spheres->SetInputData(scene.data);
   spheres->SetRadius(0.5);
@@ -1129,10 +939,9 @@ TEST_F(SolidsTest, castAlikeInAllRepresentations)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(SolidsTest, splatsWithoutDiscsAreListed)
+TEST_F(SolidsTest, unservedSolidsAreListed)
 {
-  PointsScene scene;
+  RingScene scene(40);
   scene.showSplats(scene.data);
   const auto expectListed = [&](const char* reason)
   {
@@ -1153,37 +962,12 @@ TEST_F(SolidsTest, splatsWithoutDiscsAreListed)
   expectListed("its splat shader code (SetSplatShaderCode) discards nothing, so it has no discs");
   scene.splats->SetScaleFactor(0.0);
   expectListed("points");
-}
-
-//------------------------------------------------------------------------------
-TEST_F(SolidsTest, withoutCellsCastNothing)
-{
-  // VTK takes bounds from cells, and draws nothing without.
-  SolidsScene scene;
-  scene.addSun({ 0.3, 0.2, -1.0 });
-  const std::vector<float> shown = drawKept(scene).visibility[0];
-  const auto pointsOf = [](vtkPolyData* data)
-  {
-    vtkNew<vtkPolyData> points;
-    points->SetPoints(data->GetPoints());
-    points->GetPointData()->ShallowCopy(data->GetPointData());
-    return points;
-  };
-  scene.ballMapper->SetInputData(pointsOf(scene.ballData));
-  scene.stickMapper->SetInputData(pointsOf(scene.stickData));
-  const std::vector<float> withoutCells = drawKept(scene).visibility[0];
-  scene.ballActor->VisibilityOff();
-  scene.stickActor->VisibilityOff();
-  EXPECT_EQ(drawKept(scene).visibility[0], withoutCells);
-  EXPECT_NE(shown, withoutCells);
-
-  // An assembly whose parts' bounds do not count has no bounds, and is drawn.
-  vtkNew<vtkPropAssembly> assembly;
-  scene.ballActor->VisibilityOn();
-  scene.ballActor->UseBoundsOff();
-  scene.renderer->RemoveActor(scene.ballActor);
-  assembly->AddPart(scene.ballActor);
-  ASSERT_EQ(assembly->GetBounds(), nullptr);
-  scene.renderer->AddActor(assembly);
-  EXPECT_NE(drawKept(scene).visibility[0], withoutCells);
+  SolidsScene solids(9, 4);
+  solids.addSun({ 0.5, 0.3, -1.0 });
+  solids.stickActor->SetScale(2.0);
+  solids.ballMapper->AddClippingPlane(vtkNew<vtkPlane>());
+  solids.render();
+  EXPECT_THAT(testing::PrintToString(solids.report().notes),
+    testing::AllOf(testing::HasSubstr("vtkOpenGLStickMapper (its actor is scaled"),
+      testing::HasSubstr("vtkOpenGLSphereMapper (clipped)")));
 }

@@ -3,25 +3,13 @@
 
 #include "PassScene.h"
 
-#include <vtkActor.h>
 #include <vtkAssembly.h>
-#include <vtkCellArray.h>
 #include <vtkCellPicker.h>
 #include <vtkDataSetMapper.h>
 #include <vtkIdTypeArray.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
-#include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkPropCollection.h>
-#include <vtkRenderer.h>
 #include <vtkTextActor.h>
-
-#include <gmock/gmock.h>
 
 #include <set>
 
@@ -125,7 +113,6 @@ constexpr int assemblyNumber = 3;
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(SurfaceNames, areThePickersPropAndCell)
 {
   this->scene.render();
@@ -150,7 +137,6 @@ TEST_F(SurfaceNames, areThePickersPropAndCell)
       std::pair(assemblyNumber, vtkIdType(-1)), std::pair(-1, vtkIdType(-1)) }));
 }
 
-//------------------------------------------------------------------------------
 /// A prop that is not seen changes nothing else, but the others' numbers.
 TEST_F(SurfaceNames, followTheListOfProps)
 {
@@ -168,7 +154,6 @@ TEST_F(SurfaceNames, followTheListOfProps)
   EXPECT_EQ(Named(this->scene).prop(pixel), 0);
 }
 
-//------------------------------------------------------------------------------
 /// Without a light that casts there are names, too.
 TEST_F(SurfaceNames, needNoLight)
 {

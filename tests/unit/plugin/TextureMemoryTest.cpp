@@ -4,22 +4,13 @@
 #include "LiveObjects.h"
 #include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
 #include "plugin/plan/CostModel.h"
 #include "shadowtech/base/Gl.h"
-
-#include <vtkLightCollection.h>
-
-#include <gmock/gmock.h>
 
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
-#include <ostream>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace gnomon::test;
 using testing::AllOf;
@@ -122,7 +113,6 @@ private:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 /// An error in the first frame, no shadows in any, and all as it was before once the maps have room
 /// again.
 TEST_P(MapsWithoutRoom, areAnErrorThatOffersSmallerOnesAndLeaveNothingBehind)
@@ -176,7 +166,6 @@ TEST_P(MapsWithoutRoom, areAnErrorThatOffersSmallerOnesAndLeaveNothingBehind)
   EXPECT_EQ(countLiveObjects(scene.window), live);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
 {
   PassScene scene(100, 80);
@@ -192,7 +181,6 @@ TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
   EXPECT_THAT(this->takeErrors(), HasSubstr("light 1: a map"));
 }
 
-//------------------------------------------------------------------------------
 /// The centre's map has room, those of the light's other points have none when the picture is
 /// drawn.
 TEST_F(TextureMemory, mapsThatAreDrawnWithThePictureNameTheirLight)
@@ -220,7 +208,6 @@ TEST_F(TextureMemory, mapsThatAreDrawnWithThePictureNameTheirLight)
   EXPECT_EQ(differingPixels(coarse, scene.render()), 0u);
 }
 
-//------------------------------------------------------------------------------
 /// Each of the maps has room alone, and not all of them together.
 TEST_F(TextureMemory, mapsThatHaveNoRoomTogetherAreAnErrorThatNamesTheFirstLightWithout)
 {

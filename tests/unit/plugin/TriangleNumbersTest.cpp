@@ -2,26 +2,11 @@
 // ones.
 
 #include "MatrixScene.h"
-#include "PassScene.h"
 
 #include <vtkAxesActor.h>
-#include <vtkCellArray.h>
-#include <vtkImageData.h>
 #include <vtkOpenGLPolyDataMapper.h>
-#include <vtkPoints.h>
-#include <vtkProperty.h>
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
-#include <vtkTexture.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <map>
-#include <ostream>
-#include <string>
-#include <vector>
 
 namespace gnomon::test
 {

@@ -1,11 +1,9 @@
 #include "Variant.h"
 
-#include <algorithm>
 #include <cctype>
 #include <iterator>
 #include <numeric>
 #include <sstream>
-#include <utility>
 
 namespace gnomon::test
 {
@@ -131,13 +129,11 @@ const char* const momentVariants[] = {
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string Variant::technique() const
 {
   return this->text.substr(0, this->text.find(' '));
 }
 
-//------------------------------------------------------------------------------
 const TechniqueInfo& Variant::info() const
 {
   const std::string estimator = valueOf(*this, "estimator");
@@ -145,7 +141,6 @@ const TechniqueInfo& Variant::info() const
                            : findEstimator(estimator)->info;
 }
 
-//------------------------------------------------------------------------------
 void Variant::choose(vtkGnomonShadowPass* pass) const
 {
   pass->SetTechnique(this->technique().c_str());
@@ -155,7 +150,6 @@ void Variant::choose(vtkGnomonShadowPass* pass) const
   }
 }
 
-//------------------------------------------------------------------------------
 void Variant::set(vtkGnomonShadowPass* pass, const char* name, const std::string& value) const
 {
   if (has(this->info(), name))
@@ -164,14 +158,12 @@ void Variant::set(vtkGnomonShadowPass* pass, const char* name, const std::string
   }
 }
 
-//------------------------------------------------------------------------------
 std::vector<int> Variant::mapSizes(std::vector<int> sizes) const
 {
   sizes.resize(this->info().bakesMap() ? sizes.size() : 1);
   return sizes;
 }
 
-//------------------------------------------------------------------------------
 bool Variant::takesCubes() const
 {
   const std::string projection = valueOf(*this, "projection");
@@ -179,13 +171,11 @@ bool Variant::takesCubes() const
                             : projection == "uniform";
 }
 
-//------------------------------------------------------------------------------
 bool Variant::hasSetting(const std::string& nameAndValue) const
 {
   return (this->text + " ").find(" " + nameAndValue + " ") != std::string::npos;
 }
 
-//------------------------------------------------------------------------------
 std::string Variant::name() const
 {
   std::string name = this->text;
@@ -196,7 +186,6 @@ std::string Variant::name() const
   return name;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<Variant>& variants()
 {
   static const std::vector<Variant> all = []
@@ -219,7 +208,6 @@ const std::vector<Variant>& variants()
   return all;
 }
 
-//------------------------------------------------------------------------------
 std::vector<Variant> variantsThat(const std::function<bool(const Variant&)>& isSuch)
 {
   std::vector<Variant> such;
@@ -227,7 +215,6 @@ std::vector<Variant> variantsThat(const std::function<bool(const Variant&)>& isS
   return such;
 }
 
-//------------------------------------------------------------------------------
 std::vector<Variant> someVariants(
   const std::string& test, const std::function<bool(const Variant&)>& isFor)
 {

@@ -2,13 +2,6 @@
 
 #include "PassScene.h"
 
-#include "shadowtech/Registry.h"
-
-#include <functional>
-#include <ostream>
-#include <string>
-#include <vector>
-
 namespace gnomon::test
 {
 
