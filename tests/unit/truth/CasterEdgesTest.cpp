@@ -74,42 +74,6 @@ TEST(CasterEdges, areAsManyAndEndAndAreSharpAsTheMeshSays)
   }
 }
 
-TEST(CasterEdges, leadFromEachSideToTheTriangleAcrossIt)
-{
-  for (const Mesh& mesh : { makeClosedSphere(8, 16), makePlane(2.0, 3) })
-  {
-    const Occluders occluders = makeOccluders({ { mesh } });
-    const CasterEdges found = casterEdgesOf(occluders);
-    const SurfaceEdges& edges = found.of(0);
-    // Find corners by place, because a seam's corners exist twice.
-    const auto hasBoth = [&](std::uint32_t triangle, const glm::vec3& from, const glm::vec3& to)
-    {
-      int common = 0;
-      for (int k = 0; k < 3; ++k)
-      {
-        const glm::vec3& place = occluders.positionsCentred[occluders.triangles[triangle][k]];
-        common += place == from || place == to ? 1 : 0;
-      }
-      return common == 2;
-    };
-    std::size_t missing = 0;
-    for (std::uint32_t i = 0; i < edges.ofTriangle.size(); ++i)
-    {
-      for (int k = 0; k < 3; ++k)
-      {
-        const std::uint32_t other =
-          edges.edges[edges.ofTriangle[i][static_cast<std::size_t>(k)]].other(i);
-        const glm::uvec3& corners = occluders.triangles[i];
-        const glm::vec3& from = occluders.positionsCentred[corners[k]];
-        const glm::vec3& to = occluders.positionsCentred[corners[(k + 1) % 3]];
-        missing += other == CasterEdge::none ? 1 : 0;
-        EXPECT_TRUE(other == CasterEdge::none || (other != i && hasBoth(other, from, to)));
-      }
-    }
-    EXPECT_EQ(missing, mesh.triangles.size() == 18 ? 12u : 0u);
-  }
-}
-
 /// Move the vertices of a surface, and mark the changes.
 template <typename Move>
 void deformSurface(Occluders& occluders, std::size_t index, const Move& move)
@@ -365,22 +329,6 @@ TEST(CasterSeams, areSharpWhereShadowRaysMayStartBehindTheOtherSide)
   }
 }
 
-TEST(CasterSeams, areSharpAtCornersWithOtherTrianglesTooFarApart)
-{
-  // A third surface continues the second one steeply around the corner.
-  std::vector<Mesh> squares = squaresAtAngle(30.0);
-  Mesh wing;
-  wing.points = { { 0.0, 0.0, 0.0 }, squares[1].points[1], { 0.5, -0.2, -1.0 } };
-  wing.triangles = { { 0, 2, 1 } };
-  const Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] }, { wing } });
-  const CasterEdges edges = casterEdgesOf(occluders);
-  ASSERT_EQ(edges.seams().of(1).size(), 2u);
-  for (const Seam& seam : edges.seams().of(1))
-  {
-    EXPECT_TRUE(seam.sharp) << seam.otherSurface;
-  }
-}
-
 /// Return triangles around the origin, each a separate surface.
 std::vector<Prop> makeUmbrella(const std::vector<glm::dvec3>& corners)
 {
@@ -517,19 +465,6 @@ TEST(CasterSeams, areNotWhereAThirdSurfaceMeetsNorWhereOneIsDifferent)
   EXPECT_EQ(seams({ { squares[0] }, different }), 0u);
   different = { squares[1], at({ 0.0, 1e-6, 0.0 }) };
   EXPECT_EQ(seams({ { squares[0] }, different }), 0u);
-}
-
-TEST(CasterSeams, areFoundAgainWhenASurfaceMoves)
-{
-  const std::vector<Mesh> squares = squaresAtAngle(20.0);
-  Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] } });
-  CasterEdges edges;
-  for (const auto& [rise, seams] : { std::pair(0.0, 1u), { 0.5, 0u }, { -0.5, 1u } })
-  {
-    moveSurface(occluders, 1, { 0.0, 0.0, rise });
-    edges.update(occluders);
-    EXPECT_EQ(edges.seams().of(0).size(), seams) << rise;
-  }
 }
 
 } // namespace

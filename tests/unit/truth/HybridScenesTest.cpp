@@ -400,21 +400,6 @@ TEST(HybridScenes, withAPoleThinnerThanATexelHaveItsShadowTraced)
   }
 }
 
-TEST(HybridScenes, withContactAreRightWhereverRaysStart)
-{
-  HybridScene scene(
-    { { makePlane(2.0) }, { makeSphere(24, 48), at({ 0.0, 0.0, 0.5 }, 0.5) } }, { 0.4, 0.3, -1.0 });
-  const ReceiverPixels receivers = scene.receivers();
-  for (const float factor : { 0.1f, 1.0f, 10.0f })
-  {
-    scene.receivers() = withOffset(receivers, factor);
-    for (const MapRule& rule : { crsm, crsma, fan, silhouette })
-    {
-      EXPECT_EQ(scene.ask(rule, 256).wrong(), 0u) << factor;
-    }
-  }
-}
-
 /// Count the uncertain receivers of a fine grid under a plate, away from its outer edges.
 /// @param within of its middle; else everywhere
 std::size_t uncertainUnder(HybridScene& scene, const MapRule& rule, int size, double within)

@@ -307,20 +307,6 @@ TEST_F(PcssReads, areThoseOfItsPresets)
   }
 }
 
-TEST_P(PcssGlsl, readsGrowFromLowToHighAndShrinkByTheEarlyOut)
-{
-  double previous = 0.0;
-  for (const PcssSamples samples : { PcssSamples::Low, PcssSamples::Medium, PcssSamples::High })
-  {
-    const auto readsBy = [&](EarlyOut earlyOut)
-    { return readsOf(withSettings(GetParam().light, samples, earlyOut), blocks, tilts[1]).all; };
-    const double all = readsBy(EarlyOut::None);
-    EXPECT_GT(all, 2.0 * previous);
-    previous = all;
-    EXPECT_LE(readsBy(EarlyOut::Exact), all);
-  }
-}
-
 /// Return Pcss with a shader that outputs a property of the points of a receiver's cell.
 /// @param statements of GLSL, which may use the cell's `pattern` and `none`, a plane that hides
 /// nothing
@@ -390,23 +376,6 @@ TEST_P(PcssGlsl, doesNotDependOnWhereDepthsBegin)
     }
     // Depths are floats: a receiver may lie on a texel's plane, or a place on a texel's border.
     EXPECT_LE(different, values.size() / 50) << begin;
-  }
-}
-
-TEST_P(PcssGlsl, shadowsMoreReceiversByLargerLights)
-{
-  std::ptrdiff_t previous = 0;
-  for (const double size : { 0.1, 0.3, 1.0, 3.0 })
-  {
-    ShadowLight light = GetParam().light;
-    light.area->worldFromUnit *= size;
-    const LightViews views = firstView(light);
-    const std::vector<float> values =
-      run(Pcss(), light, views, blocks, receiversOf(views, tilts[1]));
-    const auto shadowed =
-      std::count_if(values.begin(), values.end(), [](float lit) { return lit < 1.0f; });
-    EXPECT_GT(shadowed, previous) << size;
-    previous = shadowed;
   }
 }
 

@@ -360,45 +360,6 @@ TEST_F(ReceiverFitTest, boundsAreTheCpusExactlyOnRandomImagesOfAnySize)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(ReceiverFitTest, boundsOfTheLargestImage)
-{
-  // Two images of 1 GiB are made on the GPU. They have few points, in the corners and where work
-  // groups meet.
-  constexpr int side = 8192;
-  const ExactSun sun;
-  std::mt19937 random(42);
-  GlTexture textures[2];
-  GlFramebuffer framebuffer;
-  const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.create());
-  for (GlTexture& texture : textures)
-  {
-    allocate(texture, glm::ivec2(side), nullptr);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
-    glClearBufferfv(GL_COLOR, 0, nothing);
-  }
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  ASSERT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-  Bounds expected;
-  for (const int x : { 0, 63, 64, 4095, 8127, 8191 })
-  {
-    for (const int y : { 0, 127, 128, 4096, 8191 })
-    {
-      const Image pixel = randomImage(1, 1, random);
-      glBindTexture(GL_TEXTURE_2D, textures[0].name());
-      glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, 1, 1, GL_RGBA, GL_FLOAT, pixel.fragments.data());
-      glBindTexture(GL_TEXTURE_2D, textures[1].name());
-      glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, 1, 1, GL_RGBA, GL_FLOAT, pixel.points.data());
-      expected.add(ExactSun::bounds(pixel));
-    }
-  }
-  ReceiverFit fit;
-  fit.compute(sun.light, sun.views, { textures[0].name(), textures[1].name(), side, side },
-    glm::dmat4(1.0), this->library_);
-  expectBounds(readBounds(fit).at(0), expected);
-}
-
-//------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, withoutReceiversNothingIsOnTheMap)
 {
   const ExactSun sun;

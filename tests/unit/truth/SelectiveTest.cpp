@@ -13,7 +13,7 @@
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
@@ -59,12 +59,7 @@ TEST(LightInCaster, IsOnATriangle)
   EXPECT_FALSE(liesIn({ 10.9, 19.0, 30.3 }, &standing)) << "it crosses the plane";
   const LightArea ball = ballArea(0.5);
   EXPECT_FALSE(liesIn({ 10.9, 19.0, 30.3 }, &ball)) << "likewise";
-}
-
-TEST(LightInCaster, IsOnWhatCastsAlone)
-{
   Prop ground{ makePlane(4.0) };
-  EXPECT_TRUE(liesInCaster({ 0.0, 0.0, 0.0 }, nullptr, makeOccluders({ ground })));
   ground.casts = false;
   EXPECT_FALSE(liesInCaster({ 0.0, 0.0, 0.0 }, nullptr, makeOccluders({ ground })));
   EXPECT_FALSE(liesInCaster({ 0.0, 0.0, 0.0 }, nullptr, Occluders()));
@@ -112,7 +107,7 @@ TEST(StatusContour, isWhereBothStatusesAreWithinTheRadius)
 
 TEST(Neighbourhood, ofFourIsTheBilinearFootprintAndOfNineItsSurroundings)
 {
-  using Texels = std::set<std::pair<int, int>>;
+  using Texels = std::vector<std::pair<int, int>>;
   Random random(7);
   for (int run = 0; run < 20000; ++run)
   {
@@ -121,49 +116,27 @@ TEST(Neighbourhood, ofFourIsTheBilinearFootprintAndOfNineItsSurroundings)
     place.y = uniform(random, 0.0, 1024.0);
     place.column = static_cast<int>(place.x);
     place.row = static_cast<int>(place.y);
-    const auto visited = [&](Neighbourhood neighbourhood, std::size_t count)
+    const auto expectVisits = [&](Neighbourhood neighbourhood, double left, double lower, int side)
     {
-      std::vector<std::pair<int, int>> texels;
+      Texels visited, expected;
       EXPECT_FALSE(visitNeighbourhood(neighbourhood, place,
         [&](int column, int row)
         {
-          texels.emplace_back(column, row);
+          visited.emplace_back(column, row);
           return false;
         }));
-      EXPECT_EQ(texels.front(), std::pair(place.column, place.row));
-      EXPECT_EQ(texels.size(), count);
-      return Texels(texels.begin(), texels.end());
+      ASSERT_EQ(visited.front(), std::pair(place.column, place.row));
+      for (int i = 0; i < side * side; ++i)
+      {
+        expected.emplace_back(
+          std::floor(place.x - left) + i % side, std::floor(place.y - lower) + i / side);
+      }
+      ASSERT_THAT(visited, testing::UnorderedElementsAreArray(expected));
     };
-    visited(Neighbourhood::Centre, 1);
-    const int left = static_cast<int>(std::floor(place.x - 0.5));
-    const int lower = static_cast<int>(std::floor(place.y - 0.5));
-    ASSERT_EQ(visited(Neighbourhood::Four, 4),
-      (Texels{
-        { left, lower }, { left + 1, lower }, { left, lower + 1 }, { left + 1, lower + 1 } }));
-    Texels nine;
-    for (int i = 0; i < 9; ++i)
-    {
-      nine.emplace(place.column - 1 + i % 3, place.row - 1 + i / 3);
-    }
-    ASSERT_EQ(visited(Neighbourhood::Nine, 9), nine);
+    expectVisits(Neighbourhood::Centre, 0.0, 0.0, 1);
+    expectVisits(Neighbourhood::Four, 0.5, 0.5, 2);
+    expectVisits(Neighbourhood::Nine, 1.0, 1.0, 3);
   }
-}
-
-/// Return the triangles of a mesh that count as adjacent to one, itself first.
-std::vector<std::uint32_t> adjacentTo(
-  const SurfaceFans& fans, std::uint32_t triangle, Adjacency adjacency)
-{
-  std::vector<std::uint32_t> found;
-  EXPECT_FALSE(visitAdjacent(fans, triangle, adjacency,
-    [&](std::uint32_t other)
-    {
-      found.push_back(other);
-      return false;
-    }));
-  EXPECT_EQ(found.front(), triangle);
-  const std::set<std::uint32_t> once(found.begin(), found.end());
-  EXPECT_EQ(once.size(), found.size());
-  return found;
 }
 
 /// Brute force: triangles are adjacent by the number of places, not vertices, that they share.
@@ -208,8 +181,15 @@ TEST(TriangleFans, haveAllTrianglesThatShareAnEdgeOrAVertex)
             expected.insert(other);
           }
         }
-        const std::vector<std::uint32_t> found = adjacentTo(all.of(k), triangle, adjacency);
-        EXPECT_EQ(std::set(found.begin(), found.end()), expected) << "surface " << k;
+        std::vector<std::uint32_t> found;
+        EXPECT_FALSE(visitAdjacent(all.of(k), triangle, adjacency,
+          [&](std::uint32_t other)
+          {
+            found.push_back(other);
+            return false;
+          }));
+        EXPECT_EQ(found.front(), triangle);
+        EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected)) << "surface " << k;
       }
     }
   }
@@ -263,27 +243,14 @@ FirstHit firstHit(
   const Occluders& occluders, const glm::dvec3& origin, const glm::dvec3& direction, double begin)
 {
   FirstHit first;
-  for (std::uint32_t k = 0; k < occluders.surfaces.size(); ++k)
+  for (const CastingTriangle& triangle : castingTriangles(occluders))
   {
-    const Surface& surface = occluders.surfaces[k];
-    for (std::uint32_t i = 0; surface.casts && i < surface.triangleCount; ++i)
+    const auto hit = meet(triangle, origin, direction);
+    const bool fromBack = hit && occluders.surfaces[triangle.surface].oneSided && hit->cosine > 0.0;
+    if (hit && hit->at > begin && hit->at < first.along && !fromBack)
     {
-      const std::uint32_t triangle = surface.firstTriangle + i;
-      const glm::uvec3 corners = occluders.triangles[triangle];
-      const glm::dvec3 a(occluders.positionsCentred[corners.x]);
-      const glm::dvec3 ab = glm::dvec3(occluders.positionsCentred[corners.y]) - a;
-      const glm::dvec3 ac = glm::dvec3(occluders.positionsCentred[corners.z]) - a;
-      const glm::dvec3 area = glm::cross(ab, ac);
-      const double cosine = glm::dot(area, direction);
-      const double t = glm::dot(area, a - origin) / cosine;
-      const glm::dvec3 point = origin + t * direction - a;
-      const double v = glm::dot(glm::cross(point, ac), area) / glm::dot(area, area);
-      const double w = glm::dot(glm::cross(ab, point), area) / glm::dot(area, area);
-      const double margin = std::min({ 1.0 - v - w, v, w });
-      if (margin >= 0.0 && t > begin && t < first.along && !(surface.oneSided && cosine > 0.0))
-      {
-        first = { { k, 0, triangle }, t, margin };
-      }
+      const glm::dvec3& w = hit->weights;
+      first = { { triangle.surface, 0, triangle.triangle }, hit->at, std::min({ w.x, w.y, w.z }) };
     }
   }
   return first;
@@ -444,6 +411,17 @@ struct ChainRun
   {
     return this->isAnyOf(i, { ChainClass::TracedLit, ChainClass::TracedShadow });
   }
+  /// Count the pixels of a traced class whose texel is wrong.
+  std::size_t countWrong(ChainClass of, const std::vector<float>& truth) const
+  {
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      wrong +=
+        this->classes[i] == of && (truth[i] == 0.0f) == (of == ChainClass::TracedLit) ? 1 : 0;
+    }
+    return wrong;
+  }
   bool isConfirmed(std::size_t i) const
   {
     return this->isAnyOf(i,
@@ -552,21 +530,14 @@ class ChainIn : public testing::TestWithParam<const char*>
 INSTANTIATE_TEST_SUITE_P(Scenes, ChainIn, testing::ValuesIn(randomSceneNames()),
   [](const testing::TestParamInfo<const char*>& scene) { return lettersOf(scene.param); });
 
-/// Run the proven stages in the whole image.
-ChainRun expectNeverWrong(Chained& chained)
-{
-  const ChainRun image = chained.run(provenStages(0));
-  EXPECT_EQ(countDifferent(image.visibility, chained.truth()), 0u) << chained.description();
-  return image;
-}
-
 TEST_P(ChainIn, withoutCoherenceIsNeverWrong)
 {
   std::size_t proven = 0, dark = 0;
   for (unsigned int seed = 1; seed <= exactRuns(); ++seed)
   {
     Chained chained(makeRandomPicture(GetParam(), seed));
-    const ChainRun image = expectNeverWrong(chained);
+    const ChainRun image = chained.run(provenStages(0));
+    EXPECT_EQ(countDifferent(image.visibility, chained.truth()), 0u) << chained.description();
     const ChainRun contour = chained.run(provenStages(4));
     for (std::size_t i = 0; i < contour.classes.size(); ++i)
     {
@@ -581,38 +552,44 @@ TEST_P(ChainIn, withoutCoherenceIsNeverWrong)
   EXPECT_GE(proven, GetParam() == std::string("perforated") ? 0 : dark / 2);
 }
 
-TEST(Chain, isNeverWrongFarAwayAndAtAnyScale)
+TEST_P(ChainIn, isNeverWrongFarAwayAndAtAnyScale)
 {
   for (const glm::dmat4& world : { at(glm::dvec3(1e6, -2e6, 1e6)), at(glm::dvec3(0.0), 1e-4),
          at(glm::dvec3(0.0), 1e4), at(glm::dvec3(1e6), 1e4) })
   {
-    for (const char* name : randomSceneNames())
+    for (unsigned int seed = 100; seed < 100 + exactRuns() / 6; ++seed)
     {
-      for (unsigned int seed = 100; seed < 100 + exactRuns() / 6; ++seed)
-      {
-        Chained chained(makeRandomPicture(name, seed, world));
-        expectNeverWrong(chained);
-      }
+      Chained chained(makeRandomPicture(GetParam(), seed, world));
+      EXPECT_EQ(countDifferent(chained.run(provenStages(0)).visibility, chained.truth()), 0u)
+        << chained.description();
     }
   }
 }
 
+/// By 1, 4 and 9 texels, by the triangles around the texel's triangle, and by these alone. Stages
+/// of texels correct pixels that their own texel calls lit; adjacency alone does not.
 TEST(Chain, confirmsMoreWithMoreTriangles)
 {
-  // By 1, 4 and 9 texels, and by the triangles around the texel's triangle.
-  std::array<ChainStages, 5> stages;
-  for (std::size_t k = 0; k < stages.size(); ++k)
+  constexpr std::size_t count = 7;
+  constexpr std::pair<std::size_t, std::size_t> more[] = { { 0, 1 }, { 1, 2 }, { 0, 3 }, { 3, 4 },
+    { 5, 3 }, { 6, 4 }, { 5, 6 } };
+  std::array<ChainStages, count> stages;
+  for (std::size_t k = 0; k < count; ++k)
   {
-    stages[k].neighbourTexels = std::array{ 1, 4, 9, 1, 1 }[k];
+    stages[k].neighbourTexels = std::array{ 1, 4, 9, 1, 1, 0, 0 }[k];
+    stages[k].adjacency = k < 3 ? Adjacency::Off
+      : k % 2 == 1              ? Adjacency::Edges
+                                : Adjacency::Vertices;
   }
-  stages[3].adjacency = Adjacency::Edges;
-  stages[4].adjacency = Adjacency::Vertices;
-  constexpr std::pair<std::size_t, std::size_t> more[] = { { 0, 1 }, { 1, 2 }, { 0, 3 }, { 3, 4 } };
-  std::array<std::size_t, 5> confirmed{};
+  std::array<std::size_t, count> confirmed{}, corrected{};
+  std::size_t falseLight = 0, falseShadow = 0;
   visitChains(randomSceneNames(), 3,
     [&](Chained& chained)
     {
-      std::array<ChainRun, 5> runs;
+      const ChainRun status = chained.run({});
+      falseLight += status.countWrong(ChainClass::TracedLit, chained.truth());
+      falseShadow += status.countWrong(ChainClass::TracedShadow, chained.truth());
+      std::array<ChainRun, count> runs;
       std::transform(stages.begin(), stages.end(), runs.begin(),
         [&](const ChainStages& of) { return chained.run(of); });
       for (std::size_t i = 0; i < chained.truth().size(); ++i)
@@ -624,9 +601,13 @@ TEST(Chain, confirmsMoreWithMoreTriangles)
         // The texel's own triangle is tried first.
         EXPECT_EQ(runs[0].classes[i] == ChainClass::ConfirmedByTexel,
           runs[2].classes[i] == ChainClass::ConfirmedByTexel);
-        for (std::size_t k = 0; k < runs.size(); ++k)
+        for (std::size_t k = 0; k < count; ++k)
         {
+          const bool isCorrected = runs[k].classes[i] == ChainClass::Corrected;
+          EXPECT_EQ(
+            isCorrected, runs[k].isConfirmed(i) && status.classes[i] == ChainClass::TracedLit);
           confirmed[k] += runs[k].isConfirmed(i) ? 1 : 0;
+          corrected[k] += isCorrected ? 1 : 0;
         }
       }
     });
@@ -634,6 +615,12 @@ TEST(Chain, confirmsMoreWithMoreTriangles)
   {
     EXPECT_LT(confirmed[fewer], confirmed[all]);
   }
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    EXPECT_EQ(corrected[k] > 0, k < 5) << k;
+    EXPECT_LT(corrected[k], falseLight) << k;
+  }
+  EXPECT_GT(falseShadow, 0u);
 }
 
 TEST(Chain, hintsTheStatusOfPixelsWhoseTexelsAgree)
@@ -726,60 +713,6 @@ TEST(Chain, leavesWhatNothingDecidesLitOrToTheMajority)
   EXPECT_LT(wrongLit, wrongByMap);
 }
 
-TEST(Chain, withOneStageIsWrongWhereShadowIsNotConfirmedOrLightNotCorrected)
-{
-  std::array<ChainStages, 5> alone;
-  std::array<std::size_t, 5> unconfirmed{}, uncorrected{};
-  ChainStages statusOnly;
-  statusOnly.contourPixels = 4;
-  for (std::size_t k = 0; k < alone.size(); ++k)
-  {
-    alone[k] = statusOnly;
-    alone[k].leftovers = Leftovers::Lit;
-    alone[k].neighbourTexels = std::array{ 1, 4, 9, 0, 0 }[k];
-  }
-  alone[3].adjacency = Adjacency::Edges;
-  alone[4].adjacency = Adjacency::Vertices;
-  std::size_t falseLight = 0, falseShadow = 0;
-  visitChains(randomSceneNames(), 3,
-    [&](Chained& chained)
-    {
-      const ChainRun status = chained.run(statusOnly);
-      for (std::size_t i = 0; i < status.classes.size(); ++i)
-      {
-        const bool isShadow = chained.truth()[i] == 0.0f;
-        falseLight += status.classes[i] == ChainClass::TracedLit && isShadow ? 1 : 0;
-        falseShadow += status.classes[i] == ChainClass::TracedShadow && !isShadow ? 1 : 0;
-      }
-      for (std::size_t k = 0; k < alone.size(); ++k)
-      {
-        const ChainRun run = chained.run(alone[k]);
-        std::size_t wrong = 0, left = 0;
-        for (std::size_t i = 0; i < run.classes.size(); ++i)
-        {
-          if (status.isTraced(i)) // in the contour
-          {
-            const bool isLeft = chained.truth()[i] == 0.0f && !run.isConfirmed(i);
-            const bool byTexelLit = status.classes[i] == ChainClass::TracedLit;
-            EXPECT_EQ(run.classes[i] == ChainClass::Corrected, byTexelLit && run.isConfirmed(i));
-            (byTexelLit ? uncorrected : unconfirmed)[k] += isLeft ? 1 : 0;
-            left += isLeft ? 1 : 0;
-            wrong += run.visibility[i] != chained.truth()[i] ? 1 : 0;
-          }
-        }
-        EXPECT_EQ(wrong, left) << "stage " << k;
-      }
-    });
-  for (std::size_t k = 0; k < alone.size(); ++k)
-  {
-    EXPECT_GT(unconfirmed[k], 0u);
-    EXPECT_GT(uncorrected[k], 0u);
-    // Only stages of neighbouring texels test pixels that their own texel calls lit.
-    EXPECT_EQ(uncorrected[k] < falseLight, k < 3);
-  }
-  EXPECT_GT(falseShadow, 0u);
-}
-
 Chained sunlit(const std::vector<Prop>& props, const glm::dvec3& direction, int mapSize,
   const glm::dvec3& cameraAt)
 {
@@ -794,47 +727,13 @@ Chained sunlit(const std::vector<Prop>& props, const glm::dvec3& direction, int 
   return Chained(picture);
 }
 
-TEST(Chain, hasNoAcneOnRidgesAndInValleys)
-{
-  // A sheet with steep folds wider than texels, lit from above: no part is in shadow.
-  Mesh sheet;
-  for (int i = 0; i <= 20; ++i)
-  {
-    sheet.points.emplace_back(0.3 * i - 3.0, -2.0, (i % 2) ? 0.4 : 0.0);
-    sheet.points.emplace_back(0.3 * i - 3.0, 2.0, (i % 2) ? 0.4 : 0.0);
-    if (i > 0)
-    {
-      const auto last = static_cast<unsigned int>(2 * i);
-      sheet.triangles.emplace_back(last - 2, last, last + 1);
-      sheet.triangles.emplace_back(last - 2, last + 1, last - 1);
-    }
-  }
-  for (const double turn : { 0.0, 0.4, 1.1 })
-  {
-    Chained chained = sunlit({ { sheet, glm::rotate(glm::dmat4(1.0), turn, { 0.0, 0.0, 1.0 }) } },
-      { 0.0, 0.0, -1.0 }, 64, { -1.0, -2.0, 8.0 });
-    const ChainRun run = chained.run({});
-    EXPECT_GT(run.count({ ChainClass::TracedLit }), 10000u);
-    for (std::size_t i = 0; i < run.classes.size(); ++i)
-    {
-      // Rays of receivers at the very bottom of a valley may start behind its other side.
-      EXPECT_TRUE(run.classes[i] != ChainClass::TracedShadow || chained.truth()[i] == 0.0f) << i;
-    }
-  }
-}
-
 TEST(Chain, hasNoAcneOnSmoothSurfaces)
 {
   // Closed and open, convex and concave bodies, and a plane; outside the contours they are right.
   const Mesh ball = makeSphere(60, 120);
-  Mesh bowl = ball;
-  bowl.triangles.erase(std::remove_if(bowl.triangles.begin(), bowl.triangles.end(),
-                         [&](const glm::uvec3& triangle)
-                         {
-                           return std::max({ ball.points[triangle.x].z, ball.points[triangle.y].z,
-                                    ball.points[triangle.z].z }) >= 0.01;
-                         }),
-    bowl.triangles.end());
+  Mesh bowl = ball; // its rings begin at the top
+  bowl.triangles.erase(bowl.triangles.begin(),
+    bowl.triangles.begin() + static_cast<std::ptrdiff_t>(bowl.triangles.size() / 2));
   for (const glm::dvec3& direction :
     { glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.5, 0.3, -1.0), glm::dvec3(1.0, 0.0, -0.4) })
   {

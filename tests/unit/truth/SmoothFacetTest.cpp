@@ -117,23 +117,6 @@ TEST(SmoothFacet, isNotAboveAHollow)
   EXPECT_LT(SmoothFacet(facet.corners, facet.normals).largestHeight(), 1e-6f);
 }
 
-// Far from the origin only the place is rounded.
-TEST(SmoothFacet, isAsHighWhereverItIs)
-{
-  const FacetOfBall facet(0.2);
-  const glm::dvec3 far(3000.0, -5000.0, 7000.0);
-  Corners moved;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    moved[i] = facet.corners[i] + far;
-  }
-  const glm::dvec3 point(0.03, 0.01, std::cos(0.2));
-  const Above near = lookAbove(facet.corners, facet.normals, point);
-  const Above there = lookAbove(moved, facet.normals, point + far);
-  EXPECT_NEAR(there.height, near.height, 1e-3);
-  EXPECT_LT(glm::distance(there.normal, near.normal), 0.02f);
-}
-
 // The normals of a mapped ball are those of the ellipsoid, also if the matrix mirrors.
 TEST(SmoothFacet, takesNormalsAlong)
 {

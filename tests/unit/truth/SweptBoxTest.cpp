@@ -72,20 +72,6 @@ TEST(SweptBox, meetsWhatIsOnTheWayToTheLight)
 }
 
 //------------------------------------------------------------------------------
-TEST(SweptBox, isAsWideAsTheLight)
-{
-  const Bounds start = boxAround({ 0.0, 0.0, 0.0 }, glm::dvec3(0.1));
-  const Bounds beside = boxAround({ 0.4, 0.0, 5.0 }, glm::dvec3(0.1));
-  for (const LightKind kind : { LightKind::Directional, LightKind::Point })
-  {
-    ShadowLight light = makeLight(kind, placeOf(kind, { 0.0, 0.0, 10.0 }));
-    EXPECT_FALSE(SweptBox(start, light, centreWorld).meets(beside));
-    light.area = discOfRadius(kind == LightKind::Directional ? 0.1 : 1.0);
-    EXPECT_TRUE(SweptBox(start, light, centreWorld).meets(beside));
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST(SweptBox, holdsAllRays)
 {
   std::mt19937 random(3);
