@@ -623,94 +623,75 @@ TEST(Chain, confirmsMoreWithMoreTriangles)
   EXPECT_GT(falseShadow, 0u);
 }
 
-TEST(Chain, hintsTheStatusOfPixelsWhoseTexelsAgree)
+/// Wrong and counted pixels of one setting, over many pictures.
+struct ChainSum
 {
-  std::array<std::size_t, 2> hinted{}, wrong{};
-  visitChains(randomSceneNames(), 6,
-    [&](Chained& chained)
-    {
-      std::array<ChainRun, 2> runs;
-      for (std::size_t k = 0; k < 2; ++k)
-      {
-        ChainStages stages;
-        stages.coherenceTexels = k == 0 ? 4 : 9;
-        runs[k] = chained.run(stages);
-        hinted[k] += runs[k].count({ ChainClass::HintedLit, ChainClass::HintedShadow });
-        wrong[k] += countDifferent(runs[k].visibility, chained.truth());
-      }
-      const ChainRun statuses = chained.run({});
-      for (std::size_t i = 0; i < chained.truth().size(); ++i)
-      {
-        EXPECT_TRUE(!runs[1].isHinted(i) || runs[1].classes[i] == runs[0].classes[i]);
-        EXPECT_TRUE(!runs[0].isHinted(i) ||
-          (runs[0].classes[i] == ChainClass::HintedShadow) ==
-            (statuses.classes[i] == ChainClass::TracedShadow));
-        // Pixels that the light does not reach are dark by definition, and need no hint.
-        EXPECT_EQ(runs[0].classes[i] == ChainClass::Unreached,
-          statuses.classes[i] == ChainClass::Unreached);
-      }
-    });
-  EXPECT_LT(hinted[1], hinted[0]);
-  EXPECT_LT(wrong[1], wrong[0]);
-  EXPECT_GT(wrong[1], 0u); // texels that agree may be wrong
-  EXPECT_LT(wrong[0], hinted[0] / 50);
-}
+  std::size_t wrong = 0;
+  std::size_t counted = 0;
+};
 
-TEST(Chain, isWrongOutsideOfTheContourLessSoWhereThatIsCheckedAndByHints)
+TEST(Chain, stagesChangeOnlyPixelsOfTheirOwn)
 {
-  std::size_t wrongOutside = 0, wrongHinted = 0, joined = 0;
+  ChainSum outside, checked, four, nine, left;
+  std::size_t leftLitWrong = 0;
   visitChains(randomSceneNames(), 6,
     [&](Chained& chained)
     {
-      ChainStages stages = provenStages(4);
-      const ChainRun proven = chained.run(stages);
-      stages.outside = OutsideContour::Check;
-      const ChainRun checked = chained.run(stages);
-      stages = provenStages(4);
-      stages.coherenceTexels = 4;
-      const ChainRun hinted = chained.run(stages);
-      const std::size_t wrong = countDifferent(proven.visibility, chained.truth());
-      EXPECT_LE(countDifferent(checked.visibility, chained.truth()), wrong);
-      wrongOutside += wrong;
-      wrongHinted += countDifferent(hinted.visibility, proven.visibility);
-      for (std::size_t i = 0; i < checked.classes.size(); ++i)
+      const auto run = [&](ChainStages stages, const auto& set)
+      {
+        set(stages);
+        return chained.run(stages);
+      };
+      const ChainRun status = chained.run({}), proven = chained.run(provenStages(4));
+      const ChainRun byCheck =
+        run(provenStages(4), [](ChainStages& of) { of.outside = OutsideContour::Check; });
+      const ChainRun byFour = run({}, [](ChainStages& of) { of.coherenceTexels = 4; });
+      const ChainRun byNine = run({}, [](ChainStages& of) { of.coherenceTexels = 9; });
+      const ChainRun hinted = run(provenStages(4), [](ChainStages& of) { of.coherenceTexels = 4; });
+      const ChainRun lit =
+        run(provenStages(4), [](ChainStages& of) { of.leftovers = Leftovers::Lit; });
+      const ChainRun majority =
+        run(provenStages(4), [](ChainStages& of) { of.leftovers = Leftovers::Majority; });
+      EXPECT_EQ(lit.traced + majority.traced, 0u);
+      for (std::size_t i = 0; i < status.classes.size(); ++i)
       {
         EXPECT_EQ(hinted.isOutside(i), proven.isOutside(i));
-        EXPECT_TRUE(!checked.isOutside(i) || proven.isOutside(i));
-        joined += proven.isOutside(i) && !checked.isOutside(i) ? 1 : 0;
-      }
-    });
-  EXPECT_GT(wrongOutside, 0u);
-  EXPECT_GT(wrongHinted, 0u);
-  EXPECT_GT(joined, 0u);
-}
-
-TEST(Chain, leavesWhatNothingDecidesLitOrToTheMajority)
-{
-  std::size_t wrongByMap = 0, wrongLit = 0;
-  visitChains(std::array{ "spheres", "cups", "folds", "crossing boxes", "terrain" }, 8,
-    [&](Chained& chained)
-    {
-      ChainStages stages = provenStages(4);
-      const ChainRun traced = chained.run(stages);
-      stages.leftovers = Leftovers::Lit;
-      const ChainRun lit = chained.run(stages);
-      stages.leftovers = Leftovers::Majority;
-      const ChainRun majority = chained.run(stages);
-      EXPECT_EQ(lit.traced + majority.traced, 0u);
-      for (std::size_t i = 0; i < traced.classes.size(); ++i)
-      {
-        const bool left = traced.isTraced(i);
-        EXPECT_EQ(lit.classes[i], left ? ChainClass::LeftLit : traced.classes[i]);
-        EXPECT_TRUE(left
+        EXPECT_TRUE(!byCheck.isOutside(i) || proven.isOutside(i));
+        EXPECT_TRUE(!byNine.isHinted(i) || byNine.classes[i] == byFour.classes[i]);
+        EXPECT_TRUE(!byFour.isHinted(i) ||
+          (byFour.classes[i] == ChainClass::HintedShadow) ==
+            (status.classes[i] == ChainClass::TracedShadow));
+        // Pixels that the light does not reach are dark by definition, and need no hint.
+        EXPECT_EQ(
+          byFour.classes[i] == ChainClass::Unreached, status.classes[i] == ChainClass::Unreached);
+        const bool isLeft = proven.isTraced(i), truth = chained.truth()[i] != 0.0f;
+        EXPECT_EQ(lit.classes[i], isLeft ? ChainClass::LeftLit : proven.classes[i]);
+        EXPECT_TRUE(isLeft
             ? majority.isAnyOf(i, { ChainClass::MajorityLit, ChainClass::MajorityShadow })
-            : majority.classes[i] == traced.classes[i]);
-        const bool truth = chained.truth()[i] != 0.0f;
-        wrongByMap += left && truth != (traced.classes[i] == ChainClass::TracedLit) ? 1 : 0;
-        wrongLit += left && !truth ? 1 : 0;
+            : majority.classes[i] == proven.classes[i]);
+        left.counted += isLeft ? 1 : 0;
+        left.wrong += isLeft && truth != (proven.classes[i] == ChainClass::TracedLit) ? 1 : 0;
+        leftLitWrong += isLeft && !truth ? 1 : 0;
       }
+      const auto add = [&](
+                         ChainSum& sum, const ChainRun& of, std::initializer_list<ChainClass> what)
+      {
+        sum.wrong += countDifferent(of.visibility, chained.truth());
+        sum.counted += of.count(what);
+      };
+      add(outside, proven, { ChainClass::OutsideLit, ChainClass::OutsideShadow });
+      add(checked, byCheck, { ChainClass::OutsideLit, ChainClass::OutsideShadow });
+      add(four, byFour, { ChainClass::HintedLit, ChainClass::HintedShadow });
+      add(nine, byNine, { ChainClass::HintedLit, ChainClass::HintedShadow });
     });
-  EXPECT_LT(wrongLit, wrongByMap);
+  EXPECT_GT(outside.wrong, 0u);
+  EXPECT_LE(checked.wrong, outside.wrong);
+  EXPECT_LT(checked.counted, outside.counted);
+  EXPECT_LT(nine.counted, four.counted);
+  EXPECT_LT(nine.wrong, four.wrong);
+  EXPECT_GT(nine.wrong, 0u); // texels that agree may be wrong
+  EXPECT_LT(four.wrong, four.counted / 50);
+  EXPECT_LT(leftLitWrong, left.wrong);
 }
 
 Chained sunlit(const std::vector<Prop>& props, const glm::dvec3& direction, int mapSize,
