@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <ostream>
@@ -108,69 +107,6 @@ std::vector<Penumbra> penumbras()
 
 INSTANTIATE_TEST_SUITE_P(OfHalfPlane, Penumbras, testing::ValuesIn(penumbras()),
   [](const testing::TestParamInfo<Penumbra>& penumbra) { return penumbra.param.name; });
-
-/// Decides every second column, leaves the others to rays, and counts its calls for each pixel.
-class CountingDecider : public ReceiverDecider
-{
-public:
-  explicit CountingDecider(const ReceiverPixels& picture)
-    : asked(picture.size())
-    , width_(static_cast<std::size_t>(picture.width))
-  {
-  }
-  void ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const override
-  {
-    const auto columns = static_cast<std::size_t>(tile.receivers.width);
-    for (std::size_t i = 0; i < certain.size(); ++i)
-    {
-      const std::size_t column = tile.firstColumn + i % columns;
-      ++this->asked[(tile.firstRow + i / columns) * this->width_ + column];
-      certain[i] = column % 2 == 0 ? Certainty::Shadow : Certainty::Uncertain;
-    }
-  }
-
-  mutable std::vector<std::atomic<int>> asked; ///< calls for each pixel
-
-private:
-  std::size_t width_;
-};
-
-/// Traces an area light's samples in parts, like a tracer with little memory. Nothing blocks its
-/// rays.
-class TracerInParts : public EmbreeTracer
-{
-  std::size_t tracePicture(const TracedPicture& picture) override
-  {
-    std::size_t rays = 0;
-    for (int first = 0; first < picture.samples(); first += 5)
-    {
-      rays += picture.visitTiles({ first, std::min(first + 5, picture.samples()) },
-        [&](const TracedTile& tile) {
-          return static_cast<std::size_t>(std::count(tile.needed.begin(), tile.needed.end(), 1));
-        });
-    }
-    return rays;
-  }
-};
-
-/// A pixel is decided once, however often its tile is visited.
-TEST(TracedPictures, askAboutEachPixelOnce)
-{
-  const Occluders occluders = makeOccluders({ { makePlane(20.0) } });
-  const ReceiverPixels receivers = levelReceivers(occluders, std::vector<double>(64 * 40));
-  const CountingDecider decider(receivers);
-  for (const ShadowLight& light : areaLights(16))
-  {
-    std::vector<float> visibility;
-    TracerInParts tracer;
-    const std::size_t rays = tracer.traceArea(light, occluders, receivers, visibility, &decider);
-    EXPECT_EQ(rays, receivers.size() / 2 * 16);
-  }
-  for (const std::atomic<int>& asked : decider.asked)
-  {
-    ASSERT_EQ(asked, static_cast<int>(areaLights().size()));
-  }
-}
 
 TEST_P(Penumbras, areThoseOfGeometry)
 {

@@ -307,51 +307,6 @@ TEST_F(PcssReads, areThoseOfItsPresets)
   }
 }
 
-/// Return Pcss with a shader that outputs a property of the points of a receiver's cell.
-/// @param statements of GLSL, which may use the cell's `pattern` and `none`, a plane that hides
-/// nothing
-ChangedPcss patternedPcss(const std::string& statements)
-{
-  const std::string signature = "float estimate_LIGHT(ViewPoint point, float slack)\n{";
-  return ChangedPcss(ChangedPcss::Changes{ { signature,
-    signature + "\n  vec2 pattern = patternOf_LIGHT(point);\n  vec3 none = vec3(0.0, 0.0, 1.0);\n" +
-      statements + "}\nfloat estimateOfPcss_LIGHT(ViewPoint point, float slack)\n{" } });
-}
-
-/// Rotating a disk, or shifting a square whose edges meet, preserves the distances between points.
-TEST_P(PcssGlsl, patternsKeepThePointsDistances)
-{
-  const ShadowLight& light = GetParam().light;
-  const LightViews views = firstView(light);
-  const std::vector<Receiver> receivers = receiversOf(views, {});
-  // Measured over the square's edges, if that is shorter.
-  const std::string wrap = light.area->shape == LightArea::Shape::Rectangle
-    ? "    given = min(given, 2.0 - given);\n    taken = min(taken, 2.0 - taken);\n"
-    : "";
-  const std::vector<float> most =
-    run(patternedPcss("  float most = 0.0;\n"
-                      "  for (int i = 0; i < PCSS_FILTER_POINTS_LIGHT; ++i)\n"
-                      "  for (int j = 0; j < i; ++j)\n"
-                      "  {\n"
-                      "    ivec2 ij = PCSS_SEARCH_POINTS_LIGHT + ivec2(i, j);\n"
-                      "    vec2 given = abs(texelFetch(lightPoints_LIGHT, ivec2(ij.x, 0), 0).rg\n"
-                      "      - texelFetch(lightPoints_LIGHT, ivec2(ij.y, 0), 0).rg);\n"
-                      "    vec2 taken = abs(lightPoint_LIGHT(ij.x, pattern, none)\n"
-                      "      - lightPoint_LIGHT(ij.y, pattern, none));\n" +
-          wrap +
-          "    most = max(most, abs(length(taken) - length(given)));\n"
-          "  }\n"
-          "  return most;\n"),
-      light, views, blocks, receivers);
-  EXPECT_LT(*std::max_element(most.begin(), most.end()), 1e-5f);
-  // The places differ from cell to cell.
-  const std::vector<float> places =
-    run(patternedPcss("  return lightPoint_LIGHT(0, pattern, none).x;\n"), light, views, blocks,
-      receivers);
-  const auto [least, largest] = std::minmax_element(places.begin(), places.end());
-  EXPECT_GT(*largest - *least, 0.3f);
-}
-
 /// The map's depths may begin anywhere before its nearest caster, as with a near plane.
 TEST_P(PcssGlsl, doesNotDependOnWhereDepthsBegin)
 {

@@ -5,6 +5,7 @@
 
 #include "lights/LightArea.h"
 #include "lights/LightSpace.h"
+#include "shadowtech/penumbra/EdgeTree.h"
 #include "shadowtech/penumbra/PenumbraChooser.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
@@ -374,6 +375,58 @@ TEST(Penumbra, isThatOfAllRaysBeyondTheBoxOfTheLight)
   ShadowLight light = boxLight(-upwards, { 0.0, 0.0, 0.507 }, { 4.0, 4.0, 4.0 });
   light.box->upWorld = { 0.0, 1.0, 0.0 };
   expectThatOfAllRays(withArea(light, diskArea(-upwards, 0.3), 16), occluders, receivers);
+}
+
+/// Triangles are left from twice the rounding of T on, 11u (r_x YZ + r_y ZX + r_z XY), and from
+/// N . D = 128u r^2 |D| on, by docs/theory/exact_penumbrae.md: r is the corners' reach from the
+/// start, X, Y and Z the box's sides. They lie around the middle of coordinates and far from it.
+TEST(EdgeTriangle, isLeftFromItsBoundsOn)
+{
+  constexpr double unit = 1.0 / 16777216.0;
+  Random random(3);
+  for (const double away : { 0.0, 20.0 })
+  {
+    EdgeTree tree;
+    tree.update(makeOccluders({ { makeTriangleSoup(300, 1), at(glm::dvec3(away)) },
+      { makePlane(0.1), at(glm::dvec3(-away)) } }));
+    for (std::uint32_t number = 0; number < tree.size(); ++number)
+    {
+      const EdgeTree::Record record = tree.record(number);
+      if (record.opaque)
+      {
+        continue; // a needle
+      }
+      const EdgeTriangle& triangle = tree.triangle(record.number);
+      const auto& [a, b, c] = tree.corners(record.number);
+      const glm::dvec3 start =
+        glm::dvec3(a + b + c) / 3.0 + static_cast<double>(triangle.height) * inCube(random, 0.1);
+      glm::dvec3 reach(0.0);
+      for (const glm::vec3& corner : { a, b, c })
+      {
+        reach = glm::max(reach, glm::abs(glm::dvec3(corner) - start));
+      }
+      const glm::dvec3 box(glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c)));
+      const double length = uniform(random, 0.2, 5.0), longest(triangle.longest);
+      const double leastBehind = 22.0 * unit / longest *
+        glm::dot(reach, glm::dvec3(box.y * box.z, box.z * box.x, box.x * box.y));
+      const double leastAlong = 128.0 * unit / longest * glm::dot(reach, reach) * length;
+      // Of ranges of rays, from either side.
+      const auto isLeft = [&](const glm::dvec2& behind, const glm::dvec2& along)
+      {
+        const auto swapped = [](const glm::dvec2& range) { return glm::dvec2(range.y, range.x); };
+        const bool left =
+          triangle.isLeft(leastBehind * behind, reach, -leastAlong * swapped(along), length);
+        EXPECT_EQ(
+          triangle.isLeft(-leastBehind * swapped(behind), reach, leastAlong * along, length), left);
+        return left;
+      };
+      EXPECT_TRUE(isLeft({ 1.001, 2.0 }, { 1.001, 2.0 }));
+      EXPECT_FALSE(isLeft({ 0.999, 2.0 }, { 1.001, 2.0 }));
+      EXPECT_FALSE(isLeft({ 1.001, 2.0 }, { 0.999, 2.0 }));
+      EXPECT_FALSE(isLeft({ 1.001, 2.0 }, { -2.0, -1.001 }));
+      EXPECT_FALSE(isLeft({ -2.0, -1.001 }, { 1.001, 2.0 }));
+    }
+  }
 }
 
 /// A pixel costs one ray if it sees no edge, and few if it sees some; also of unevenly spread
