@@ -659,15 +659,5 @@ TEST_F(VisibilityFilter, WhatMakesNoSenseIsAnErrorAndChangesNothing)
   EXPECT_THAT(this->fraction(), ElementsAre(1));
 }
 
-TEST_F(VisibilityFilter, SaysWhatItIs)
-{
-  std::ostringstream text;
-  this->filter->SetSamples(16);
-  this->filter->Print(text);
-  EXPECT_THAT(text.str(), HasSubstr("Samples: 16"));
-  this->filter->SetSamples(1 << 20);
-  EXPECT_EQ(this->filter->GetSamples(), 4096);
-}
-
 } // namespace
 } // namespace gnomon::test
