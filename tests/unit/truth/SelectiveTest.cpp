@@ -195,40 +195,6 @@ TEST(TriangleFans, haveAllTrianglesThatShareAnEdgeOrAVertex)
   }
 }
 
-TEST(TriangleFans, areKeptWhileTheSameVerticesAreAtTheSamePlace)
-{
-  Occluders occluders = makeOccluders({ { makePlane(1.0, 2) }, { makeTerrain(2.0, 6, 0.3) } });
-  TriangleFans kept;
-  kept.update(occluders);
-  const auto expectAsFoundAnew = [&](bool isKept)
-  {
-    // Rebuilt fans have another address, since the old ones are freed afterwards.
-    const glm::uvec3* const before = kept.of(1).corners.data();
-    kept.update(occluders);
-    EXPECT_EQ(kept.of(1).corners.data() == before, isKept);
-    TriangleFans anew;
-    anew.update(occluders);
-    for (const std::size_t surface : { 0u, 1u })
-    {
-      EXPECT_EQ(kept.of(surface).firstTriangle, anew.of(surface).firstTriangle);
-      EXPECT_EQ(kept.of(surface).corners, anew.of(surface).corners);
-      EXPECT_EQ(kept.of(surface).begin, anew.of(surface).begin);
-      EXPECT_EQ(kept.of(surface).triangles, anew.of(surface).triangles);
-    }
-  };
-  moveSurface(occluders, 1, { 1.0, 2.0, 3.0 });
-  expectAsFoundAnew(true);
-  // Two places merge, and separate again.
-  const std::size_t first = occluders.surfaces[1].firstVertex;
-  const glm::vec3 place = occluders.positionsCentred[first];
-  occluders.positionsCentred[first] = occluders.positionsCentred[first + 1];
-  moveSurface(occluders, 1, glm::dvec3(0.0));
-  expectAsFoundAnew(false);
-  occluders.positionsCentred[first] = place;
-  moveSurface(occluders, 1, glm::dvec3(0.0));
-  expectAsFoundAnew(false);
-}
-
 //------------------------------------------------------------------------------
 // The map
 

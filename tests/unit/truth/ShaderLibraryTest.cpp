@@ -67,23 +67,6 @@ TEST_F(ShaderLibraryTest, saysWhatDoesNotLink)
 }
 
 //------------------------------------------------------------------------------
-/// A program with too many uniforms is an error.
-TEST_F(ShaderLibraryTest, saysThatUniformsAreTooMany)
-{
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &most);
-  ShaderLibrary library;
-  const std::string error = errorOf(
-    [&]
-    {
-      ScreenPass::use(library,
-        "uniform vec4 many[" + std::to_string(most / 4 + 1) +
-          "];\nuniform int i;\nout vec4 v;\nvoid main()\n{\n  v = many[i];\n}\n");
-    });
-  EXPECT_THAT(error, HasSubstr("a program does not link"));
-}
-
-//------------------------------------------------------------------------------
 TEST_F(ShaderLibraryTest, namesASourceThatIsNotThere)
 {
   EXPECT_THAT(errorOf([] { ShaderLibrary::source("shadowtech/none.glsl"); }),
