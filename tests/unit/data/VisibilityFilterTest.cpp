@@ -9,7 +9,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -327,21 +326,6 @@ TEST_F(VisibilityFilter, BitsAreThoseOfEachLightAlone)
   }
   EXPECT_GT(lit, cells * 5);
   EXPECT_LT(lit, cells * 30);
-}
-
-TEST_F(VisibilityFilter, ResultsDoNotDependOnThreads)
-{
-  this->useHills(50);
-  this->filter->SetSamples(8);
-  this->filter->SetAngularDiameter(0.53);
-  this->filter->ComputeBitsOn();
-  this->filter->Update();
-  const Arrays several = allArrays(this->filter);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  this->filter->ClearLights();
-  this->useHills(50);
-  this->filter->Update();
-  EXPECT_EQ(allArrays(this->filter), several);
 }
 
 /// Calls a function on each progress event.

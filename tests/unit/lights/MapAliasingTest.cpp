@@ -87,41 +87,5 @@ TEST(MapAliasing, OfAreasComparesProjectionsOnEverySurface)
   }
 }
 
-/// Corners stand for the body: no point in it is worse than the worst corner.
-TEST(MapAliasing, OfABodyIsWorstAtACorner)
-{
-  std::mt19937 random(31);
-  std::exponential_distribution<double> share(1.0);
-  for (int i = 0; i < 300; ++i)
-  {
-    Setting setting = randomSetting(random);
-    const Points body = setting.body().vertices();
-    if (body.empty() || setting.rays.positional || setting.camera.isParallel())
-    {
-      continue;
-    }
-    const auto frame = warpFrame(body, setting.camera, setting.rays);
-    const auto across = setting.rays.across(body);
-    const glm::dmat3 map = frame && i % 2 == 0
-      ? warpedFromAcross(*frame, 0.1 * frame->depth, across)
-      : uniformFromAcross(across);
-    const auto worst = perspectiveAliasing(body, setting.camera, setting.rays, map);
-    for (int k = 0; k < 50; ++k)
-    {
-      glm::dvec3 point(0.0);
-      double sum = 0.0;
-      for (const glm::dvec3& vertex : body)
-      {
-        const double weight = share(random);
-        point += weight * vertex;
-        sum += weight;
-      }
-      const auto there = perspectiveAliasing({ point / sum }, setting.camera, setting.rays, map);
-      ASSERT_LE(there.side, worst.side * (1.0 + 1e-9));
-      ASSERT_LE(there.area, worst.area * (1.0 + 1e-9));
-    }
-  }
-}
-
 } // namespace
 } // namespace gnomon::test

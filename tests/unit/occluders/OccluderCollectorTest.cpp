@@ -7,11 +7,9 @@
 #include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtk_versions/SharedBlocksMapper.h"
 
-#include "vtkAssembly.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
-#include "vtkFollower.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkImageData.h"
 #include "vtkImageSlice.h"
@@ -44,7 +42,6 @@
 
 using namespace gnomon;
 using namespace gnomon::test;
-using testing::AllOf;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
@@ -478,28 +475,6 @@ TEST(OccluderProps, VerticesThatShaderCodeMayMoveAreNoted)
   EXPECT_FALSE(isNoted());
 }
 
-/// Unsupported mappers, and actors with an unknown matrix, are left out.
-TEST(OccluderProps, WhatIsNotServedIsNoted)
-{
-  Scene scene;
-  const PlacedGlyphs glyphs(makeSquare(), makeSquare());
-  glyphs.mapper->SetCullingAndLOD(true);
-  scene.renderer->AddActor(glyphs.actor);
-  vtkNew<vtkAssembly> assembly;
-  for (int i = 0; i < 2; ++i)
-  {
-    vtkNew<vtkFollower> follower;
-    follower->SetCamera(scene.renderer->GetActiveCamera());
-    follower->SetMapper(makeActor(makeSquare())->GetMapper());
-    assembly->AddPart(follower);
-  }
-  scene.renderer->AddActor(assembly);
-  EXPECT_EQ(scene.collectSurfaces(), 0u);
-  EXPECT_THAT(scene.collector.notes(),
-    UnorderedElementsAre(
-      HasSubstr("Glyph3DMapper"), AllOf(HasSubstr("Follower"), HasSubstr("2 props"))));
-}
-
 TEST(OccluderProps, TranslucentOnesAreHeldIfAskedToCast)
 {
   Scene scene;
@@ -863,47 +838,6 @@ vtkSmartPointer<vtkPolyData> makeTexturedSquare()
 }
 
 } // namespace
-
-TEST(OccluderCutouts, AreHeldForTexturesWithHolesOnly)
-{
-  Scene scene;
-  vtkActor* const actor = scene.add(makeTexturedSquare());
-  scene.add(makeSquare()); // without texture coordinates
-  scene.collect();
-  const auto expectNone = [&]
-  {
-    EXPECT_FALSE(scene.surface(0).cutout);
-    EXPECT_TRUE(scene.surface(0).textureCoordinates.empty());
-  };
-  actor->SetTexture(makeTexture({ 255, 255, 255 }));
-  expectNothingDone(scene);
-  expectNone();
-
-  actor->SetTexture(makeTexture({ 0, 255, 0 }));
-  EXPECT_EQ(scene.collect().extracted, 1);
-  ASSERT_TRUE(scene.surface(0).cutout);
-  EXPECT_EQ(scene.surface(0).cutout->texels, (std::vector<std::uint8_t>{ 0, 255, 0 }));
-  EXPECT_EQ(scene.surface(0).textureCoordinates,
-    (std::vector<glm::vec2>{ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }));
-  EXPECT_FALSE(scene.surface(1).cutout);
-  expectNothingDone(scene);
-
-  // Neither another mask nor a movement makes another surface.
-  const std::uint64_t topology = scene.occluders().topologyVersion;
-  const std::uint64_t surface = scene.surface(0).topologyVersion;
-  actor->SetTexture(makeTexture({ 255, 0, 0 }));
-  actor->SetPosition(1.0, 0.0, 0.0);
-  const SnapshotChange change = scene.collect();
-  EXPECT_EQ(change.extracted, 0);
-  EXPECT_EQ(change.retransformed, 1);
-  EXPECT_GT(scene.occluders().topologyVersion, topology);
-  EXPECT_EQ(scene.surface(0).topologyVersion, surface);
-  EXPECT_EQ(scene.surface(0).cutout->texels, (std::vector<std::uint8_t>{ 255, 0, 0 }));
-  EXPECT_EQ(scene.surface(0).textureCoordinates.size(), 4u);
-  actor->SetTexture(nullptr);
-  scene.collect();
-  expectNone();
-}
 
 TEST(OccluderCutouts, CoordinatesThatAreNotFiniteOrNotThereAreZero)
 {

@@ -278,32 +278,6 @@ TEST(SolidBends, whatBeginsInATubeIsNotInItsShadow)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Solids, boxesHoldThem)
-{
-  Random random(5);
-  for (int i = 0; i < 5000; ++i)
-  {
-    const glm::mat4x3 matrix = anySolid(random, GetParam(), 100.0);
-    const PlacedSolid solid = placedSolid(GetParam(), matrix);
-    const Bounds box = boundsOf(solid);
-    glm::dvec3 least(INFINITY);
-    for (int j = 0; j < 200; ++j)
-    {
-      const glm::dvec3 from =
-        solid.centre + 10.0 * (solid.radius + solid.halfLength) * unitVector(random);
-      const glm::dvec3 point = seenPoint(solid, from, solid.centre - from).position;
-      ASSERT_TRUE(glm::all(glm::lessThanEqual(box.lower, point)));
-      ASSERT_TRUE(glm::all(glm::lessThanEqual(point, box.upper)));
-      least = glm::min(least, point - box.lower);
-    }
-    if (GetParam() == Solid::Sphere)
-    {
-      EXPECT_LT(std::max(least.x, std::max(least.y, least.z)), 0.2 * solid.radius); // no larger
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_P(Solids, meshesAreClosedAndInscribed)
 {
   if (GetParam() == Solid::Tube)
