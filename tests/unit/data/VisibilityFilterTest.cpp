@@ -92,7 +92,7 @@ protected:
   std::size_t errorsTaken = 0;
 };
 
-TEST_F(VisibilityFilter, TellsWhyAndWhoBlocks)
+TEST_F(VisibilityFilter, ExplainsLightsAndNamesBlockers)
 {
   // A floor of four cells and a wall on it, which is the receivers' cell 4.
   this->filter->SetInputData(together({ floorOf({ 0, 0 }, { 2, 2 }, 2),
@@ -585,7 +585,7 @@ TEST_F(VisibilityFilter, BrokenGeometryIsLeftOut)
   EXPECT_THAT(this->why(), ElementsAre(Filter::OTHER));
 }
 
-TEST_F(VisibilityFilter, WhatMakesNoSenseIsAnErrorAndChangesNothing)
+TEST_F(VisibilityFilter, InvalidInputIsAnErrorAndChangesNothing)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   this->filter->SetInputData(floorOf({ 0, 0 }, { 1, 1 }, 1));

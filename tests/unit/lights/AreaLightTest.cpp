@@ -101,7 +101,7 @@ TEST(AreaLight, ofADirectionHasAngles)
   EXPECT_EQ(reasonOf(light), "it fills 180 degrees or more");
 }
 
-TEST(AreaLight, isAFlatDiskUntilItIsToldOtherwise)
+TEST(AreaLight, isADiskByDefault)
 {
   vtkNew<vtkGnomonAreaLight> light;
   const LightSet set = read(light);
@@ -213,7 +213,7 @@ TEST(AreaLight, takesOSPRaysRadius)
   EXPECT_EQ(areaOf(area).worldFromUnit, glm::dmat3(0.125));
 }
 
-TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
+TEST(AreaLight, setsOSPRaysRadius)
 {
   ospRayKey(); // loads the key of OSPRay's module
   const auto told = [](vtkLight* light)
@@ -255,7 +255,7 @@ TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
   EXPECT_EQ(told(copy), 0.75);
 }
 
-TEST(AreaLight, ofNumbersThatAreNoneCastsNothing)
+TEST(AreaLight, withInvalidSizesCastsNothing)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   auto light = makeRectangle(nan, 1.0);
@@ -312,7 +312,7 @@ TEST(AreaLight, isCopied)
   EXPECT_EQ(copy->GetWidth(), 2.0);
 }
 
-TEST(AreaLight, knowsWhenItChangesAndSaysWhatItIs)
+TEST(AreaLight, hasAModificationTimeAndPrints)
 {
   vtkNew<vtkGnomonAreaLight> light;
   const auto changes = [&](const auto& change)

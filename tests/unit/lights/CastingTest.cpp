@@ -125,7 +125,7 @@ TEST(Casting, choosesLightsByTheirKind)
 }
 
 //------------------------------------------------------------------------------
-TEST(Casting, ofALightKitIsTheKeyLights)
+TEST(Casting, takesALightKitsKeyLight)
 {
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkLightKit> kit; // key, fill, head and two back lights
@@ -141,7 +141,7 @@ TEST(Casting, ofALightKitIsTheKeyLights)
 }
 
 //------------------------------------------------------------------------------
-TEST(Casting, ofALightWithAKeyIsTheKeys)
+TEST(Casting, followsALightsKey)
 {
   for (const Kind kind :
     { Kind::Scene, Kind::Camera, Kind::AtCamera, Kind::LampAtCamera, Kind::Head })
@@ -163,7 +163,7 @@ TEST(Casting, ofALightWithAKeyIsTheKeys)
 }
 
 //------------------------------------------------------------------------------
-TEST(Casting, saysWhyALightDoesNot)
+TEST(Casting, givesReasonsForSkippedLights)
 {
   vtkNew<vtkRenderer> renderer;
   const auto head = makeLight(Kind::Head);

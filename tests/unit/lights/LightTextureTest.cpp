@@ -124,7 +124,7 @@ TEST(LightTexture, isReadFromGreyAndColoursOfFourTypes)
 }
 
 //------------------------------------------------------------------------------
-TEST(LightTexture, isNoneForAReason)
+TEST(LightTexture, refusesInvalidImages)
 {
   vtkNew<vtkImageData> empty;
   EXPECT_EQ(reasonOf(empty), "its texture has no points with scalars");
@@ -179,7 +179,7 @@ TEST(LightTexture, hasTheMeanOfItsShape)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(TexturedLight, showsThePictureAsWhoLooksAtItSeesIt)
+TEST_F(TexturedLight, isUprightSeenFromTheScene)
 {
   // A viewer who looks up has y up, and so -x to the right.
   const glm::vec3 red(255, 0, 0);
@@ -274,7 +274,7 @@ TEST_F(TexturedLight, sharesAnImageThatIsReadOnce)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(TexturedLight, isLeftOutForAReason)
+TEST_F(TexturedLight, isSkippedWithAReason)
 {
   vtkGnomonLightKeys::SetSetting(this->light, "light_radius", "0.5");
   EXPECT_EQ(this->reason(), "its texture lies on its own area, which 'light_radius' replaces");

@@ -121,7 +121,7 @@ TEST(LightViews, KeepTheBorderThatTheyAreAskedFor)
   }
 }
 
-TEST(LightViews, FromAmongTheCastersAPointLightLooksEverywhere)
+TEST(LightViews, HaveSixFacesFromAmongTheCasters)
 {
   const Bounds room{ { -3.0, -2.0, -1.5 }, { 3.0, 2.0, 1.5 } };
   const LightViews views = fit(lightAround(LightKind::Point, { 0.4, 0.2, 0.9 }), room);
@@ -236,7 +236,7 @@ TEST(LightViews, MapsAreFittedToTheCasters)
   }
 }
 
-TEST(LightViews, ThereAreNoneWithoutCastersToShineOn)
+TEST(LightViews, AreEmptyWithoutCasters)
 {
   EXPECT_TRUE(fit(lightAround(LightKind::Directional, {}), Bounds()).views.empty());
   EXPECT_TRUE(fit(lightAround(LightKind::Point, {}), Bounds()).views.empty());

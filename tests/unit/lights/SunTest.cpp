@@ -215,7 +215,7 @@ TEST_F(Sun, AStepThatDoesNotDivideTheDayEndsWithIt)
   EXPECT_DOUBLE_EQ(hours->GetValue(3), 3.0);
 }
 
-TEST_F(Sun, WhatMakesNoSenseIsAnErrorAndChangesNothing)
+TEST_F(Sun, InvalidValuesAreErrorsAndChangeNothing)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const vtkMTimeType time = this->sun->GetMTime();

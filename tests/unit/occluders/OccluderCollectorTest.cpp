@@ -359,7 +359,7 @@ TEST(OccluderTriangles, OnlyUsedPointsBecomeVertices)
 
 // ---- props -----------------------------------------------------------------
 
-TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
+TEST(OccluderProps, OnlyOpaqueSurfacesAreCollected)
 {
   const auto translucent = makeSquare();
   vtkNew<vtkUnsignedCharArray> colours;
@@ -400,7 +400,7 @@ TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
 }
 
 /// Left-out props are named by class, if they are lit.
-TEST(OccluderProps, WhatIsNoSurfaceIsNoted)
+TEST(OccluderProps, LinesPointsAndVolumesAreListed)
 {
   Scene scene;
   vtkProperty* const wires = scene.add(makeSquare())->GetProperty();
@@ -494,7 +494,7 @@ TEST(OccluderProps, TranslucentOnesAreHeldIfAskedToCast)
 
 // ---- glyphs ------------------------------------------------------------------
 
-TEST(OccluderGlyphs, WhatVtkDoesNotDrawIsLeftOut)
+TEST(OccluderGlyphs, GlyphsThatVtkDoesNotDrawAreLeftOut)
 {
   Scene scene;
   const PlacedGlyphs glyphs(makeSquare(), makeSquare());
@@ -674,7 +674,7 @@ TEST(OccluderBlocks, AnEditedBlockIsReadAlone)
 
 // ---- what changes, and what it costs -----------------------------------------
 
-TEST(OccluderChanges, WhatLeavesTheShapeChangesNoVersion)
+TEST(OccluderChanges, ModifiedDataOfTheSameShapeKeepsVersions)
 {
   Scene scene;
   const auto square = makeSquare();
@@ -691,7 +691,7 @@ TEST(OccluderChanges, WhatLeavesTheShapeChangesNoVersion)
   expectNothingDone(scene);
 }
 
-TEST(OccluderChanges, FlagsOnlyChangeFlags)
+TEST(OccluderChanges, ChangedFlagsKeepGeometry)
 {
   Scene scene;
   vtkActor* const actor = scene.add(makeSquare());
@@ -783,7 +783,7 @@ TEST(OccluderCentre, StaysWhileTheSceneChangesLittle)
   expectNear(scene.positionWorld(0, 2), { 113, 1, 0 });
 }
 
-TEST(OccluderCentre, DoesNotRememberWhatIsGone)
+TEST(OccluderCentre, DoesNotDependOnRemovedProps)
 {
   Scene scene;
   scene.add(makeSquare())->SetPosition(40.1, 3.3, 7.7);

@@ -103,7 +103,7 @@ TEST_F(RanksTest, TellsAllOfAFailure)
 }
 
 //------------------------------------------------------------------------------
-TEST(RankAlone, AnswersWithWhatItIsAsked)
+TEST(RankAlone, EchoesItsInput)
 {
   EXPECT_EQ(alone().count(), 1);
   EXPECT_EQ(alone().beginFrame(""), "");

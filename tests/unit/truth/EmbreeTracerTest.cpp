@@ -218,7 +218,7 @@ struct Roof
   }
 };
 
-TEST(EmbreeTracer, BothSidesCastUnlessOneSidedWhereSurfacesCastAndReceive)
+TEST(EmbreeTracer, SidesAndFlagsDecideWhichSurfacesCast)
 {
   Roof roof;
   Surface& ground = roof.occluders.surfaces[0];
@@ -449,7 +449,7 @@ TEST(EmbreeTracer, CutoutsComeChangeAndGo)
 
 //------------------------------------------------------------------------------
 // Embree's triangles ignore such casters, and its builder ends the process.
-TEST(EmbreeRange, CastersBeyondItAreAnErrorOfEachStructure)
+TEST(EmbreeRange, RejectsCastersBeyondIt)
 {
   for (const double far : { 1.0, 1e18, 4e18, 1e25, 1e30 })
   {

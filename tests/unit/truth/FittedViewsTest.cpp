@@ -193,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, FittedViews,
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST_P(FittedViews, decideAsIfTheFitWereInTheView)
+TEST_P(FittedViews, matchViewsWithTheFitApplied)
 {
   const Occluders occluders = floorAndBoxes();
   const CameraView camera = cameraAbove();
@@ -266,7 +266,7 @@ protected:
 };
 
 //------------------------------------------------------------------------------
-TEST_F(FittedCasters, knowWhereTheyAreAsIfTheFitWereInTheView)
+TEST_F(FittedCasters, matchViewsWithTheFitApplied)
 {
   const Occluders occluders = floorAndBoxes();
   for (ShadowLight light : lightsOfAllLayouts())

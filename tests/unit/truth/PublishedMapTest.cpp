@@ -175,7 +175,7 @@ TEST(PublishedMap, movesSidesByEtaTimesHalfATexelsDiagonal)
   }
 }
 
-TEST(PublishedMap, leavesNothingOfATriangleWhoseLinesMeetTurnedOver)
+TEST(PublishedMap, erodesSmallTrianglesToNothing)
 {
   Random random(3);
   std::size_t turnedOver = 0;
@@ -417,7 +417,7 @@ TEST(PublishedMap, comparesWithATrianglesPlaneAtTexelsCentres)
   }
 }
 
-TEST(PublishedMap, knowsNoShadowOfHoles)
+TEST(PublishedMap, isUncertainBelowCutouts)
 {
   Askew askew;
   askew.occluders.surfaces.front().cutout = makePerforatedPlane(1.0, 1).cutout;
@@ -426,7 +426,7 @@ TEST(PublishedMap, knowsNoShadowOfHoles)
   EXPECT_GT(std::count(certain.begin(), certain.end(), Certainty::Uncertain), 100);
 }
 
-TEST(PublishedMap, knowsNothingWhereTheLightIsInACaster)
+TEST(PublishedMap, isEmptyWithTheLightInACaster)
 {
   EXPECT_GT(Askew(spotLight({ 0.1, 0.0, 2.0 }, { 0.0, 0.0, 0.0 }, 40.0)).map().bytes(), 0u);
   // A light in the middle of the triangle.

@@ -10,12 +10,11 @@
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/ShadowRay.h"
 
+#include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
-#include "vtkGnomonEGLRenderWindow.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
-#include <vtkNew.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,45 +61,40 @@ struct Image
 /// Add invalid pixels, as drivers may leave them. None of them may count.
 void addDebris(Image& image, std::mt19937& random)
 {
-  std::uniform_int_distribution<std::size_t> anywhere(0, image.points.size() - 1);
-  for (std::size_t i = 0; i < image.points.size() / 8 + 1 && image.points.size() > 1; ++i)
+  for (std::size_t i = 0; image.points.size() > 1 && i <= image.points.size() / 8; ++i)
   {
-    const std::size_t pixel = anywhere(random);
+    const std::size_t pixel = random() % image.points.size();
+    glm::vec4 &fragment = image.fragments[pixel], &point = image.points[pixel];
+    const int axis = static_cast<int>(i / 6 % 3);
+    const float infinite = i % 12 < 6 ? infiniteFloat : -infiniteFloat;
     switch (i % 6)
     {
-      case 0:
-        image.fragments[pixel].x = 0.0f; // background
-        image.points[pixel] = glm::vec4(1e9f);
+      case 0: // background
+        fragment.x = 0.0f;
+        point = glm::vec4(1e9f);
         break;
-      case 1:
-        image.fragments[pixel].x = -3.0f; // a surface that shows no shadows
+      case 1: // a surface that shows no shadows
+        fragment.x = -3.0f;
         break;
       case 2:
-        image.points[pixel][static_cast<int>(i / 6 % 3)] = notANumber;
+        point[axis] = notANumber;
         break;
       case 3:
-        image.points[pixel][static_cast<int>(i / 6 % 3)] =
-          i % 12 < 6 ? infiniteFloat : -infiniteFloat;
+        point[axis] = infinite;
         break;
       case 4:
-        image.fragments[pixel].z = i % 12 < 6 ? notANumber : infiniteFloat;
+        fragment.z = i % 12 < 6 ? notANumber : infiniteFloat;
         break;
       default:
-        image.set(pixel, image.points[pixel], { 0.0f, 0.0f, 1.0f }); // turned away from the light
+        image.set(pixel, point, { 0.0f, 0.0f, 1.0f }); // turned away from the light
         break;
     }
   }
 }
 
-/// An empty window, for its context.
-class ReceiverFitTest : public testing::Test
+class ReceiverFitTest : public GlslTest
 {
 protected:
-  ReceiverFitTest()
-  {
-    this->window_->Initialize();
-    this->window_->MakeCurrent();
-  }
   ~ReceiverFitTest() override { EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR)); }
 
   void compute(ReceiverFit& fit, const ShadowLight& light, const LightViews& views,
@@ -124,7 +118,6 @@ protected:
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   }
 
-  vtkNew<vtkGnomonEGLRenderWindow> window_;
   ShaderLibrary library_;
 };
 
@@ -330,18 +323,14 @@ glm::dmat3 readWarp(const ReceiverFit& fit)
 
 void expectBounds(const Bounds& bounds, const Bounds& expected)
 {
-  EXPECT_EQ(bounds.empty(), expected.empty());
-  if (!expected.empty())
-  {
-    EXPECT_EQ(bounds.lower, expected.lower);
-    EXPECT_EQ(bounds.upper, expected.upper);
-  }
+  EXPECT_EQ(bounds.lower, expected.lower);
+  EXPECT_EQ(bounds.upper, expected.upper);
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST_F(ReceiverFitTest, boundsAreTheCpusExactlyOnRandomImagesOfAnySize)
+TEST_F(ReceiverFitTest, boundsMatchBruteForceOnImagesOfAnySize)
 {
   const ExactSun sun;
   ReceiverFit fit;
@@ -387,7 +376,7 @@ TEST_F(ReceiverFitTest, withoutReceiversNothingIsOnTheMap)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(ReceiverFitTest, fitsAreTheCpus)
+TEST_F(ReceiverFitTest, fitsMatchTheCpus)
 {
   ExactSun sun;
   ReceiverFit fit;
@@ -547,17 +536,11 @@ TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
       const glm::dvec3 n = glm::dmat3(centredFromView) * glm::dvec3(image.normal(i));
       const bool reached = visitShadowRays(
         rayLight, [&](const auto& rayFrom, float) { return rayFrom(p, n, 0.0f).traced; });
-      if (!reached)
-      {
-        continue;
-      }
-      int view = 0;
-      if (views.layout == ViewLayout::Cube)
-      {
-        const glm::dvec3 pLight(views.lightFromCentred * glm::dvec4(p, 1.0));
-        view = views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(pLight))];
-      }
-      if (view == LightViews::noView)
+      const glm::dvec3 pLight(views.lightFromCentred * glm::dvec4(p, 1.0));
+      const int view = views.layout == ViewLayout::Cube
+        ? views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(pLight))]
+        : 0;
+      if (!reached || view == LightViews::noView)
       {
         continue;
       }
@@ -591,7 +574,7 @@ TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(ReceiverFitTest, warpIsTheOneWithTheSmallestTexelsOnTheMean)
+TEST_F(ReceiverFitTest, choosesTheWarpWithTheSmallestMeanTexel)
 {
   std::mt19937 random(47);
   std::size_t warped = 0;
@@ -668,42 +651,39 @@ TEST_F(ReceiverFitTest, fittedWarpHoldsAllReceivers)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(ReceiverFitTest, warpIsTheUniformMapWhereThereIsNoneToChoose)
+TEST_F(ReceiverFitTest, warpIsUniformInDegenerateViews)
 {
   const ShadowLight light = lightThatChoosesWarp(directionalLight({ 1.0, -0.2, -0.5 }));
-  const auto chosen = [&](const Ground& ground, const ShadowLight& shining, const Image& image)
+  const auto expectUniform = [&](
+                               const Ground& ground, const ShadowLight& shining, const Image& image)
   {
     const LightViews views = ground.views(shining);
     EXPECT_EQ(views.views.size(), 1u);
     ReceiverFit fit;
     this->compute(fit, shining, views, image, glm::inverse(ground.camera.viewFromCentred));
-    return readWarp(fit);
-  };
-  Ground ground({ 0.0, 1.0, -0.1 }, 64, 64);
-  const glm::dmat3 identity(1.0);
-  const auto expectIdentity = [&](const glm::dmat3& warp)
-  {
+    const glm::dmat3 difference = readWarp(fit) - glm::dmat3(1.0);
     for (int column = 0; column < 3; ++column)
     {
-      EXPECT_LT(glm::length(warp[column] - identity[column]), 1e-6);
+      EXPECT_LT(glm::length(difference[column]), 1e-6);
     }
   };
-  expectIdentity(chosen(ground, light, Image(64, 64))); // background
+  Ground ground({ 0.0, 1.0, -0.1 }, 64, 64);
+  expectUniform(ground, light, Image(64, 64)); // background
   Image broken = ground.image;
   for (glm::vec4& point : broken.points)
   {
     point.x = notANumber;
   }
-  expectIdentity(chosen(ground, light, broken));
+  expectUniform(ground, light, broken);
   Image single(1, 1);
   single.set(0, ground.image.points[64 * 8 + 32], ground.image.normal(64 * 8 + 32));
-  expectIdentity(chosen(ground, light, single));
+  expectUniform(ground, light, single);
   // Light along the view.
   const glm::dvec3 ahead =
     -glm::dvec3(glm::transpose(glm::dmat3(ground.camera.viewFromCentred))[2]);
-  expectIdentity(chosen(ground, lightThatChoosesWarp(directionalLight(ahead)), ground.image));
+  expectUniform(ground, lightThatChoosesWarp(directionalLight(ahead)), ground.image);
   ground.camera.clipFromView = glm::ortho(-20.0, 20.0, -20.0, 20.0, 0.1, 300.0);
-  expectIdentity(chosen(ground, light, ground.image));
+  expectUniform(ground, light, ground.image);
 }
 
 } // namespace gnomon::test

@@ -166,7 +166,7 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
 /// For any triangle that the rasteriser reports, the receiver is a point inside that triangle, and
 /// the closest to the pixel's ray. It is only moved a step away from the edge, where it would lie
 /// on the neighbour's plane, too.
-TEST(Receivers, OfTrianglesThatTheRayPassesByAreTheClosestPoints)
+TEST(Receivers, AreTheClosestPointsOfTrianglesBesideTheRay)
 {
   const Occluders occluders = turnedScene();
   for (const double parallelHeight : { 0.0, 8.0 })

@@ -169,7 +169,7 @@ TEST(Registry, keysHoldTheSettingsOfAnEstimatorAndOfItsMap)
   EXPECT_FALSE(changesKey("mc_layers", "eye", SettingsOf::Map));
 }
 
-TEST(Registry, saysWhoHasASetting)
+TEST(Registry, listsTheTechniquesOfASetting)
 {
   EXPECT_EQ(
     whoHas(*findSetting("map_samples")), "the setting 'map_samples' is for: esm, vsm, evsm, msm");
@@ -282,7 +282,7 @@ TEST(Registry, putsSamplesIntoTheCellsOfSquareGridsOnly)
   }
 }
 
-TEST(Registry, followsAPublicationWhereThereIsOneThatIsNotExact)
+TEST(Registry, composesAsPublished)
 {
   for (const std::string name : { "crsm", "crsma" })
   {

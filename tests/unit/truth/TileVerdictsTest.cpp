@@ -167,7 +167,7 @@ Camera cameraAround(Random& random)
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST(TileVerdicts, AreWhatTracingFinds)
+TEST(TileVerdicts, MatchTracing)
 {
   DecidedPixels counts{};
   for (const char* const name : randomSceneNames())
@@ -219,7 +219,7 @@ const ShadowLight lampOverWall = pointLight({ 0.0, 0.0, 9.0 });
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST(TileVerdicts, SayWhyALightTakesNoRays)
+TEST(TileVerdicts, GiveReasonsForSkippedLights)
 {
   Judged scene(makeWallAndFloor(), cameraOverFloor);
   EXPECT_EQ(scene.report(lampOverWall).skipReason, "casters hide it from all that is visible");

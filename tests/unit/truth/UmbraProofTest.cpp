@@ -176,7 +176,7 @@ TEST(UmbraProof, FindsBlockersThatAreLargeEnough)
 }
 
 //------------------------------------------------------------------------------
-TEST(UmbraProof, ProvesOnlyWhatIsBlocked)
+TEST(UmbraProof, ProvesNoLitReceiverDark)
 {
   Random random(2);
   int proved = 0;
