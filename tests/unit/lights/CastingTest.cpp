@@ -106,7 +106,6 @@ std::string reasonOf(vtkRenderer* renderer, int index)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(Casting, choosesLightsByTheirKind)
 {
   for (const Case& of : cases)
@@ -124,7 +123,6 @@ TEST(Casting, choosesLightsByTheirKind)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(Casting, takesALightKitsKeyLight)
 {
   vtkNew<vtkRenderer> renderer;
@@ -140,7 +138,6 @@ TEST(Casting, takesALightKitsKeyLight)
   EXPECT_EQ(castingOf(renderer, Casting::Brightest), casting);
 }
 
-//------------------------------------------------------------------------------
 TEST(Casting, followsALightsKey)
 {
   for (const Kind kind :
@@ -162,7 +159,6 @@ TEST(Casting, followsALightsKey)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(Casting, givesReasonsForSkippedLights)
 {
   vtkNew<vtkRenderer> renderer;

@@ -162,7 +162,6 @@ TEST_P(WarpedProjections, spreadTheTexelsOverATerrain)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(Lispsm, NearDistanceIsThePublishedOptimum)
 {
   for (const double f : { 1.5, 10.0, 1e4 })
@@ -235,7 +234,6 @@ TEST(SlicedBody, SpreadsTheTexelsOverATerrain)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(Trapezoid, GivesTheFocusRegionEightyPercentOfTheMap)
 {
   const Setting setting = terrain(directionalRays({ 0.0, 0.0, -1.0 }));

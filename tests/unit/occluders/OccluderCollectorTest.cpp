@@ -130,8 +130,6 @@ struct PlacedGlyphs
 
 } // namespace
 
-// ---- triangles -------------------------------------------------------------
-
 TEST(OccluderTriangles, EqualVerticesAreNeverDrawnAndTakeNoNumber)
 {
   // The second point equals the third. VTK draws one triangle of the quad; the other does not count
@@ -191,8 +189,6 @@ TEST(OccluderTriangles, DropsWhatAMatrixFlattensOrBlowsUp)
     expectNothingDone(scene);
   }
 }
-
-// ---- missing data ----------------------------------------------------------
 
 /// Kinds of props with good points around the unit square and a last point of any value.
 using MakeProp = std::function<vtkSmartPointer<vtkActor>(const glm::dvec3& last)>;
@@ -357,8 +353,6 @@ TEST(OccluderTriangles, OnlyUsedPointsBecomeVertices)
   EXPECT_GT(scene.occluders().positionsCentred.capacity(), 3u) << "the last is read as 16 bytes";
 }
 
-// ---- props -----------------------------------------------------------------
-
 TEST(OccluderProps, OnlyOpaqueSurfacesAreCollected)
 {
   const auto translucent = makeSquare();
@@ -492,8 +486,6 @@ TEST(OccluderProps, TranslucentOnesAreHeldIfAskedToCast)
   EXPECT_EQ(scene.collectSurfaces(), 0u);
 }
 
-// ---- glyphs ------------------------------------------------------------------
-
 TEST(OccluderGlyphs, GlyphsThatVtkDoesNotDrawAreLeftOut)
 {
   Scene scene;
@@ -616,8 +608,6 @@ TEST(OccluderProps, AMappersPieceIsAskedFor)
   EXPECT_EQ(scene.surface(0).triangleCount, 2 * half);
 }
 
-// ---- composite data --------------------------------------------------------
-
 TEST(OccluderBlocks, FollowVisibilityAndOpacityAsDrawn)
 {
   // root { a, none, branch { b, c }, a again }
@@ -672,8 +662,6 @@ TEST(OccluderBlocks, AnEditedBlockIsReadAlone)
   EXPECT_EQ(scene.collectSurfaces(), 4u);
 }
 
-// ---- what changes, and what it costs -----------------------------------------
-
 TEST(OccluderChanges, ModifiedDataOfTheSameShapeKeepsVersions)
 {
   Scene scene;
@@ -710,8 +698,6 @@ TEST(OccluderChanges, ChangedFlagsKeepGeometry)
   expectNear(scene.occluders().castersCentred.upper + centre, { 1, 1, 0 });
   expectNear(scene.occluders().allCentred.upper + centre, { 4, 1, 0 });
 }
-
-// ---- the centre --------------------------------------------------------------
 
 TEST(OccluderCentre, LiesOnAGridAsCoarseAsTheScene)
 {
@@ -802,8 +788,6 @@ TEST(OccluderCentre, DoesNotDependOnRemovedProps)
   EXPECT_EQ(scene.occluders().allCentred.lower, before.allCentred.lower);
   EXPECT_EQ(scene.occluders().allCentred.upper, before.allCentred.upper);
 }
-
-// ---- holes of textures -------------------------------------------------------
 
 namespace
 {

@@ -241,5 +241,33 @@ TEST_F(KernelShapeGlsl, warpedMapsBlurAsEvenlyAsPlainOnesAndAsWidelyAsIsAskedFor
   }
 }
 
+TEST_F(KernelShapeGlsl, aBoxOfAnyWidthHasOneLevelMoreThanTaps)
+{
+  // The survey's offset scale: the taps of a box lie farther apart than texels.
+  const Map halfPlane = [](const glm::ivec2& texel) { return texel.x >= mapSize / 2; };
+  for (const int texels : { 1, 3, 5, 11 })
+  {
+    for (const double scale : { 0.5, 1.0, 3.0 })
+    {
+      ShadowLight light = filteredSun("box", texels);
+      const double texelAcross = 1.0 / mostTexelsAcross(sunViews(light), mapSize);
+      light.kernel.widthAcross = scale * texels * texelAcross;
+      std::vector<glm::dvec2> places;
+      for (int i = 0; i < 6400; ++i)
+      {
+        places.emplace_back(0.01 * i, 32.3);
+      }
+      const std::vector<float> values = runGlsl(Pcf(), light, sunViews(light), halfPlane, places);
+      std::vector<float> levels = values;
+      std::sort(levels.begin(), levels.end());
+      levels.erase(std::unique(levels.begin(), levels.end(),
+                     [](float a, float b) { return std::abs(a - b) < 1e-5f; }),
+        levels.end());
+      EXPECT_EQ(levels.size(), static_cast<std::size_t>(texels) + 1)
+        << texels << " taps, " << scale;
+    }
+  }
+}
+
 } // namespace
 } // namespace gnomon::test
