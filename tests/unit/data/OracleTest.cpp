@@ -133,7 +133,7 @@ TEST(VisibilityOracle, AgreesOnEachRay)
             for (std::size_t other = 0; lit && other < cells; ++other)
             {
               const auto hit = meet(triangles[other], origin, directions[i]);
-              lit = other == cell || !hit || hit->at <= 0.0;
+              lit = other == cell || !hit || !hit->isInside() || hit->at <= 0.0;
             }
             const auto byte = static_cast<unsigned int>(
               bits->GetComponent(static_cast<vtkIdType>(cell), static_cast<int>(i / 8)));

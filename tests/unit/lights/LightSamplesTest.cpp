@@ -234,6 +234,70 @@ TEST(LightSamples, ofBlocksOfPixelsAreAsEvenAsThoseOfOne)
   }
 }
 
+/// Return the RMS error of the share of a square that lies on one side of a slanted line. The line
+/// moves from pixel to pixel.
+/// @param side errors are averaged over side x side pixels
+double halfPlaneError(const LightSamples& samples, int side)
+{
+  constexpr int width = 64;
+  const glm::dvec2 across(0.8, 0.6);
+  std::vector<double> errors;
+  for (int pixel = 0; pixel < width * width; ++pixel)
+  {
+    const int column = pixel % width, row = pixel / width;
+    const double limit = (column + 0.37 * row) / width - 0.7;
+    // The area of a quadrant without the areas beyond the square's sides.
+    const auto quadrant = [&](double x, double y)
+    { return std::pow(std::max(limit + across.x * x + across.y * y, 0.0), 2.0); };
+    const double truth = (quadrant(1, 1) - quadrant(-1, 1) - quadrant(1, -1) + quadrant(-1, -1)) /
+      (2.0 * across.x * across.y * 4.0);
+    int inside = 0;
+    const SamplePixel of =
+      samples.pixel(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+    for (int i = 0; i < samples.count(); ++i)
+    {
+      inside += glm::dot(glm::dvec2(samples.offset(i, of)), across) < limit ? 1 : 0;
+    }
+    errors.push_back(static_cast<double>(inside) / samples.count() - truth);
+  }
+  double sum = 0.0;
+  int blocks = 0;
+  for (int row = 0; row + side <= width; ++row)
+  {
+    for (int column = 0; column + side <= width; ++column, ++blocks)
+    {
+      double mean = 0.0;
+      for (int i = 0; i < side * side; ++i)
+      {
+        mean += errors[static_cast<std::size_t>((row + i / side) * width + column + i % side)] /
+          (side * side);
+      }
+      sum += mean * mean;
+    }
+  }
+  return std::sqrt(sum / blocks);
+}
+
+TEST(LightSamples, errLeastByDefaultAndLeaveTheLeastNoiseToABlur)
+{
+  for (const int count : { 4, 16, 64 })
+  {
+    double sobol = 0.0, sobolBlurred = 0.0;
+    for (const int seed : { 0, 1, 2, 3 })
+    {
+      sobol += halfPlaneError(squareSamples(count, seed), 1) / 4.0;
+      sobolBlurred += halfPlaneError(squareSamples(count, seed), 3) / 4.0;
+    }
+    const LightSamples jittered = squareSamples(count, 0, LightSampling::Jittered);
+    const LightSamples random = squareSamples(count, 0, LightSampling::Random);
+    EXPECT_LT(sobol, halfPlaneError(jittered, 1)) << count;
+    EXPECT_LT(halfPlaneError(jittered, 1), halfPlaneError(random, 1)) << count;
+    // Noise that is independent of its neighbours drops by a factor of 3 over 3 x 3.
+    EXPECT_NEAR(halfPlaneError(jittered, 3) / halfPlaneError(jittered, 1), 1.0 / 3.0, 0.03);
+    EXPECT_LT(sobolBlurred, 0.3 * sobol) << count;
+  }
+}
+
 /// Return the deviation of pair counts in 16 x 16 cells from chance, in standard deviations.
 double dependenceOf(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs)
 {

@@ -447,7 +447,6 @@ TEST(EmbreeTracer, CutoutsComeChangeAndGo)
   EXPECT_EQ(darkAfter(1), perforated);
 }
 
-//------------------------------------------------------------------------------
 // Embree's triangles ignore such casters, and its builder ends the process.
 TEST(EmbreeRange, RejectsCastersBeyondIt)
 {

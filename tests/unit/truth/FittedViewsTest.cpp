@@ -192,7 +192,6 @@ INSTANTIATE_TEST_SUITE_P(Estimators, FittedViews,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(FittedViews, matchViewsWithTheFitApplied)
 {
   const Occluders occluders = floorAndBoxes();
@@ -229,7 +228,6 @@ TEST_P(FittedViews, matchViewsWithTheFitApplied)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Values of caster_map.glsl at the casters' fragments. They determine how far casters are pushed
 /// back, which shadows show too little of.
 class FittedCasters : public GlslTest
@@ -265,7 +263,6 @@ protected:
   }
 };
 
-//------------------------------------------------------------------------------
 TEST_F(FittedCasters, matchViewsWithTheFitApplied)
 {
   const Occluders occluders = floorAndBoxes();

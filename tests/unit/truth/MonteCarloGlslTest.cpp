@@ -43,7 +43,6 @@ protected:
   std::mt19937 random_{ 7 };
 };
 
-//------------------------------------------------------------------------------
 TEST_F(MonteCarloGlsl, hashesAsTheCpuDoes)
 {
   std::vector<glm::uvec4> seeds;
@@ -66,7 +65,6 @@ TEST_F(MonteCarloGlsl, hashesAsTheCpuDoes)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(MonteCarloGlsl, takesTheJitteredSamplesOfTheLight)
 {
   ShadowLight light;
@@ -103,7 +101,6 @@ TEST_F(MonteCarloGlsl, takesTheJitteredSamplesOfTheLight)
   }
 }
 
-//------------------------------------------------------------------------------
 struct RayLine
 {
   glm::vec4 begin;
@@ -262,7 +259,6 @@ private:
   GlTexture texture_;
 };
 
-//------------------------------------------------------------------------------
 TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
 {
   for (const auto& [side, whole] : { std::pair(64, 64), { 100, 128 }, { 1024, 1024 } })
@@ -308,7 +304,6 @@ TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return lines of any length from behind to before all slabs.
 std::vector<RayLine> randomLines(int side, std::size_t count, std::mt19937& random)
 {
@@ -413,7 +408,6 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Rays that begin inside a solid need no test of their own: the search finds that in the first
 /// texel.
 TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
@@ -440,7 +434,6 @@ TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Boxes between depths of 5 and 20 under an eye, as a map with two layers holds them. Rays go from
 /// the ground at 20 to a light at 1 that fills the map's frustum there. The linear search's rates
 /// were specified with this geometry.
@@ -569,7 +562,6 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Pixels of surfaces across the view, as input of the filter.
 struct FilteredPicture
 {
@@ -793,7 +785,6 @@ TEST_F(MonteCarloGlsl, filterLeavesOutOnlyTilesThatStayAsTheyAre)
   EXPECT_GT(changed, 1000);
 }
 
-//------------------------------------------------------------------------------
 ShadowLight lampOver(double radius, double coneAngleDegrees)
 {
   ShadowLight light;

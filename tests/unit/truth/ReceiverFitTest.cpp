@@ -329,7 +329,6 @@ void expectBounds(const Bounds& bounds, const Bounds& expected)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, boundsMatchBruteForceOnImagesOfAnySize)
 {
   const ExactSun sun;
@@ -348,7 +347,6 @@ TEST_F(ReceiverFitTest, boundsMatchBruteForceOnImagesOfAnySize)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, withoutReceiversNothingIsOnTheMap)
 {
   const ExactSun sun;
@@ -375,7 +373,6 @@ TEST_F(ReceiverFitTest, withoutReceiversNothingIsOnTheMap)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, fitsMatchTheCpus)
 {
   ExactSun sun;
@@ -427,7 +424,6 @@ TEST_F(ReceiverFitTest, fitsMatchTheCpus)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, distancesSplitTheReceivers)
 {
   ExactSun sun;
@@ -482,7 +478,6 @@ TEST_F(ReceiverFitTest, distancesSplitTheReceivers)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
 {
   const Bounds scene{ glm::dvec3(-1.0, -0.8, -0.6), glm::dvec3(1.0, 0.9, 0.7) };
@@ -573,7 +568,6 @@ TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
   EXPECT_GE(viewsSeen, 12u);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, choosesTheWarpWithTheSmallestMeanTexel)
 {
   std::mt19937 random(47);
@@ -619,7 +613,6 @@ TEST_F(ReceiverFitTest, choosesTheWarpWithTheSmallestMeanTexel)
   EXPECT_GE(uniform, 3u);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, fittedWarpHoldsAllReceivers)
 {
   const ShadowLight light = lightThatChoosesWarp(directionalLight({ 1.0, -0.2, -0.5 }));
@@ -650,7 +643,6 @@ TEST_F(ReceiverFitTest, fittedWarpHoldsAllReceivers)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, warpIsUniformInDegenerateViews)
 {
   const ShadowLight light = lightThatChoosesWarp(directionalLight({ 1.0, -0.2, -0.5 }));

@@ -37,7 +37,6 @@ std::optional<glm::dvec4> keptFromCentred(const RandomPicture& picture)
     : std::nullopt;
 }
 
-//------------------------------------------------------------------------------
 // Lights in casters
 
 TEST(LightInCaster, IsOnATriangle)
@@ -65,7 +64,6 @@ TEST(LightInCaster, IsOnATriangle)
   EXPECT_FALSE(liesInCaster({ 0.0, 0.0, 0.0 }, nullptr, Occluders()));
 }
 
-//------------------------------------------------------------------------------
 // The contour
 
 /// Brute force: a pixel belongs if it has a status, and the other status is near.
@@ -102,7 +100,6 @@ TEST(StatusContour, isWhereBothStatusesAreWithinTheRadius)
   }
 }
 
-//------------------------------------------------------------------------------
 // Texels and triangles around
 
 TEST(Neighbourhood, ofFourIsTheBilinearFootprintAndOfNineItsSurroundings)
@@ -195,7 +192,6 @@ TEST(TriangleFans, haveAllTrianglesThatShareAnEdgeOrAVertex)
   }
 }
 
-//------------------------------------------------------------------------------
 // The map
 
 /// The first hit of a light's ray, of all casters.
@@ -212,11 +208,10 @@ FirstHit firstHit(
   for (const CastingTriangle& triangle : castingTriangles(occluders))
   {
     const auto hit = meet(triangle, origin, direction);
-    const bool fromBack = hit && occluders.surfaces[triangle.surface].oneSided && hit->cosine > 0.0;
-    if (hit && hit->at > begin && hit->at < first.along && !fromBack)
+    const bool isMet = hit && hit->isInside() && hit->at > begin && hit->at < first.along;
+    if (isMet && !(occluders.surfaces[triangle.surface].oneSided && hit->cosine > 0.0))
     {
-      const glm::dvec3& w = hit->weights;
-      first = { { triangle.surface, 0, triangle.triangle }, hit->at, std::min({ w.x, w.y, w.z }) };
+      first = { { triangle.surface, 0, triangle.triangle }, hit->at, hit->leastWeight() };
     }
   }
   return first;
@@ -292,7 +287,6 @@ TEST(TriangleMap, hasTheFirstTriangleAtEveryTexelsCentre)
   EXPECT_GT(empty, 10000u);
 }
 
-//------------------------------------------------------------------------------
 // Hits that are certain
 
 TEST(CertainHit, isAMarginAwayFromEdgesAndEnds)
@@ -346,7 +340,6 @@ TEST(CertainHit, isNotOnTheBackOfOneSidedCastersAndNotOnCutouts)
   EXPECT_FALSE(hits(perforated, -1.0f));
 }
 
-//------------------------------------------------------------------------------
 // The chain
 
 /// The result of a chain for a picture.

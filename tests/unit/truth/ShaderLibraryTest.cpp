@@ -34,7 +34,6 @@ std::string errorOf(const std::function<void()>& call)
 
 using ShaderLibraryTest = GlslTest;
 
-//------------------------------------------------------------------------------
 TEST_F(ShaderLibraryTest, saysWhatDoesNotCompileEachTimeThatItIsAskedFor)
 {
   ShaderLibrary library;
@@ -52,7 +51,6 @@ TEST_F(ShaderLibraryTest, saysWhatDoesNotCompileEachTimeThatItIsAskedFor)
   EXPECT_EQ(library.compiles(), 1);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ShaderLibraryTest, saysWhatDoesNotLink)
 {
   ShaderLibrary library;
@@ -66,7 +64,6 @@ TEST_F(ShaderLibraryTest, saysWhatDoesNotLink)
   EXPECT_EQ(library.compiles(), 0);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ShaderLibraryTest, namesASourceThatIsNotThere)
 {
   EXPECT_THAT(errorOf([] { ShaderLibrary::source("shadowtech/none.glsl"); }),

@@ -110,7 +110,6 @@ INSTANTIATE_TEST_SUITE_P(Of, Solids, testing::Values(Solid::Sphere, Solid::Cylin
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(Solids, linesCrossThemWhereTheyAreInside)
 {
   Random random(1);
@@ -149,7 +148,6 @@ TEST_P(Solids, linesCrossThemWhereTheyAreInside)
   EXPECT_GT(crossed, 4000);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Solids, aRayMeetsTheirSurfaceOrPassesByIt)
 {
   Random random(2);
@@ -180,7 +178,6 @@ TEST_P(Solids, aRayMeetsTheirSurfaceOrPassesByIt)
   EXPECT_LT(met, 19000);
 }
 
-//------------------------------------------------------------------------------
 /// For any light that the receiver faces; at half, once and twice the offset; near the origin and
 /// far away.
 TEST_P(Solids, noneShadowsItself)
@@ -212,7 +209,6 @@ TEST_P(Solids, noneShadowsItself)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Molecules show a bond as two sticks, one for each atom's colour, each rounded separately.
 class SolidPairs : public testing::TestWithParam<Solid>
 {
@@ -258,7 +254,6 @@ TEST_P(SolidPairs, halvesOfABondDoNotShadowEachOther)
   EXPECT_EQ(dark, 0);
 }
 
-//------------------------------------------------------------------------------
 /// Parts of a bent line overlap.
 TEST(SolidBends, whatBeginsInATubeIsNotInItsShadow)
 {
@@ -277,7 +272,6 @@ TEST(SolidBends, whatBeginsInATubeIsNotInItsShadow)
   EXPECT_GT(begun, 1000);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Solids, meshesAreClosedAndInscribed)
 {
   if (GetParam() == Solid::Tube)
@@ -320,7 +314,6 @@ TEST_P(Solids, meshesAreClosedAndInscribed)
   }
 }
 
-//------------------------------------------------------------------------------
 /// In packets and alone, built and refitted, one-sided and two-sided.
 TEST(SolidTracing, theTracerAnswersAsTheyDo)
 {
@@ -392,7 +385,6 @@ TEST(SolidTracing, theTracerAnswersAsTheyDo)
   }
 }
 
-//------------------------------------------------------------------------------
 /// A ray meets the solid that it enters first, or leaves first if it begins inside.
 TEST(SolidTracing, raysMeetTheNearest)
 {

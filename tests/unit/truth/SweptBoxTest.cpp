@@ -51,7 +51,6 @@ glm::dvec3 placeOf(LightKind kind, const glm::dvec3& centred)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(SweptBox, meetsWhatIsOnTheWayToTheLight)
 {
   const Bounds start = boxAround({ 0.0, 0.0, 0.0 }, glm::dvec3(0.5));
@@ -71,7 +70,6 @@ TEST(SweptBox, meetsWhatIsOnTheWayToTheLight)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(SweptBox, holdsAllRays)
 {
   std::mt19937 random(3);

@@ -452,14 +452,12 @@ std::optional<LineHit> meet(
     glm::dot(glm::cross(a - origin, b - origin), direction));
   const glm::dvec3 normal = glm::cross(b - a, c - a);
   const double cosine = glm::dot(normal, direction);
-  const bool inside = glm::all(glm::greaterThanEqual(volumes, glm::dvec3(0.0))) ||
-    glm::all(glm::lessThanEqual(volumes, glm::dvec3(0.0)));
-  if (!inside || cosine == 0.0)
+  const double sum = volumes.x + volumes.y + volumes.z;
+  if (cosine == 0.0 || sum == 0.0)
   {
     return std::nullopt;
   }
-  return LineHit{ glm::dot(a - origin, normal) / cosine, cosine,
-    volumes / (volumes.x + volumes.y + volumes.z) };
+  return LineHit{ glm::dot(a - origin, normal) / cosine, cosine, volumes / sum };
 }
 
 //------------------------------------------------------------------------------
@@ -471,7 +469,7 @@ std::vector<float> traceBruteForce(
   {
     const Surface& surface = occluders.surfaces[triangle.surface];
     const auto hit = meet(triangle, glm::dvec3(ray.origin), glm::dvec3(ray.direction));
-    if (!hit || hit->at < 0.0 || hit->at > static_cast<double>(rayFar) ||
+    if (!hit || !hit->isInside() || hit->at < 0.0 || hit->at > static_cast<double>(rayFar) ||
       (surface.oneSided && hit->cosine < 0.0))
     {
       return false;

@@ -119,15 +119,18 @@ struct CastingTriangle
 };
 std::vector<CastingTriangle> castingTriangles(const Occluders& occluders);
 
-/// Where a line meets a triangle.
+/// Where a line meets a triangle's plane.
 struct LineHit
 {
   double at;          ///< in lengths of the direction
   double cosine;      ///< of direction and normal, times their lengths
   glm::dvec3 weights; ///< barycentric
+
+  double leastWeight() const { return glm::min(glm::min(weights.x, weights.y), weights.z); }
+  bool isInside() const { return this->leastWeight() >= 0.0; }
 };
-/// Intersect by the signs of three volumes. Differences of floats are exact in double, so
-/// neighbours agree on their common edge.
+/// Intersect by three volumes; none if the line lies along the plane. Differences of floats are
+/// exact in double, so the signs of weights agree on an edge that neighbours share.
 std::optional<LineHit> meet(
   const CastingTriangle& triangle, const glm::dvec3& origin, const glm::dvec3& direction);
 

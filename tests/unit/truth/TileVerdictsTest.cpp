@@ -166,7 +166,6 @@ Camera cameraAround(Random& random)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(TileVerdicts, MatchTracing)
 {
   DecidedPixels counts{};
@@ -218,7 +217,6 @@ const ShadowLight lampOverWall = pointLight({ 0.0, 0.0, 9.0 });
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(TileVerdicts, GiveReasonsForSkippedLights)
 {
   Judged scene(makeWallAndFloor(), cameraOverFloor);
@@ -234,7 +232,6 @@ TEST(TileVerdicts, GiveReasonsForSkippedLights)
     "its box reaches nothing visible");
 }
 
-//------------------------------------------------------------------------------
 /// Only a sure blocker hides a light.
 TEST(TileVerdicts, DoNotTrustWallsWithHolesOrOneSide)
 {
