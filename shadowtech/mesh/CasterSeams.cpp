@@ -1,8 +1,8 @@
 #include "shadowtech/mesh/CasterSeams.h"
 
 #include "shadowtech/base/Bytes.h"
-#include "shadowtech/mesh/CasterEdges.h"
 #include "shadowtech/base/WeldedVertices.h"
+#include "shadowtech/mesh/CasterEdges.h"
 
 #include <tbb/parallel_sort.h>
 

@@ -3,7 +3,7 @@
 //
 // gnomon_benchmark_fitting [SIDE [FRAMES]], the side of the receivers' image in pixels.
 
-#include "SyntheticScene.h"
+#include "ObjFile.h"
 #include "Timing.h"
 
 #include "lights/SettingsTable.h"

@@ -135,8 +135,8 @@ Scene makeScene(const Case& drawn)
   for (int i = 0; i < drawn.lights; ++i)
   {
     const double turn = 0.6 + 2.0 * vtkMath::Pi() * i / drawn.lights;
-    scene.lights.push_back(makeSun(
-      { { std::cos(turn), -0.6, std::sin(turn) } }, 1.0 / drawn.lights));
+    scene.lights.push_back(
+      makeSun({ { std::cos(turn), -0.6, std::sin(turn) } }, 1.0 / drawn.lights));
   }
   scene.camera = makeCamera({ { 0.0, 0.75, 1.1 } }, { { 0.0, -0.05, 0.0 } }, 45.0);
   return scene;

@@ -2,7 +2,7 @@
 // rays. Also time the receivers' projection and the acceleration structures. Scene:
 // bunny on a plane, directional light, 1024 x 1024.
 
-#include "SyntheticScene.h"
+#include "ObjFile.h"
 #include "Timing.h"
 
 #include "shadowtech/base/ShadowRay.h"

@@ -6,7 +6,6 @@
 #include "BuiltinScenes.h"
 #include "Comparison.h"
 #include "FrameVariant.h"
-#include "BuiltinScenes.h"
 #include "VtkMessages.h"
 
 #include "lights/LightManager.h"

@@ -46,7 +46,6 @@ TEST_F(ClosedForms, AHalfPlaneHidesSunsBetweenItsEdgeAndTheHorizon)
     const double angle = glm::pi<double>() * (i + 0.5) / suns;
     this->filter->AddDirection(std::cos(angle), 0.0, std::sin(angle), 12.0 / suns);
   }
-  this->filter->Update();
   const std::vector<double> fraction = arrayOf(this->filter, Filter::GetLitFractionName());
   const std::vector<double> hours = arrayOf(this->filter, Filter::GetHoursName());
   ASSERT_EQ(fraction.size(), cells * cells);
@@ -68,7 +67,6 @@ TEST_F(ClosedForms, AnEdgeCutsACell)
     1, quad({ -far, -far, 1 }, { 0.3, -far, 1 }, { 0.3, far, 1 }, { -far, far, 1 }));
   this->filter->SetSamples(1024);
   this->filter->AddDirection(-0.1, 0.0, 1.0); // lit where x > 0.4
-  this->filter->Update();
   const double area = 1.25;
   const double expected = (area - 0.4) / area;
   const double fraction = arrayOf(this->filter, Filter::GetLitFractionName()).front();
@@ -94,7 +92,6 @@ TEST_F(ClosedForms, TheSunsDiscHasAPenumbra)
   for (const bool ofPoints : { false, true })
   {
     this->filter->SetElements(ofPoints ? Filter::POINTS : Filter::CELLS);
-    this->filter->Update();
     const std::vector<double> fraction = arrayOf(this->filter, Filter::GetLitFractionName());
     for (int i = 0; i < cells; ++i)
     {
@@ -118,7 +115,6 @@ TEST_F(ClosedForms, ABallsShadowIsAnEllipse)
   this->filter->SetSamples(64);
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.7, -0.4, 1.0));
   this->filter->AddDirection(&towards.x);
-  this->filter->Update();
   const std::vector<double> fraction = arrayOf(this->filter, Filter::GetLitFractionName());
   const double lit = std::accumulate(fraction.begin(), fraction.end(), 0.0);
   const double shadow = (cells * cells - lit) * 64.0 / (cells * cells);
@@ -128,7 +124,6 @@ TEST_F(ClosedForms, ABallsShadowIsAnEllipse)
   vtkNew<Filter> ofBall;
   ofBall->SetInputData(polyData(ball));
   ofBall->AddDirection(&towards.x);
-  ofBall->Update();
   const std::vector<double> own = arrayOf(ofBall, Filter::GetLitFractionName());
   const std::vector<double> why = arrayOf(ofBall, Filter::GetWhyName());
   ASSERT_EQ(own.size(), ball.triangles.size());
@@ -155,7 +150,6 @@ TEST_F(ClosedForms, ALampsShadowGrowsWithTheDistance)
   lamp->SetConeAngle(90.0);
   lamp->SetPosition(0.0, 0.0, 3.0);
   this->filter->AddLight(lamp);
-  this->filter->Update();
   const std::vector<double> fraction = arrayOf(this->filter, Filter::GetLitFractionName());
   const double lit = std::accumulate(fraction.begin(), fraction.end(), 0.0);
   EXPECT_NEAR((cells * cells - lit) * 64.0 / (cells * cells), 9.0, 0.045);
@@ -170,21 +164,17 @@ TEST_F(ClosedForms, AWallHasItsHoursOfSun)
   this->filter->SetInputData(quad({ 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 1 }, { 0, 0, 1 })); // faces -y
   sun->SetDate(2026, 12, 21);
   this->filter->AddSunDay(sun, 1.0);
-  this->filter->Update();
   EXPECT_NEAR(arrayOf(this->filter, Filter::GetHoursName()).front(), 12.0, 0.06);
   this->filter->ClearLights();
   sun->SetDate(2026, 6, 21);
   this->filter->AddSunDay(sun, 1.0);
-  this->filter->Update();
   EXPECT_EQ(arrayOf(this->filter, Filter::GetHoursName()).front(), 0.0);
   // A flat roof gets all hours of sun.
   this->filter->SetInputData(quad({ 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }));
-  this->filter->Update();
   EXPECT_NEAR(arrayOf(this->filter, Filter::GetHoursName()).front(), 12.0, 0.06);
   EXPECT_EQ(arrayOf(this->filter, Filter::GetLitFractionName()).front(), 1.0);
   this->filter->ClearLights();
   this->filter->AddSunYear(sun, 15, 30.0);
-  this->filter->Update();
   EXPECT_NEAR(arrayOf(this->filter, Filter::GetHoursName()).front(), 365.0 * 12.0, 22.0);
 }
 
@@ -200,7 +190,6 @@ TEST_F(ClosedForms, StatedErrorsAreKept)
       { -far, far, 1 }));
   this->filter->SetSamples(16);
   this->filter->AddDirection(0.0, 0.0, 1.0);
-  this->filter->Update();
   const std::vector<double> fraction = arrayOf(this->filter, Filter::GetLitFractionName());
   const std::vector<double> error = arrayOf(this->filter, Filter::GetLitFractionErrorName());
   double squares = 0.0;

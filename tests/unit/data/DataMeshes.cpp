@@ -96,7 +96,7 @@ vtkSmartPointer<vtkPolyData> together(const std::vector<vtkSmartPointer<vtkPolyD
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> arrayOf(vtkGnomonVisibilityFilter* filter, const char* name)
+std::vector<double> shownArrayOf(vtkGnomonVisibilityFilter* filter, const char* name)
 {
   vtkPolyData* const output = filter->GetOutput();
   vtkDataSetAttributes* data = output->GetPointData();
@@ -114,6 +114,13 @@ std::vector<double> arrayOf(vtkGnomonVisibilityFilter* filter, const char* name)
     }
   }
   return values;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> arrayOf(vtkGnomonVisibilityFilter* filter, const char* name)
+{
+  filter->Update();
+  return shownArrayOf(filter, name);
 }
 
 } // namespace gnomon::test

@@ -30,6 +30,8 @@ vtkSmartPointer<vtkPolyData> together(const std::vector<vtkSmartPointer<vtkPolyD
 
 /// Return an array of the result, of cells or else of points, as doubles: all its components in a
 /// row. Empty if there is no such array.
+std::vector<double> shownArrayOf(vtkGnomonVisibilityFilter* filter, const char* name);
+/// Update the filter first.
 std::vector<double> arrayOf(vtkGnomonVisibilityFilter* filter, const char* name);
 
 } // namespace gnomon::test

@@ -101,7 +101,7 @@ TEST(AreaLight, ofADirectionHasAngles)
   EXPECT_EQ(reasonOf(light), "it fills 180 degrees or more");
 }
 
-TEST(AreaLight, isAFlatDiskUntilItIsToldOtherwise)
+TEST(AreaLight, isADiskByDefault)
 {
   vtkNew<vtkGnomonAreaLight> light;
   const LightSet set = read(light);
@@ -124,13 +124,14 @@ TEST(AreaLight, withoutSizeIsAPoint)
   EXPECT_TRUE(read(light).lights.at(0).area.has_value()) << "a tube";
 }
 
+const glm::dvec3 areaTravel = glm::normalize(glm::dvec3(1.0, -2.0, 0.5));
+const LightArea allShapes[] = { rectangleArea(areaTravel, { 0.0, 0.0, 1.0 }, { 0.6, 0.2 }),
+  diskArea(areaTravel, 0.5), ballArea(0.5) };
+
 /// The rim lies at the light's reach, everywhere around its centre; no two points coincide.
 TEST(AreaLight, hasARim)
 {
-  const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, -2.0, 0.5));
-  const LightArea areas[] = { rectangleArea(travel, { 0.0, 0.0, 1.0 }, { 0.6, 0.2 }),
-    diskArea(travel, 0.5), ballArea(0.5) };
-  for (const LightArea& area : areas)
+  for (const LightArea& area : allShapes)
   {
     const bool ball = area.shape == LightArea::Shape::Ball;
     for (const std::size_t count : { 1u, 4u, 7u, 16u })
@@ -141,46 +142,38 @@ TEST(AreaLight, hasARim)
       for (std::size_t i = 0; i < count; ++i)
       {
         sum += rim[i];
-        const glm::dvec2 unit(glm::dot(rim[i], area.worldFromUnit[0]) /
-            glm::dot(area.worldFromUnit[0], area.worldFromUnit[0]),
-          glm::dot(rim[i], area.worldFromUnit[1]) /
-            glm::dot(area.worldFromUnit[1], area.worldFromUnit[1]));
-        const double extent = area.shape == LightArea::Shape::Rectangle
-          ? std::max(std::abs(unit.x), std::abs(unit.y))
-          : ball ? glm::length(rim[i]) / 0.5
-                 : glm::length(unit);
+        const glm::dvec3 &x = area.worldFromUnit[0], &y = area.worldFromUnit[1];
+        const glm::dvec2 unit(
+          glm::dot(rim[i], x) / glm::dot(x, x), glm::dot(rim[i], y) / glm::dot(y, y));
+        const double extent = ball                    ? glm::length(rim[i]) / 0.5
+          : area.shape == LightArea::Shape::Rectangle ? std::max(std::abs(unit.x), std::abs(unit.y))
+                                                      : glm::length(unit);
         EXPECT_NEAR(extent, 1.0, 1e-12);
-        if (!ball)
-        {
-          EXPECT_NEAR(glm::dot(rim[i], travel), 0.0, 1e-12);
-        }
+        EXPECT_TRUE(ball || std::abs(glm::dot(rim[i], areaTravel)) < 1e-12);
         for (std::size_t k = 0; k < i; ++k)
         {
           EXPECT_GT(glm::length(rim[i] - rim[k]), 1.2 * area.radius() / static_cast<double>(count));
         }
       }
-      if (count > 1)
-      {
-        EXPECT_LT(glm::length(sum), 0.2 * area.radius() * static_cast<double>(count));
-      }
+      EXPECT_TRUE(
+        count == 1 || glm::length(sum) < 0.2 * area.radius() * static_cast<double>(count));
     }
   }
   // A rectangle's four are its corners.
-  for (const glm::dvec3& corner : rimOf(areas[0], 4))
+  for (const glm::dvec3& corner : rimOf(allShapes[0], 4))
   {
-    EXPECT_NEAR(glm::length(corner), areas[0].radius(), 1e-12);
+    EXPECT_NEAR(glm::length(corner), allShapes[0].radius(), 1e-12);
   }
 }
 
 /// The extent along any direction is that of the farthest rim point.
 TEST(AreaLight, hasAnExtent)
 {
-  const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, -2.0, 0.5));
-  for (const LightArea& area : { rectangleArea(travel, { 0.0, 0.0, 1.0 }, { 0.6, 0.2 }),
-         diskArea(travel, 0.5), ballArea(0.5) })
+  for (const LightArea& area : allShapes)
   {
     const std::vector<glm::dvec3> rim = rimOf(area, 20000);
-    EXPECT_LT(area.extentAlong(travel), area.shape == LightArea::Shape::Ball ? 0.5 + 1e-12 : 1e-12);
+    EXPECT_LT(
+      area.extentAlong(areaTravel), area.shape == LightArea::Shape::Ball ? 0.5 + 1e-12 : 1e-12);
     for (const glm::dvec3& across : rimOf(ballArea(1.0), 50))
     {
       double farthest = 0.0;
@@ -220,7 +213,7 @@ TEST(AreaLight, takesOSPRaysRadius)
   EXPECT_EQ(areaOf(area).worldFromUnit, glm::dmat3(0.125));
 }
 
-TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
+TEST(AreaLight, setsOSPRaysRadius)
 {
   ospRayKey(); // loads the key of OSPRay's module
   const auto told = [](vtkLight* light)
@@ -262,7 +255,7 @@ TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
   EXPECT_EQ(told(copy), 0.75);
 }
 
-TEST(AreaLight, ofNumbersThatAreNoneCastsNothing)
+TEST(AreaLight, withInvalidSizesCastsNothing)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   auto light = makeRectangle(nan, 1.0);
@@ -319,7 +312,7 @@ TEST(AreaLight, isCopied)
   EXPECT_EQ(copy->GetWidth(), 2.0);
 }
 
-TEST(AreaLight, knowsWhenItChangesAndSaysWhatItIs)
+TEST(AreaLight, hasAModificationTimeAndPrints)
 {
   vtkNew<vtkGnomonAreaLight> light;
   const auto changes = [&](const auto& change)

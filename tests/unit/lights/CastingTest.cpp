@@ -106,7 +106,6 @@ std::string reasonOf(vtkRenderer* renderer, int index)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(Casting, choosesLightsByTheirKind)
 {
   for (const Case& of : cases)
@@ -124,8 +123,7 @@ TEST(Casting, choosesLightsByTheirKind)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST(Casting, ofALightKitIsTheKeyLights)
+TEST(Casting, takesALightKitsKeyLight)
 {
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkLightKit> kit; // key, fill, head and two back lights
@@ -140,8 +138,7 @@ TEST(Casting, ofALightKitIsTheKeyLights)
   EXPECT_EQ(castingOf(renderer, Casting::Brightest), casting);
 }
 
-//------------------------------------------------------------------------------
-TEST(Casting, ofALightWithAKeyIsTheKeys)
+TEST(Casting, followsALightsKey)
 {
   for (const Kind kind :
     { Kind::Scene, Kind::Camera, Kind::AtCamera, Kind::LampAtCamera, Kind::Head })
@@ -162,8 +159,7 @@ TEST(Casting, ofALightWithAKeyIsTheKeys)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST(Casting, saysWhyALightDoesNot)
+TEST(Casting, givesReasonsForSkippedLights)
 {
   vtkNew<vtkRenderer> renderer;
   const auto head = makeLight(Kind::Head);

@@ -17,7 +17,6 @@ productAndSum(const volatile double& a, const volatile double& b, const volatile
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(FloatingPoint, productsAreRoundedBeforeTheyAreAdded)
 {
 #ifdef __x86_64__

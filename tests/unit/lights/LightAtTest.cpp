@@ -1,5 +1,7 @@
 #include "lights/LightAt.h"
 
+#include "ViewPoints.h"
+
 #include "lights/LightSamples.h"
 #include "lights/LightSpace.h"
 
@@ -40,41 +42,16 @@ ShadowLight lightTowards(
   return light;
 }
 
-/// Return points in a box: its corners and others.
-std::vector<glm::dvec3> pointsIn(const Bounds& bounds)
-{
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  const auto corners = bounds.corners();
-  std::vector<glm::dvec3> points(corners.begin(), corners.end());
-  for (int i = 0; i < 500; ++i)
-  {
-    const glm::dvec3 share(uniform(random), uniform(random), uniform(random));
-    points.push_back(bounds.lower + share * (bounds.upper - bounds.lower));
-  }
-  return points;
-}
-
 /// True if a light's views see a point, as shaders find it.
 bool isSeen(const LightViews& views, const glm::dvec3& centred)
 {
-  std::size_t index = 0;
-  if (views.layout == ViewLayout::Cube)
-  {
-    const glm::dvec3 light(views.lightFromCentred * glm::dvec4(centred, 1.0));
-    const int view = views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(light))];
-    index = view == LightViews::noView ? views.views.size() : static_cast<std::size_t>(view);
-  }
-  if (index >= views.views.size())
-  {
-    return false;
-  }
-  const LightView& view = views.views[index];
-  const glm::dvec4 clip = view.clipFromCentred() * glm::dvec4(centred, 1.0);
-  const double z = (view.rays.viewFromCentred * glm::dvec4(centred, 1.0)).z;
+  const LightView* const view = viewOf(views, centred);
+  const glm::dvec4 clip =
+    view ? view->clipFromCentred() * glm::dvec4(centred, 1.0) : glm::dvec4(0.0);
+  const double z = view ? (view->rays.viewFromCentred * glm::dvec4(centred, 1.0)).z : 0.0;
   const double most = clip.w * (1.0 + 1e-12);
   return z > 0.0 && std::abs(clip.x) <= most && std::abs(clip.y) <= most &&
-    z * view.depthScale + view.depthOffset < 0.95;
+    z * view->depthScale + view->depthOffset < 0.95;
 }
 
 bool isInCone(const ShadowLight& light, const glm::dvec3& centred)

@@ -137,7 +137,7 @@ TEST_F(LightPlacement, PositionalLightsTurnAboutTheirPosition)
   expectNear(this->focalPoint(), { 0.0, -2.0, 5.0 });
 }
 
-TEST_F(LightPlacement, ImpossibleRequestsAreErrorsAndChangeNothing)
+TEST_F(LightPlacement, InvalidTargetsAreErrorsAndChangeNothing)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::size_t errors = 0;

@@ -176,26 +176,6 @@ TEST(LightSamples, ofALampLookLikeAnEvenDiscFromAllSides)
   }
 }
 
-TEST(LightSamples, areTheSameAtEveryCallAndAllDiffer)
-{
-  for (const LightKind kind : { LightKind::Directional, LightKind::Spot, LightKind::Point })
-  {
-    for (const int count : { 1, 2, 3, 33, 1024 })
-    {
-      ShadowLight light = lightOf(kind);
-      light.lightSamples = count;
-      const std::vector<glm::dvec4> samples = lightSamples(light, samplesCentre);
-      ASSERT_EQ(samples.size(), static_cast<std::size_t>(count));
-      EXPECT_EQ(samples, lightSamples(light, samplesCentre));
-      for (std::size_t i = 0; i < samples.size(); ++i)
-      {
-        EXPECT_TRUE(std::isfinite(glm::dot(samples[i], samples[i])));
-        EXPECT_EQ(std::count(samples.begin(), samples.end(), samples[i]), 1);
-      }
-    }
-  }
-}
-
 TEST(LightSamples, ofEveryPixelHoldOnePointInEachPartOfEqualArea)
 {
   for (const int bits : { 0, 1, 2, 5, 8, 12 })
@@ -264,8 +244,7 @@ double halfPlaneError(const LightSamples& samples, int side)
   std::vector<double> errors;
   for (int pixel = 0; pixel < width * width; ++pixel)
   {
-    const int column = pixel % width;
-    const int row = pixel / width;
+    const int column = pixel % width, row = pixel / width;
     const double limit = (column + 0.37 * row) / width - 0.7;
     // The area of a quadrant without the areas beyond the square's sides.
     const auto quadrant = [&](double x, double y)
@@ -303,8 +282,7 @@ TEST(LightSamples, errLeastByDefaultAndLeaveTheLeastNoiseToABlur)
 {
   for (const int count : { 4, 16, 64 })
   {
-    double sobol = 0.0;
-    double sobolBlurred = 0.0;
+    double sobol = 0.0, sobolBlurred = 0.0;
     for (const int seed : { 0, 1, 2, 3 })
     {
       sobol += halfPlaneError(squareSamples(count, seed), 1) / 4.0;
@@ -317,42 +295,6 @@ TEST(LightSamples, errLeastByDefaultAndLeaveTheLeastNoiseToABlur)
     // Noise that is independent of its neighbours drops by a factor of 3 over 3 x 3.
     EXPECT_NEAR(halfPlaneError(jittered, 3) / halfPlaneError(jittered, 1), 1.0 / 3.0, 0.03);
     EXPECT_LT(sobolBlurred, 0.3 * sobol) << count;
-  }
-}
-
-/// Curtis 2009, section 3.1: a straight edge along the grid, over all of its places. A cell that
-/// the edge cuts is lit by chance, with mean variance 1/6. The k x k grid has k such cells:
-/// sqrt(1/6 / k^3).
-TEST(LightSamples, inTheCellsOfAGridErrAsTheyMust)
-{
-  for (const int side : { 2, 3, 4 })
-  {
-    const LightSamples jittered = squareSamples(side * side, 0, LightSampling::Jittered);
-    const LightSamples random = squareSamples(side * side, 0, LightSampling::Random);
-    double jitteredSum = 0.0;
-    double randomSum = 0.0;
-    constexpr std::uint32_t pixels = 40000;
-    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
-    {
-      const float limit = (static_cast<float>(pixel) + 0.5f) / pixels;
-      const auto squaredError = [&](const LightSamples& samples)
-      {
-        const SamplePixel of = samples.pixel(pixel % 200u, pixel / 200u);
-        int inside = 0;
-        for (int i = 0; i < samples.count(); ++i)
-        {
-          inside += placeOf(samples.offset(i, of)).x < limit ? 1 : 0;
-        }
-        const double error = static_cast<double>(inside) / samples.count() - limit;
-        return error * error / pixels;
-      };
-      jitteredSum += squaredError(jittered);
-      randomSum += squaredError(random);
-    }
-    const double expectedJittered = std::sqrt(1.0 / 6.0 / (side * side * side));
-    const double expectedRandom = std::sqrt(1.0 / 6.0) / side;
-    EXPECT_NEAR(std::sqrt(jitteredSum), expectedJittered, 0.02 * expectedJittered) << side;
-    EXPECT_NEAR(std::sqrt(randomSum), expectedRandom, 0.02 * expectedRandom) << side;
   }
 }
 

@@ -96,7 +96,6 @@ protected:
   LightManager manager;
 };
 
-//------------------------------------------------------------------------------
 TEST(LightTexture, isReadFromGreyAndColoursOfFourTypes)
 {
   struct Case
@@ -123,8 +122,7 @@ TEST(LightTexture, isReadFromGreyAndColoursOfFourTypes)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST(LightTexture, isNoneForAReason)
+TEST(LightTexture, refusesInvalidImages)
 {
   vtkNew<vtkImageData> empty;
   EXPECT_EQ(reasonOf(empty), "its texture has no points with scalars");
@@ -156,7 +154,6 @@ TEST(LightTexture, isNoneForAReason)
   EXPECT_TRUE(readGood(image));
 }
 
-//------------------------------------------------------------------------------
 TEST(LightTexture, hasTheMeanOfItsShape)
 {
   const auto white = readGood(makeImage(7, 3, VTK_UNSIGNED_CHAR, 3, 255.0));
@@ -178,8 +175,7 @@ TEST(LightTexture, hasTheMeanOfItsShape)
   EXPECT_NEAR(readGood(column)->meanOfDisk.g, 0.4164, 2e-4);
 }
 
-//------------------------------------------------------------------------------
-TEST_F(TexturedLight, showsThePictureAsWhoLooksAtItSeesIt)
+TEST_F(TexturedLight, isUprightSeenFromTheScene)
 {
   // A viewer who looks up has y up, and so -x to the right.
   const glm::vec3 red(255, 0, 0);
@@ -211,7 +207,6 @@ TEST_F(TexturedLight, showsThePictureAsWhoLooksAtItSeesIt)
   EXPECT_EQ(this->read().texture->colourAt({ -0.1, 0.1, 0.0 }), red);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(TexturedLight, fillsItsShapeAndEndsThere)
 {
   const auto image = makeImage(4, 2, VTK_UNSIGNED_CHAR, 1, 0.0);
@@ -238,7 +233,6 @@ TEST_F(TexturedLight, fillsItsShapeAndEndsThere)
   EXPECT_EQ(read.texture->colourAt({ -2.001f, -1.001f, 0.0f }).r, 30.0f);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(TexturedLight, isReadOnceUntilItChanges)
 {
   const auto first = this->read().texture->texture;
@@ -256,7 +250,6 @@ TEST_F(TexturedLight, isReadOnceUntilItChanges)
   EXPECT_FALSE(this->read().texture.has_value());
 }
 
-//------------------------------------------------------------------------------
 TEST_F(TexturedLight, sharesAnImageThatIsReadOnce)
 {
   vtkNew<vtkGnomonAreaLight> other;
@@ -273,8 +266,7 @@ TEST_F(TexturedLight, sharesAnImageThatIsReadOnce)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST_F(TexturedLight, isLeftOutForAReason)
+TEST_F(TexturedLight, isSkippedWithAReason)
 {
   vtkGnomonLightKeys::SetSetting(this->light, "light_radius", "0.5");
   EXPECT_EQ(this->reason(), "its texture lies on its own area, which 'light_radius' replaces");
@@ -293,7 +285,6 @@ TEST_F(TexturedLight, isLeftOutForAReason)
   EXPECT_EQ(this->reason(), "switched off");
 }
 
-//------------------------------------------------------------------------------
 TEST_F(TexturedLight, ofNoSizeHasItsMean)
 {
   this->light->SetWidth(0.0);
@@ -309,7 +300,6 @@ TEST_F(TexturedLight, ofNoSizeHasItsMean)
   EXPECT_EQ(line.texture->colourAt({ -1.0, 0.0, 0.0 }), glm::vec3(255, 255, 0));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(TexturedLight, isCopiedWithItsTexture)
 {
   vtkNew<vtkGnomonAreaLight> copy;

@@ -1,4 +1,4 @@
-#include "lights/LightViews.h"
+#include "ViewPoints.h"
 
 #include <gtest/gtest.h>
 
@@ -14,11 +14,6 @@ namespace
 constexpr int mapSize = 64;
 const glm::dvec3 viewsCentre(100.0, -50.0, 7.0);
 
-Bounds box(const glm::dvec3& lower, const glm::dvec3& upper)
-{
-  return { lower, upper };
-}
-
 ShadowLight lightAround(LightKind kind, const glm::dvec3& positionCentred,
   const glm::dvec3& direction = { 0.0, 0.0, -1.0 }, double coneAngleDegrees = 0.0)
 {
@@ -33,38 +28,6 @@ ShadowLight lightAround(LightKind kind, const glm::dvec3& positionCentred,
 LightViews fit(const ShadowLight& light, const Bounds& casters)
 {
   return fitLightViews(light, { viewsCentre, casters, {}, { mapSize, 1 }, {} });
-}
-
-/// Return points in the box: its corners and others.
-std::vector<glm::dvec3> pointsInBox(const Bounds& bounds)
-{
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  const std::array<glm::dvec3, 8> corners = bounds.corners();
-  std::vector<glm::dvec3> points(corners.begin(), corners.end());
-  for (int i = 0; i < 400; ++i)
-  {
-    const glm::dvec3 share(uniform(random), uniform(random), uniform(random));
-    points.push_back(bounds.lower + share * (bounds.upper - bounds.lower));
-  }
-  return points;
-}
-
-/// Return the view that sees a point, as shaders find it; null if none does.
-const LightView* viewOf(const LightViews& views, const glm::dvec3& centred)
-{
-  std::size_t index = 0;
-  if (views.layout == ViewLayout::Cube)
-  {
-    const glm::dvec3 light(views.lightFromCentred * glm::dvec4(centred, 1.0));
-    const int view = views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(light))];
-    if (view == LightViews::noView)
-    {
-      return nullptr;
-    }
-    index = static_cast<std::size_t>(view);
-  }
-  return index < views.views.size() ? &views.views[index] : nullptr;
 }
 
 /// Expect a point within a view, a texel away from its border and at a depth well below 1.
@@ -85,7 +48,7 @@ void expectSeen(const LightView* view, const glm::dvec3& point)
 void expectAllSeen(const ShadowLight& light, const Bounds& casters)
 {
   const LightViews views = fit(light, casters);
-  for (const glm::dvec3& point : pointsInBox(casters))
+  for (const glm::dvec3& point : pointsIn(casters))
   {
     expectSeen(viewOf(views, point), point);
   }
@@ -114,23 +77,26 @@ TEST(LightViews, LayoutFollowsFromTheLightAlone)
 
 TEST(LightViews, SeeAllCasters)
 {
-  const Bounds casters = box({ -1.0, -2.0, -0.5 }, { 3.0, 1.0, 2.0 });
+  const Bounds casters{ { -1.0, -2.0, -0.5 }, { 3.0, 1.0, 2.0 } };
+  const Bounds floor{ { -3.0, -3.0, 0.0 }, { 3.0, 3.0, 0.0 } };
   for (const glm::dvec3& direction :
     { glm::dvec3(0, 0, -1), { 0, 1, 0 }, { -1, 0, 0 }, { 0.3, -0.5, -0.7 } })
   {
     expectAllSeen(lightAround(LightKind::Directional, {}, direction), casters);
+    expectAllSeen(lightAround(LightKind::Directional, {}, direction), floor);
   }
   expectAllSeen(lightAround(LightKind::Spot, { 1.0, 0.0, 9.0 }, { 0, 0, -1 }, 50.0), casters);
-  for (const glm::dvec3& position :
-    { glm::dvec3(1.0, 0.0, 9.0), { 6.0, 7.0, 8.0 }, { -20.0, 0.1, 0.2 }, { 1e6, 1e6, 0.0 } })
+  for (const glm::dvec3& position : { glm::dvec3(1.0, 0.0, 9.0), { 6.0, 7.0, 8.0 },
+         { -20.0, 0.1, 0.2 }, { 1e6, 1e6, 0.0 }, { 9.0, 0.2, 0.0 } })
   {
     expectAllSeen(lightAround(LightKind::Point, position), casters);
+    expectAllSeen(lightAround(LightKind::Point, position), floor);
   }
 }
 
 TEST(LightViews, KeepTheBorderThatTheyAreAskedFor)
 {
-  const Bounds casters = box({ -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 });
+  const Bounds casters{ { -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 } };
   // The border is at most a quarter of the side.
   for (const auto& [asked, kept] : { std::pair(1, 1), { 5, 5 }, { 1000, mapSize / 4 } })
   {
@@ -155,23 +121,13 @@ TEST(LightViews, KeepTheBorderThatTheyAreAskedFor)
   }
 }
 
-TEST(LightViews, FlatCastersAreSeen)
+TEST(LightViews, HaveSixFacesFromAmongTheCasters)
 {
-  const Bounds floor = box({ -3.0, -3.0, 0.0 }, { 3.0, 3.0, 0.0 });
-  for (const LightKind kind : { LightKind::Directional, LightKind::Point })
-  {
-    expectAllSeen(lightAround(kind, { 0.5, 0.2, 2.0 }), floor);
-    expectAllSeen(lightAround(kind, { 9.0, 0.2, 0.0 }, { -1.0, 0.0, 0.0 }), floor);
-  }
-}
-
-TEST(LightViews, FromAmongTheCastersAPointLightLooksEverywhere)
-{
-  const Bounds room = box({ -3.0, -2.0, -1.5 }, { 3.0, 2.0, 1.5 });
+  const Bounds room{ { -3.0, -2.0, -1.5 }, { 3.0, 2.0, 1.5 } };
   const LightViews views = fit(lightAround(LightKind::Point, { 0.4, 0.2, 0.9 }), room);
   EXPECT_EQ(views.views.size(), 6u);
   std::size_t seen = 0;
-  for (const glm::dvec3& point : pointsInBox(room))
+  for (const glm::dvec3& point : pointsIn(room))
   {
     // Points nearer than the near plane are excepted.
     if (glm::length(point - glm::dvec3(0.4, 0.2, 0.9)) > 0.01)
@@ -183,34 +139,11 @@ TEST(LightViews, FromAmongTheCastersAPointLightLooksEverywhere)
   EXPECT_GT(seen, 400u);
 }
 
-TEST(LightViews, FacesMeetAtTheirBorders)
-{
-  const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
-  const LightViews views = fit(lightAround(LightKind::Point, glm::dvec3(0.0)), room);
-  ASSERT_EQ(views.views.size(), 6u);
-  // On the border of two faces or the corner of three, each of them may answer.
-  for (const glm::dvec3& point :
-    { glm::dvec3(2.0, 2.0, 0.3), { -2.0, 0.1, 2.0 }, { 0.5, -2.0, -2.0 }, { 2.0, -2.0, 2.0 } })
-  {
-    const double longest = std::max({ std::abs(point.x), std::abs(point.y), std::abs(point.z) });
-    int faces = 0;
-    for (int face = 0; face < cubeFaces; ++face)
-    {
-      if ((cubeFaceFromLight(face) * point).z == longest)
-      {
-        expectSeen(&views.views[static_cast<std::size_t>(views.viewOfFace[face])], point);
-        ++faces;
-      }
-    }
-    EXPECT_GE(faces, 2);
-  }
-}
-
 TEST(LightViews, FacesWithoutCastersAreLeftOut)
 {
-  const Bounds below = box({ -0.5, -0.5, -3.0 }, { 0.5, 0.5, -2.0 });
+  const Bounds below{ { -0.5, -0.5, -3.0 }, { 0.5, 0.5, -2.0 } };
   EXPECT_EQ(facesOf(fit(lightAround(LightKind::Point, {}), below)), std::vector<int>({ 5 }));
-  const Bounds beside = box({ 1.0, -5.0, -0.5 }, { 2.0, 0.5, 0.5 });
+  const Bounds beside{ { 1.0, -5.0, -0.5 }, { 2.0, 0.5, 0.5 } };
   EXPECT_EQ(facesOf(fit(lightAround(LightKind::Point, {}), beside)), std::vector<int>({ 0, 3 }));
 }
 
@@ -225,7 +158,7 @@ std::pair<glm::dvec2, glm::dvec2> slopesOf(const LightView& view)
 TEST(LightViews, FacesSeeCastersThatLieWithinTheBorderBeyondTheirEdge)
 {
   // A plate below the light, up to 0.995 of the slope at which the face +x begins.
-  const Bounds plate = box({ 1.0, -1.0, -2.0 }, { 1.99, 1.0, -2.0 });
+  const Bounds plate{ { 1.0, -1.0, -2.0 }, { 1.99, 1.0, -2.0 } };
   constexpr int border = 8;
   const LightViews wide = fitLightViews(
     lightAround(LightKind::Point, {}), { viewsCentre, plate, {}, { mapSize, border }, {} });
@@ -240,15 +173,15 @@ TEST(LightViews, FacesSeeCastersThatLieWithinTheBorderBeyondTheirEdge)
   EXPECT_GE((edge < 0.0 ? -lower[axis] : upper[axis]), 1.0 + (border - 1e-3) * texel[axis]);
   EXPECT_LE((edge < 0.0 ? lower[axis] : -upper[axis]), -1.0 + border * texel[axis]);
   // A plate out of reach leaves the face out.
-  EXPECT_EQ(
-    facesOf(fit(lightAround(LightKind::Point, {}), box({ 1.0, -1.0, -2.0 }, { 1.8, 1.0, -2.0 }))),
+  EXPECT_EQ(facesOf(fit(lightAround(LightKind::Point, {}),
+              Bounds{ { 1.0, -1.0, -2.0 }, { 1.8, 1.0, -2.0 } })),
     std::vector<int>({ 5 }));
 }
 
 TEST(LightViews, FacesThatShareAnEdgeWithCastersHaveTexelsOfASize)
 {
   // The face below sees the whole floor, the faces beside it a sliver.
-  const Bounds floor = box({ -2.02, -2.02, -2.0 }, { 2.02, 2.02, -2.0 });
+  const Bounds floor{ { -2.02, -2.02, -2.0 }, { 2.02, 2.02, -2.0 } };
   const LightViews views = fit(lightAround(LightKind::Point, {}), floor);
   EXPECT_EQ(facesOf(views), std::vector<int>({ 0, 1, 2, 3, 5 }));
   double smallest = 1e300;
@@ -264,11 +197,11 @@ TEST(LightViews, FacesThatShareAnEdgeWithCastersHaveTexelsOfASize)
 
 TEST(LightViews, WideSpotsDoNotLookBehindThemselves)
 {
-  const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
+  const Bounds room{ glm::dvec3(-3.0), glm::dvec3(3.0) };
   const LightViews views = fit(lightAround(LightKind::Spot, {}, { 0.0, 0.0, -1.0 }, 75.0), room);
   EXPECT_EQ(facesOf(views), std::vector<int>({ 0, 1, 2, 3, 4 }));
   EXPECT_NEAR(views.coneTangentSquared, std::pow(std::tan(glm::radians(75.0)), 2.0), 1e-12);
-  for (const glm::dvec3& point : pointsInBox(box(glm::dvec3(-3.0), { 3.0, 3.0, 0.0 })))
+  for (const glm::dvec3& point : pointsIn(Bounds{ glm::dvec3(-3.0), { 3.0, 3.0, 0.0 } }))
   {
     if (glm::length(point) > 0.01)
     {
@@ -292,7 +225,7 @@ TEST(LightViews, MapsAreFittedToTheCasters)
     }
     return upper - lower;
   };
-  const Bounds casters = box({ -1.0, -2.0, -9.5 }, { 3.0, 1.0, -8.0 });
+  const Bounds casters{ { -1.0, -2.0, -9.5 }, { 3.0, 1.0, -8.0 } };
   const double inner = 2.0 * (1.0 - 2.0 / mapSize);
   for (const ShadowLight& light : { lightAround(LightKind::Directional, {}),
          lightAround(LightKind::Spot, {}, { 0, 0, -1 }, 50.0), lightAround(LightKind::Point, {}) })
@@ -303,16 +236,16 @@ TEST(LightViews, MapsAreFittedToTheCasters)
   }
 }
 
-TEST(LightViews, ThereAreNoneWithoutCastersToShineOn)
+TEST(LightViews, AreEmptyWithoutCasters)
 {
   EXPECT_TRUE(fit(lightAround(LightKind::Directional, {}), Bounds()).views.empty());
   EXPECT_TRUE(fit(lightAround(LightKind::Point, {}), Bounds()).views.empty());
-  const Bounds behind = box({ -1.0, -1.0, 1.0 }, { 1.0, 1.0, 2.0 });
+  const Bounds behind{ { -1.0, -1.0, 1.0 }, { 1.0, 1.0, 2.0 } };
   for (const double cone : { 20.0, 60.0, 89.0 })
   {
     EXPECT_TRUE(fit(lightAround(LightKind::Spot, {}, { 0, 0, -1 }, cone), behind).views.empty());
   }
-  const Bounds aside = box({ 5.0, -1.0, -2.0 }, { 6.0, 1.0, -1.0 });
+  const Bounds aside{ { 5.0, -1.0, -2.0 }, { 6.0, 1.0, -1.0 } };
   EXPECT_TRUE(fit(lightAround(LightKind::Spot, {}, { 0, 0, -1 }, 30.0), aside).views.empty());
 }
 
@@ -321,24 +254,24 @@ TEST(LightViews, OfABoxHoldWhatIsInIt)
   ShadowLight light = lightAround(LightKind::Directional, { 0.0, 0.0, 5.0 });
   light.box = LightBox{ 2.0, 4.0, 4.0 };
   // Casters lie across the near face at z = 5, past the far one at z = 1, and over the sides.
-  const LightViews views = fit(light, box({ -9.0, -0.5, 0.0 }, { 9.0, 9.0, 8.0 }));
+  const LightViews views = fit(light, Bounds{ { -9.0, -0.5, 0.0 }, { 9.0, 9.0, 8.0 } });
   ASSERT_EQ(views.views.size(), 1u);
   EXPECT_EQ(views.views[0].beginsAt, 0.0);
   EXPECT_EQ(views.box, glm::dvec3(1.0, 2.0, 4.0));
-  for (const glm::dvec3& point : pointsInBox(box({ -1.0, -0.5, 1.0 }, { 1.0, 2.0, 5.0 })))
+  for (const glm::dvec3& point : pointsIn(Bounds{ { -1.0, -0.5, 1.0 }, { 1.0, 2.0, 5.0 } }))
   {
     expectSeen(&views.views[0], point);
   }
-  EXPECT_LT(fit(light, box({ -9.0, -0.5, 0.0 }, { 9.0, 9.0, 4.9 })).views[0].beginsAt, 0.0);
-  EXPECT_TRUE(fit(light, box({ -9.0, -0.5, 5.1 }, { 9.0, 9.0, 8.0 })).views.empty());
-  EXPECT_TRUE(fit(light, box({ 1.1, -0.5, 0.0 }, { 9.0, 9.0, 8.0 })).views.empty());
+  EXPECT_LT(fit(light, Bounds{ { -9.0, -0.5, 0.0 }, { 9.0, 9.0, 4.9 } }).views[0].beginsAt, 0.0);
+  EXPECT_TRUE(fit(light, Bounds{ { -9.0, -0.5, 5.1 }, { 9.0, 9.0, 8.0 } }).views.empty());
+  EXPECT_TRUE(fit(light, Bounds{ { 1.1, -0.5, 0.0 }, { 9.0, 9.0, 8.0 } }).views.empty());
 }
 
 TEST(LightViews, ABoxThatTouchesCastersInAPointStaysFinite)
 {
   ShadowLight light = lightAround(LightKind::Directional, { 0.0, 0.0, 5.0 });
   light.box = LightBox{ 2.0, 2.0, 4.0 };
-  const LightViews views = fit(light, box({ 1.0, 1.0, -3.0 }, { 2.0, 2.0, 1.0 }));
+  const LightViews views = fit(light, Bounds{ { 1.0, 1.0, -3.0 }, { 2.0, 2.0, 1.0 } });
   ASSERT_EQ(views.views.size(), 1u);
   const glm::mat4 matrix(views.views[0].clipFromCentred());
   for (int i = 0; i < 16; ++i)
@@ -349,16 +282,16 @@ TEST(LightViews, ABoxThatTouchesCastersInAPointStaysFinite)
 
 TEST(LightView, LeavesOutOnlyWhatItCannotSee)
 {
-  const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
+  const Bounds room{ glm::dvec3(-3.0), glm::dvec3(3.0) };
   const LightViews views = fit(lightAround(LightKind::Point, glm::dvec3(0.0)), room);
   const auto seenBy = [&](const Bounds& part)
   {
     return std::count_if(views.views.begin(), views.views.end(),
       [&](const LightView& view) { return view.maySee(part); });
   };
-  EXPECT_EQ(seenBy(box({ 2.0, -0.5, -0.5 }, { 2.5, 0.5, 0.5 })), 1);
-  EXPECT_EQ(seenBy(box({ 2.0, 1.5, -0.5 }, { 2.5, 2.5, 0.5 })), 2);
-  EXPECT_EQ(seenBy(box({ 2.0, 2.0, 2.0 }, { 2.5, 2.5, 2.5 })), 3);
+  EXPECT_EQ(seenBy(Bounds{ { 2.0, -0.5, -0.5 }, { 2.5, 0.5, 0.5 } }), 1);
+  EXPECT_EQ(seenBy(Bounds{ { 2.0, 1.5, -0.5 }, { 2.5, 2.5, 0.5 } }), 2);
+  EXPECT_EQ(seenBy(Bounds{ { 2.0, 2.0, 2.0 }, { 2.5, 2.5, 2.5 } }), 3);
   EXPECT_EQ(seenBy(room), 6);
   EXPECT_EQ(seenBy(Bounds()), 0);
   // A view that sees a point of a box may see the box.

@@ -7,46 +7,6 @@ namespace gnomon::test
 namespace
 {
 
-/// Compare the measure with its definition: a texel's projected corners.
-TEST(MapAliasing, IsTheSizeOfATexelInPixels)
-{
-  std::mt19937 random(21);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  for (const bool positional : { false, true })
-  {
-    const LightRays rays = positional ? spotRays({ 300.0, -500.0, 400.0 }, { -1.0, 0.2, -1.0 })
-                                      : directionalRays({ 0.3, 0.5, -0.6 });
-    const Setting setting = terrain(rays);
-    const glm::dmat3 map(0.013, 0.001, 0.0002, 0.002, 0.017, 0.0005, 0.3, -0.2, 1.5);
-    const int side = 512;
-    for (int i = 0; i < 50; ++i)
-    {
-      const glm::dvec3 point(40.0 * uniform(random), -500.0 + 300.0 * uniform(random), 0.0);
-      const auto texel = texelPixels(
-        { point, { 0.0, 0.0, 2.0 } }, setting.camera, { 800.0, 600.0 }, rays, map, side);
-      ASSERT_TRUE(texel);
-      // Derivatives from the ground to pixels and to texels, by differences.
-      const double step = 1e-4;
-      const auto pixelOf = [&](const glm::dvec3& at)
-      {
-        const glm::dvec4 clip = setting.camera.clipFromCentred() * glm::dvec4(at, 1.0);
-        return glm::dvec2(clip) / clip.w * glm::dvec2(400.0, 300.0);
-      };
-      const auto texelOf = [&](const glm::dvec3& at)
-      { return mapped(map, rays.across(inView(rays, at))) * (0.5 * side); };
-      const glm::dvec3 x(step, 0.0, 0.0);
-      const glm::dvec3 y(0.0, step, 0.0);
-      const glm::dmat2 pixels(
-        pixelOf(point + x) - pixelOf(point - x), pixelOf(point + y) - pixelOf(point - y));
-      const glm::dmat2 texels(
-        texelOf(point + x) - texelOf(point - x), texelOf(point + y) - texelOf(point - y));
-      const glm::dmat2 pixelsOfTexel = pixels * glm::inverse(texels);
-      EXPECT_NEAR(texel->x / glm::length(pixelsOfTexel[0]), 1.0, 1e-4);
-      EXPECT_NEAR(texel->y / glm::length(pixelsOfTexel[1]), 1.0, 1e-4);
-    }
-  }
-}
-
 /// Apelles, eq. 3.17, for a map whose texels are as wide as the pixels are at distance 1.
 TEST(MapAliasing, OfASurfaceAcrossViewAndLightIsOneOverTheDistance)
 {
@@ -80,19 +40,6 @@ TEST(MapAliasing, OfAPositionalLightStandsAcrossItsRay)
   EXPECT_NEAR(aliasing(glm::dmat3(1.0)).area, root * 4.0 / 25.0, 1e-12);
   const glm::dmat3 fineAlongY(1.0, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 1.0);
   EXPECT_NEAR(aliasing(fineAlongY).side, root * 2.0 / 5.0, 1e-12);
-}
-
-TEST(MapAliasing, HasNoMeaningEdgeOnOrOutOfView)
-{
-  const Setting setting = terrain(directionalRays({ 0.0, 0.0, -1.0 }));
-  const auto measured = [&](const SurfacePoint& point)
-  {
-    return texelPixels(
-      point, setting.camera, glm::dvec2(100.0), setting.rays, glm::dmat3(1.0), 100);
-  };
-  EXPECT_TRUE(measured({ { 0.0, 0.0, 0.0 }, { 0.0, -1.0, 0.5 } }));
-  EXPECT_FALSE(measured({ { 0.0, 0.0, 0.0 }, { 0.0, -1.0, 0.0 } }));   // contains the light's rays
-  EXPECT_FALSE(measured({ { 0.0, -950.0, 0.0 }, { 0.0, 0.0, 1.0 } })); // behind the eye
 }
 
 /// For any surface, two projections' ratio of areas equals that of the texels on it.
@@ -136,42 +83,6 @@ TEST(MapAliasing, OfAreasComparesProjectionsOnEverySurface)
       const glm::dvec3 normal(uniform(random), uniform(random), 1.0);
       EXPECT_NEAR(
         areaOn(one, normal) / areaOn(other, normal) / (aliasing(one) / aliasing(other)), 1.0, 1e-2);
-    }
-  }
-}
-
-/// Corners stand for the body: no point in it is worse than the worst corner.
-TEST(MapAliasing, OfABodyIsWorstAtACorner)
-{
-  std::mt19937 random(31);
-  std::exponential_distribution<double> share(1.0);
-  for (int i = 0; i < 300; ++i)
-  {
-    Setting setting = randomSetting(random);
-    const Points body = setting.body().vertices();
-    if (body.empty() || setting.rays.positional || setting.camera.isParallel())
-    {
-      continue;
-    }
-    const auto frame = warpFrame(body, setting.camera, setting.rays);
-    const auto across = setting.rays.across(body);
-    const glm::dmat3 map = frame && i % 2 == 0
-      ? warpedFromAcross(*frame, 0.1 * frame->depth, across)
-      : uniformFromAcross(across);
-    const auto worst = perspectiveAliasing(body, setting.camera, setting.rays, map);
-    for (int k = 0; k < 50; ++k)
-    {
-      glm::dvec3 point(0.0);
-      double sum = 0.0;
-      for (const glm::dvec3& vertex : body)
-      {
-        const double weight = share(random);
-        point += weight * vertex;
-        sum += weight;
-      }
-      const auto there = perspectiveAliasing({ point / sum }, setting.camera, setting.rays, map);
-      ASSERT_LE(there.side, worst.side * (1.0 + 1e-9));
-      ASSERT_LE(there.area, worst.area * (1.0 + 1e-9));
     }
   }
 }

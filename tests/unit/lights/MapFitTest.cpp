@@ -112,43 +112,5 @@ TEST(MapFit, SnappedCoversWhatIsVisibleAtAStepOfTheSeries)
   }
 }
 
-/// Survey, row 13: the camera moves by a tenth of a texel, 50 times.
-TEST(MapFit, SnappedKeepsItsTexelsWhileTheCameraMoves)
-{
-  const Bounds scene{ { -1000.0, -1000.0, 0.0 }, { 1000.0, 1000.0, 50.0 } };
-  const LightRays rays = directionalRays({ 0.4, 0.3, -1.0 });
-  const glm::dmat3 whole =
-    uniformFromAcross(rays.across(ConvexBody(scene, rays.viewFromCentred).vertices()));
-  const MapTexels texels{ 1024, 2 };
-  const glm::dvec2 point = rays.across(inView(rays, { 10.0, -600.0, 3.0 }));
-  std::optional<glm::dvec2> firstPlace;
-  int steadyWithout = 0;
-  for (int frame = 0; frame < 50; ++frame)
-  {
-    Setting setting;
-    setting.scene = scene;
-    setting.rays = rays;
-    const double moved = 0.1 * frame * 0.4; // a texel is about 0.4 wide
-    setting.camera = perspectiveCamera(
-      { moved, -700.0 + 0.7 * moved, 100.0 }, { moved, 0.7 * moved, 0.0 }, 30.0, 1.0, 300.0);
-    const Rectangle visible = rangeOf(whole, rays.across(setting.body().vertices()));
-    const auto placeOf = [&](const MapFit& fit)
-    {
-      const glm::dvec2 texel = mapped(fit.matrix() * whole, point) * (0.5 * texels.side);
-      return texel - glm::floor(texel);
-    };
-    const auto snapped = fitSnappedTo(visible, texels);
-    const auto free = fitTo(visible, texels);
-    ASSERT_TRUE(snapped && free);
-    if (!firstPlace)
-    {
-      firstPlace = placeOf(*snapped);
-    }
-    EXPECT_LT(glm::length(placeOf(*snapped) - *firstPlace), 1e-6) << frame;
-    steadyWithout += glm::length(placeOf(*free) - *firstPlace) < 1e-3 ? 1 : 0;
-  }
-  EXPECT_LT(steadyWithout, 5); // the camera moves the unsnapped fit
-}
-
 } // namespace
 } // namespace gnomon::test

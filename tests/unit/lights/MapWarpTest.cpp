@@ -79,7 +79,7 @@ TEST(MapWarp, IsThePerspectiveOfItsNearDistance)
   EXPECT_NEAR(nearStep / farStep, 25.0, 1e-3);
 }
 
-TEST(MapWarp, MakesNoSenseWithoutPerspectiveOrDepth)
+TEST(MapWarp, IsRefusedWithoutPerspectiveOrDepth)
 {
   const LightRays above = directionalRays({ 0.0, 0.0, -1.0 });
   Setting parallel = terrain(above);

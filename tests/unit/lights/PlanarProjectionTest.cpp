@@ -108,14 +108,5 @@ TEST(PlanarProjection, liesOnThePlaneAndOnTheRay)
   EXPECT_GT(between, 50);
 }
 
-TEST(PlanarProjection, leavesPointsOfThePlaneWhereTheyAre)
-{
-  const glm::dvec4 plane(0.6, 0.0, 0.8, -2.0);
-  const glm::dvec3 point(2.0, 7.0, 1.0);
-  ASSERT_NEAR(glm::dot(plane, glm::dvec4(point, 1.0)), 0.0, 1e-15);
-  const glm::dvec3 image = project(plane, { 3.0, 4.0, 9.0, 1.0 }, point);
-  EXPECT_NEAR(glm::distance(image, point), 0.0, 1e-12);
-}
-
 } // namespace
 } // namespace gnomon::test

@@ -27,7 +27,6 @@ const SceneFrame largeFrame{ { 64.0, 0.0, -128.0 }, 60 };
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(SceneFrame, takesPlacesAndMatricesToCentredCoordinatesAndBack)
 {
   const glm::dvec3 place = largeFrame.unitWorld() * glm::dvec3(65.0, 0.25, -127.0);
@@ -42,7 +41,6 @@ TEST(SceneFrame, takesPlacesAndMatricesToCentredCoordinatesAndBack)
   EXPECT_LT(glm::distance(glm::dvec3(centred) / centred.w, expected), 1e-12);
 }
 
-//------------------------------------------------------------------------------
 TEST(SceneFrame, countsALightsLengthsInItsUnits)
 {
   const double unit = largeFrame.unitWorld();
@@ -63,7 +61,6 @@ TEST(SceneFrame, countsALightsLengthsInItsUnits)
   EXPECT_EQ(sun.box->depth, 1e18) << "its square is a float";
 }
 
-//------------------------------------------------------------------------------
 TEST(SceneFrame, makesFarLampsParallel)
 {
   for (const double far : { 1e19, 1e100, 1e300 })
@@ -93,7 +90,6 @@ TEST(SceneFrame, makesFarLampsParallel)
   EXPECT_EQ(near.kind, LightKind::Point);
 }
 
-//------------------------------------------------------------------------------
 TEST(SceneFrame, saysWhyALightCannotShine)
 {
   ShadowLight away = lampAt({ 0.0, 0.0, 1e20 }, LightKind::Spot);

@@ -165,21 +165,6 @@ TEST(VisibleBody, IsEmptyWhereThereIsNothingToSee)
   EXPECT_TRUE(broken.body().empty());
 }
 
-TEST(VisibleBody, DoesNotDependOnAFarPlaneBeyondTheScene)
-{
-  Setting setting = terrain(directionalRays({ 0.3, 0.2, -1.0 }));
-  const Bounds expected = boundsOf(setting.body().vertices());
-  for (const double farDistance : { 1e5, 1e9, 1e15 })
-  {
-    setting.camera.clipFromView = glm::perspective(glm::radians(40.0), 1.0, 1.0, farDistance);
-    const Bounds bounds = boundsOf(setting.body().vertices());
-    EXPECT_LT(glm::length(bounds.lower - expected.lower), 1e-6);
-    EXPECT_LT(glm::length(bounds.upper - expected.upper), 1e-6);
-  }
-  setting.camera.clipFromView = glm::infinitePerspective(glm::radians(40.0), 1.0, 1.0);
-  EXPECT_LT(glm::length(boundsOf(setting.body().vertices()).upper - expected.upper), 1e-6);
-}
-
 TEST(VisibleBody, OfACubesFacesFillsTheFaces)
 {
   Setting setting;

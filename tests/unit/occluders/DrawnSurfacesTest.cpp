@@ -5,6 +5,7 @@
 #include "plugin/scene/OccluderCollector.h"
 
 #include "TestData.h"
+#include "truth/SyntheticScene.h"
 
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtk_versions/SharedBlocksMapper.h"
@@ -100,31 +101,6 @@ public:
   }
 };
 vtkStandardNewMacro(NumberPass);
-
-struct Hit
-{
-  double t = std::numeric_limits<double>::infinity();
-  double outside = 0.0; ///< how far outside the triangle, in barycentric units
-};
-
-/// Return where a ray meets a triangle's plane.
-Hit intersect(
-  const glm::dvec3& origin, const glm::dvec3& direction, const std::array<glm::dvec3, 3>& corners)
-{
-  const glm::dvec3 ab = corners[1] - corners[0];
-  const glm::dvec3 ac = corners[2] - corners[0];
-  const glm::dvec3 p = glm::cross(direction, ac);
-  const double determinant = glm::dot(ab, p);
-  if (determinant == 0.0)
-  {
-    return { std::numeric_limits<double>::infinity(), 1.0 };
-  }
-  const glm::dvec3 s = origin - corners[0];
-  const double u = glm::dot(s, p) / determinant;
-  const glm::dvec3 q = glm::cross(s, ab);
-  const double v = glm::dot(direction, q) / determinant;
-  return { glm::dot(ac, q) / determinant, std::max({ 0.0, -u, -v, u + v - 1.0 }) };
-}
 
 class DrawnSurfaces : public testing::Test
 {
@@ -243,10 +219,10 @@ protected:
         double nearest = std::numeric_limits<double>::infinity();
         for (std::uint32_t i = 0; i < occluders.triangles.size(); ++i)
         {
-          const Hit hit = intersect(origin, direction, this->cornersWorld(i));
-          if (hit.outside == 0.0 && hit.t > 0.0)
+          const auto hit = meet({ 0, i, this->cornersWorld(i) }, origin, direction);
+          if (hit && hit->isInside() && hit->at > 0.0)
           {
-            nearest = std::min(nearest, hit.t);
+            nearest = std::min(nearest, hit->at);
           }
         }
 
@@ -271,12 +247,11 @@ protected:
         ++count.covered;
         ++count.pixelsOfSurface[this->surfaceOf(triangle)];
         const std::array<glm::dvec3, 3> corners = this->cornersWorld(triangle);
-        const Hit hit = intersect(origin, direction, corners);
-        count.outside += hit.outside > tolerance ? 1 : 0;
-        count.wrong += std::isfinite(nearest) && std::abs(hit.t - nearest) > tolerance ? 1 : 0;
-        const glm::dvec3 front = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const bool frontSeen = glm::dot(front, direction) < 0.0;
-        count.sides += frontSeen != ((drawn[pixel] & 1u) != 0) ? 1 : 0;
+        const LineHit hit = meet({ 0, triangle, corners }, origin, direction)
+                              .value_or(LineHit{ nearest, 0.0, glm::dvec3(-1.0) });
+        count.outside += -hit.leastWeight() > tolerance ? 1 : 0;
+        count.wrong += std::isfinite(nearest) && std::abs(hit.at - nearest) > tolerance ? 1 : 0;
+        count.sides += (hit.cosine < 0.0) != ((drawn[pixel] & 1u) != 0) ? 1 : 0;
       }
     }
     return count;

@@ -298,7 +298,6 @@ INSTANTIATE_TEST_SUITE_P(All, PlainPropChange,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(PlainPropChange, isSeen)
 {
   PlainScene scene;
@@ -316,7 +315,6 @@ TEST_P(PlainPropChange, isSeen)
   EXPECT_EQ(after, stateOf(scene.collector, scene.renderer)) << "once it is remembered";
 }
 
-//------------------------------------------------------------------------------
 // Coordinates are not all that counts: colours change in place, and only the time of change of
 // their own array shows it.
 TEST(PlainProps, ScalarsInPlaceAreSeen)
@@ -350,7 +348,6 @@ TEST(PlainProps, ScalarsInPlaceAreSeen)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(PlainProps, AreFoundAgainAfterOthersCameAndWent)
 {
   PlainScene scene;
@@ -379,7 +376,6 @@ TEST(PlainProps, AreFoundAgainAfterOthersCameAndWent)
   expectAsFresh(1);
 }
 
-//------------------------------------------------------------------------------
 TEST(PlainProps, AreAllTheSameBesideHiddenPropsAndAnnotations)
 {
   PlainScene scene;

@@ -95,7 +95,6 @@ private:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, restingPicturesAreExact)
 {
   this->picture.moves = false;
@@ -105,7 +104,6 @@ TEST_F(AutoPlans, restingPicturesAreExact)
   EXPECT_THAT(planned.choice, HasSubstr("rests: exact"));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, mapsAreProvedBeforeTheyAreShown)
 {
   const AutoPlan first = this->plan();
@@ -123,7 +121,6 @@ TEST_F(AutoPlans, mapsAreProvedBeforeTheyAreShown)
   EXPECT_TRUE(this->plan().needs);
 }
 
-//------------------------------------------------------------------------------
 // A moving frame by rays took 30 ms, 20 of them for the light's image; by maps 15.
 TEST_F(AutoPlans, aTimeBudgetIsComparedWithWhatFramesTook)
 {
@@ -152,7 +149,6 @@ TEST_F(AutoPlans, aTimeBudgetIsComparedWithWhatFramesTook)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, mapsGrowAndThenRaysAreTaken)
 {
   const AutoPlan planned = this->planWith(ofMap(30000, 3000));
@@ -171,7 +167,6 @@ TEST_F(AutoPlans, mapsGrowAndThenRaysAreTaken)
   EXPECT_TRUE(this->plan().needs);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, mapsAreTriedSoonIfRaysAreLate)
 {
   struct Case
@@ -194,7 +189,6 @@ TEST_F(AutoPlans, mapsAreTriedSoonIfRaysAreLate)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, evidenceThatFailsMeansRays)
 {
   Evidence evidence;
@@ -204,7 +198,6 @@ TEST_F(AutoPlans, evidenceThatFailsMeansRays)
   EXPECT_THAT(planned.choice, HasSubstr("rays, as there is no memory"));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, probesGoOnInTheNextFrameWhileAMapIsShown)
 {
   this->planWith(ofMap(30000, 0));
@@ -222,7 +215,6 @@ TEST_F(AutoPlans, probesGoOnInTheNextFrameWhileAMapIsShown)
   EXPECT_EQ(next.needs->before.found.asked, 4000u);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, factsThatForbidMapsAreNamed)
 {
   const auto reason = [this] { return this->plan().choice; };
@@ -245,7 +237,6 @@ TEST_F(AutoPlans, factsThatForbidMapsAreNamed)
   EXPECT_THAT(reason(), HasSubstr("memory budget"));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, areaLightsTakeTheFewestSamplesThatKeepTheError)
 {
   this->addArea(0.5);
@@ -266,7 +257,6 @@ TEST_F(AutoPlans, areaLightsTakeTheFewestSamplesThatKeepTheError)
   EXPECT_EQ(this->plan().choices.at(0).firstSamples, 8);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, areaLightsKeepAllSamplesWithoutAnError)
 {
   this->addArea(0.5);
@@ -277,7 +267,6 @@ TEST_F(AutoPlans, areaLightsKeepAllSamplesWithoutAnError)
   EXPECT_EQ(planned.choices.at(0).lightSamples, 0);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, areaLightsThatGrowAreProvedAnew)
 {
   this->addArea(0.1);
@@ -290,7 +279,6 @@ TEST_F(AutoPlans, areaLightsThatGrowAreProvedAnew)
   EXPECT_TRUE(this->plan().needs);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, raysThatAreNearlyAsFastReplaceMaps)
 {
   this->history.lights[0].tracedShare = 0.0;
@@ -304,7 +292,6 @@ TEST_F(AutoPlans, raysThatAreNearlyAsFastReplaceMaps)
   EXPECT_THAT(planned.choice, HasSubstr("nearly as little time"));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(AutoPlans, theWindowsTimeLimitsSamples)
 {
   this->addArea(1.0);

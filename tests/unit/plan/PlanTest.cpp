@@ -128,7 +128,6 @@ struct LightCase
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(Plan, givesLightsTheirTechniques)
 {
   const auto nothing = [](Scene&, FrameWishes&) {};
@@ -189,7 +188,6 @@ TEST(Plan, givesLightsTheirTechniques)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(Plan, tracesLightsWithoutRoomForAMap)
 {
   Scene scene = sceneOf({ "nsm", "nsm" });
@@ -218,7 +216,6 @@ struct PictureCase
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(Plan, choosesTheRoute)
 {
   using W = FrameWishes;
@@ -280,7 +277,6 @@ TEST(Plan, choosesTheRoute)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(Plan, notesSamplesOnTheImageRouteAlone)
 {
   FrameWishes wishes;
@@ -294,7 +290,6 @@ TEST(Plan, notesSamplesOnTheImageRouteAlone)
   EXPECT_THAT(planPicture({ planOf(layers()) }, wishes, scene).notes, IsEmpty());
 }
 
-//------------------------------------------------------------------------------
 TEST(Plan, letsTranslucentSurfacesReceive)
 {
   const std::vector<LightPlan> one = { planOf(rays()) };
@@ -329,7 +324,6 @@ struct FitCase
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(Plan, fitsViews)
 {
   using L = ShadowLight;
@@ -381,7 +375,6 @@ TEST(Plan, fitsViews)
   EXPECT_THAT(fitted.fitReason, HasSubstr("translucent"));
 }
 
-//------------------------------------------------------------------------------
 TEST(Plan, shadesLights)
 {
   const std::vector<std::tuple<const EstimatorEntry*, Route, bool, ShadedBy>> cases = {
@@ -400,7 +393,6 @@ TEST(Plan, shadesLights)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(FramePlans, askForTheWalkOverPropsOnlyIfItDecides)
 {
   Scene scene = sceneOf({ "nsm" });
@@ -413,7 +405,6 @@ TEST(FramePlans, askForTheWalkOverPropsOnlyIfItDecides)
   EXPECT_EQ(plan.picture.route.route, Route::Deferred);
 }
 
-//------------------------------------------------------------------------------
 TEST(FramePlans, placeVisibility)
 {
   Scene scene = sceneOf({ "nsm", "raytraced", "sampled", "raytraced" });
@@ -430,7 +421,6 @@ TEST(FramePlans, placeVisibility)
   EXPECT_EQ(many.layers, 6);
 }
 
-//------------------------------------------------------------------------------
 TEST(FramePlans, haveNoShadowsWithoutLights)
 {
   FrameWishes wishes;
@@ -443,7 +433,6 @@ TEST(FramePlans, haveNoShadowsWithoutLights)
   EXPECT_TRUE(planFrame(sceneOf({}), wishes, {}, {}).hasShadows) << "receivers are kept";
 }
 
-//------------------------------------------------------------------------------
 TEST(FramePlans, bringLightsIntoTheScenesFrame)
 {
   Scene scene = sceneOf({ "nsm", "nsm" });
@@ -461,7 +450,6 @@ TEST(FramePlans, bringLightsIntoTheScenesFrame)
   EXPECT_EQ(plan.lights.size() + plan.skipped.size(), 2u);
 }
 
-//------------------------------------------------------------------------------
 TEST(FramePlans, ofMotionTakeWhatIsChosen)
 {
   Scene scene = sceneOf({ "auto", "nsm" });
@@ -494,7 +482,6 @@ TEST(FramePlans, ofMotionTakeWhatIsChosen)
   EXPECT_TRUE(plan.choice.empty());
 }
 
-//------------------------------------------------------------------------------
 TEST(FramePlans, takeMapsOfAnyErrorToKeepTheWindowsRate)
 {
   Scene scene = sceneOf({ "auto" });
@@ -524,7 +511,6 @@ TEST(FramePlans, takeMapsOfAnyErrorToKeepTheWindowsRate)
   EXPECT_EQ(planFrame(scene, wishes, history, {}).lights.at(0).estimator, &rays());
 }
 
-//------------------------------------------------------------------------------
 TEST(MotionTimes, forgetRaysThatAreNotTaken)
 {
   FrameWishes wishes;
@@ -545,7 +531,6 @@ TEST(MotionTimes, forgetRaysThatAreNotTaken)
   EXPECT_GT(limitOf(wishes, times), 80.0);
 }
 
-//------------------------------------------------------------------------------
 TEST(FramePlans, writeNumbersUntilReceiversRest)
 {
   EXPECT_TRUE(writesNumbers({ 2, false, 100000, 1 })) << "they do not rest long enough";

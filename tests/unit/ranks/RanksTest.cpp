@@ -20,7 +20,6 @@ protected:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(RanksTest, ReduceAndGather)
 {
   const int own = this->ranks_.own();
@@ -66,7 +65,6 @@ TEST_F(RanksTest, ReduceAndGather)
   this->ranks_.endFrame();
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RanksTest, TellsAllOfAFailure)
 {
   ASSERT_EQ(this->ranks_.beginFrame(""), "");
@@ -102,8 +100,7 @@ TEST_F(RanksTest, TellsAllOfAFailure)
   this->ranks_.endFrame();
 }
 
-//------------------------------------------------------------------------------
-TEST(RankAlone, AnswersWithWhatItIsAsked)
+TEST(RankAlone, EchoesItsInput)
 {
   EXPECT_EQ(alone().count(), 1);
   EXPECT_EQ(alone().beginFrame(""), "");

@@ -508,7 +508,7 @@ TEST_F(SharedFrames, TraceInPlaceOfOtherTechniques)
     testing::HasSubstr("'nsm' sees the casters of one process, and several draw this picture"));
 }
 
-TEST_F(SharedFrames, TraceInPlaceOfWhatCannotBeComposed)
+TEST_F(SharedFrames, TraceInPlaceOfRefusedTechniques)
 {
   this->scene_.shared().pass->SetSetting("light_radius", "1");
   this->scene_.shared().pass->SetSetting("light_sampling", "jittered");
@@ -551,7 +551,7 @@ TEST_F(SharedFrames, KeepVisibilityIfOneAsks)
   EXPECT_FALSE(this->scene_.shared().pass->GetVisibility().coverage.empty());
 }
 
-TEST_F(SharedFrames, CountWhatOthersShow)
+TEST_F(SharedFrames, CountSurfacesOfOthers)
 {
   this->scene_.shared().pass->SetMeasureStages(this->own_ == 0);
   this->scene_.shared().draw();

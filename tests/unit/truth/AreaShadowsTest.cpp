@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <ostream>
@@ -38,13 +37,6 @@ std::vector<float> traceArea(
 
 const glm::dvec3 down(0.0, 0.0, -1.0);
 
-ShadowLight withArea(ShadowLight light, const LightArea& area, int samples = 64)
-{
-  light.area = area;
-  light.lightSamples = samples;
-  return light;
-}
-
 /// A light of each kind and shape, from about the same direction.
 std::vector<ShadowLight> areaLights(int samples = 64)
 {
@@ -66,14 +58,8 @@ ReceiverPixels levelReceivers(const Occluders& occluders, const std::vector<doub
   receivers.resize(64, static_cast<int>(x.size() / 64));
   for (std::size_t i = 0; i < x.size(); ++i)
   {
-    const glm::dvec3 position = glm::dvec3(x[i], 0.0, 0.0) - occluders.frame.centre;
-    receivers.positionX[i] = static_cast<float>(position.x);
-    receivers.positionY[i] = static_cast<float>(position.y);
-    receivers.positionZ[i] = static_cast<float>(position.z);
-    receivers.normalX[i] = receivers.normalY[i] = 0.0f;
-    receivers.normalZ[i] = 1.0f;
-    receivers.offset[i] = 1e-5f;
-    receivers.surface[i] = 0;
+    place(receivers, i,
+      { glm::dvec3(x[i], 0.0, 0.0) - occluders.frame.centre, { 0.0f, 0.0f, 1.0f }, 1e-5f });
   }
   return receivers;
 }
@@ -122,69 +108,6 @@ std::vector<Penumbra> penumbras()
 INSTANTIATE_TEST_SUITE_P(OfHalfPlane, Penumbras, testing::ValuesIn(penumbras()),
   [](const testing::TestParamInfo<Penumbra>& penumbra) { return penumbra.param.name; });
 
-/// Decides every second column, leaves the others to rays, and counts its calls for each pixel.
-class CountingDecider : public ReceiverDecider
-{
-public:
-  explicit CountingDecider(const ReceiverPixels& picture)
-    : asked(picture.size())
-    , width_(static_cast<std::size_t>(picture.width))
-  {
-  }
-  void ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const override
-  {
-    const auto columns = static_cast<std::size_t>(tile.receivers.width);
-    for (std::size_t i = 0; i < certain.size(); ++i)
-    {
-      const std::size_t column = tile.firstColumn + i % columns;
-      ++this->asked[(tile.firstRow + i / columns) * this->width_ + column];
-      certain[i] = column % 2 == 0 ? Certainty::Shadow : Certainty::Uncertain;
-    }
-  }
-
-  mutable std::vector<std::atomic<int>> asked; ///< calls for each pixel
-
-private:
-  std::size_t width_;
-};
-
-/// Traces an area light's samples in parts, like a tracer with little memory. Nothing blocks its
-/// rays.
-class TracerInParts : public EmbreeTracer
-{
-  std::size_t tracePicture(const TracedPicture& picture) override
-  {
-    std::size_t rays = 0;
-    for (int first = 0; first < picture.samples(); first += 5)
-    {
-      rays += picture.visitTiles({ first, std::min(first + 5, picture.samples()) },
-        [&](const TracedTile& tile) {
-          return static_cast<std::size_t>(std::count(tile.needed.begin(), tile.needed.end(), 1));
-        });
-    }
-    return rays;
-  }
-};
-
-/// A pixel is decided once, however often its tile is visited.
-TEST(TracedPictures, askAboutEachPixelOnce)
-{
-  const Occluders occluders = makeOccluders({ { makePlane(20.0) } });
-  const ReceiverPixels receivers = levelReceivers(occluders, std::vector<double>(64 * 40));
-  const CountingDecider decider(receivers);
-  for (const ShadowLight& light : areaLights(16))
-  {
-    std::vector<float> visibility;
-    TracerInParts tracer;
-    const std::size_t rays = tracer.traceArea(light, occluders, receivers, visibility, &decider);
-    EXPECT_EQ(rays, receivers.size() / 2 * 16);
-  }
-  for (const std::atomic<int>& asked : decider.asked)
-  {
-    ASSERT_EQ(asked, static_cast<int>(areaLights().size()));
-  }
-}
-
 TEST_P(Penumbras, areThoseOfGeometry)
 {
   const Penumbra& penumbra = GetParam();
@@ -230,19 +153,13 @@ Occluders makeThings()
     { makePlane(1.5), glm::rotate(at({ 0.0, 1.4, 0.9 }), 0.5, { 1.0, 0.2, 0.0 }) } });
 }
 
-Camera cameraOfThings()
-{
-  Camera camera;
-  camera.position = { 2.0, -6.0, 5.0 };
-  camera.width = 150;
-  camera.height = 110; // cuts tiles at both borders
-  return camera;
-}
+/// Cuts tiles at both borders.
+const Camera cameraOfThings{ { 2.0, -6.0, 5.0 }, {}, { 0.0, 0.0, 1.0 }, 40.0, 0.0, 150, 110 };
 
 TEST(AreaShadows, ofALightWithoutSizeAreHardToTheLastBit)
 {
   const Occluders occluders = makeThings();
-  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
+  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings);
   for (const int samples : { 1, 7, 16 })
   {
     for (ShadowLight light : areaLights(samples))
@@ -256,7 +173,7 @@ TEST(AreaShadows, ofALightWithoutSizeAreHardToTheLastBit)
 TEST(AreaShadows, becomeHardAsTheLightShrinks)
 {
   const Occluders occluders = makeThings();
-  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
+  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings);
   for (ShadowLight light : areaLights())
   {
     const std::vector<float> hard = trace(light, occluders, receivers);
@@ -266,37 +183,11 @@ TEST(AreaShadows, becomeHardAsTheLightShrinks)
   }
 }
 
-TEST(AreaShadows, areWholeWhereNothingOrEverythingIsInTheWay)
-{
-  const Occluders open = makeOccluders({ { makePlane(20.0) } });
-  const Occluders covered =
-    makeOccluders({ { makePlane(20.0) }, { makePlane(1000.0), at({ 0.0, 0.0, 3.0 }) } });
-  Camera camera = cameraOfThings();
-  camera.position.z = 2.0; // below the cover
-  for (const int samples : { 1, 3, 64, 100 })
-  {
-    for (const ShadowLight& light : areaLights(samples))
-    {
-      const ReceiverPixels receivers = makeReceivers(open, camera);
-      EXPECT_EQ(traceArea(light, open, receivers), trace(light, open, receivers));
-      const ReceiverPixels below = makeReceivers(covered, camera);
-      const std::vector<float> dark = traceArea(light, covered, below);
-      for (std::size_t i = 0; i < dark.size(); ++i)
-      {
-        if (below.surface[i] == 0 && light.box == std::nullopt)
-        {
-          EXPECT_EQ(dark[i], 0.0f);
-        }
-      }
-    }
-  }
-}
-
 /// If the floor cuts a light, or a light lies in it, the lower half is behind the floor's plane.
 TEST(AreaShadows, ofALightInTheFloorsPlaneAreCleanOnTheFloor)
 {
   const Occluders occluders = makeOccluders({ { makePlane(20.0, 5) } });
-  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
+  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings);
   for (const double height : { 0.5, 0.01, 1e-6, 0.0, -0.1 })
   {
     const glm::dvec3 place(3.0, 0.0, height);
@@ -317,38 +208,6 @@ TEST(AreaShadows, ofALightInTheFloorsPlaneAreCleanOnTheFloor)
   }
 }
 
-TEST(AreaShadows, ofALightInGeometryAndOfThinSheetsAreFinite)
-{
-  const Occluders occluders = makeThings();
-  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
-  for (const glm::dvec3& place : { glm::dvec3(-0.5, -0.5, 0.5), { -0.5, -0.5, 1.0 },
-         { 1.2, 0.3, 0.8 }, { 0.0, 1.4, 0.9 }, { 0.0, 0.0, 3.0 } })
-  {
-    for (const double size : { 1e-3, 0.4, 100.0 })
-    {
-      for (const LightArea& area : { diskArea(down, size), ballArea(size),
-             rectangleArea(down, { 0.0, 1.0, 0.0 }, { size, 0.0 }) })
-      {
-        traceArea(withArea(pointLight(place), area, 16), occluders, receivers);
-      }
-    }
-  }
-}
-
-/// A convex body shows no shadow on itself beyond its plain shading: no acne at any of its facets.
-TEST(AreaShadows, ofABodyOnItselfAreOnlyWhereTheCentreIsHidden)
-{
-  const Occluders occluders =
-    makeOccluders({ { makeBox({ -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 }) } });
-  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
-  for (const ShadowLight& light : areaLights())
-  {
-    EXPECT_EQ(
-      countDifferent(traceArea(light, occluders, receivers), trace(light, occluders, receivers)),
-      0u);
-  }
-}
-
 TEST(AreaShadows, touchWhatCastsThem)
 {
   // A wall stands on the floor, so a nearer receiver has a narrower penumbra.
@@ -366,36 +225,6 @@ TEST(AreaShadows, touchWhatCastsThem)
   for (std::size_t i = 0; i < x.size(); ++i)
   {
     EXPECT_EQ(seen[i], x[i] < 0.0 ? 1.0f : 0.0f) << x[i];
-  }
-}
-
-TEST(AreaShadows, comeNearerTheTruthWithMoreSamples)
-{
-  const Occluders occluders = makeThings();
-  Camera camera = cameraOfThings();
-  camera.width = 60;
-  camera.height = 44;
-  const ReceiverPixels receivers = makeReceivers(occluders, camera);
-  for (ShadowLight light : areaLights(4096))
-  {
-    light.lightSeed = 5;
-    const std::vector<float> truth = traceArea(light, occluders, receivers);
-    light.lightSeed = 0;
-    double last = 1.0;
-    for (const int samples : { 4, 16, 64, 256 })
-    {
-      light.lightSamples = samples;
-      const std::vector<float> seen = traceArea(light, occluders, receivers);
-      double squares = 0.0;
-      for (std::size_t i = 0; i < seen.size(); ++i)
-      {
-        squares += std::pow(seen[i] - truth[i], 2);
-      }
-      const double error = std::sqrt(squares / static_cast<double>(seen.size()));
-      EXPECT_LT(error, 0.6 * last) << samples; // random points would halve it
-      last = error;
-    }
-    EXPECT_LT(last, 0.004);
   }
 }
 

@@ -205,7 +205,6 @@ std::vector<ShadowLight> lights()
 
 using DepthLayersTest = GlslTest;
 
-//------------------------------------------------------------------------------
 TEST_F(DepthLayersTest, beginAtTheFirstSurfaceOfEachTexelsRay)
 {
   for (const ShadowLight& light : lights())
@@ -245,7 +244,6 @@ TEST_F(DepthLayersTest, beginAtTheFirstSurfaceOfEachTexelsRay)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(DepthLayersTest, endAtTheLastSurfaceAndWhatItSpans)
 {
   for (const ShadowLight& light : lights())
@@ -274,7 +272,6 @@ TEST_F(DepthLayersTest, endAtTheLastSurfaceAndWhatItSpans)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return the largest depth of a solid that ends at a surface of a texel. A sheet spans the texel.
 /// If a body's front spans more than the body's thickness, the body extends to that front's depths
 /// in the texels beside it.
@@ -364,7 +361,6 @@ TEST_F(DepthLayersTest, areSolidFromFrontsToBacksAndEmptyFromBacksToFronts)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(DepthLayersTest, ofACubeAreAsThickAsItsChords)
 {
   const glm::dmat4 turned = glm::rotate(at({ 0.2, -0.1, 1.0 }), 0.7, glm::dvec3(0.5, 0.8, 0.3));

@@ -200,47 +200,6 @@ public:
   using Pcf::map;
 };
 
-/// Count the casters' fragments that are written into the map.
-GLuint fragmentsOf(
-  DepthSurface surface, const glm::dvec3& direction, const std::vector<Prop>& props)
-{
-  ShadowLight light = directionalLight(direction);
-  light.depthMap.surface = surface;
-  GLuint query = 0;
-  glGenQueries(1, &query);
-  glBeginQuery(GL_SAMPLES_PASSED, query);
-  const BakedDepths<Compare> baked(light, props);
-  glEndQuery(GL_SAMPLES_PASSED);
-  GLuint fragments = 0;
-  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &fragments);
-  glDeleteQueries(1, &query);
-  return fragments;
-}
-
-TEST_F(DepthMap, secondSurfacesTakeNoMoreFragments)
-{
-  // The sphere's rings are drawn from one pole to the other. Where its far side comes first, it is
-  // written twice; where its near side comes first, once. Of second surfaces only one is drawn.
-  const std::vector<Prop> closed = { { makeSphere(40, 80) } };
-  const glm::dvec3 directions[] = { { 0.3, 0.2, -1.0 }, { 0.3, 0.2, 1.0 } };
-  GLuint most = 0;
-  for (const glm::dvec3& direction : directions)
-  {
-    const GLuint first = fragmentsOf(DepthSurface::First, direction, closed);
-    const GLuint second = fragmentsOf(DepthSurface::Second, direction, closed);
-    EXPECT_GT(second, static_cast<GLuint>(mapSide * mapSide / 3));
-    EXPECT_LE(second, first);
-    EXPECT_GT(fragmentsOf(DepthSurface::Midpoint, direction, closed), first);
-    EXPECT_NEAR(second, mapSide * mapSide / 2, mapSide * mapSide / 6);
-    most = std::max(most, first);
-  }
-  EXPECT_GT(most, static_cast<GLuint>(mapSide * mapSide));
-  const std::vector<Prop> sheet = { { makePlane(3.0) } };
-  EXPECT_GT(fragmentsOf(DepthSurface::First, directions[0], sheet),
-    static_cast<GLuint>(mapSide * mapSide / 2));
-  EXPECT_EQ(fragmentsOf(DepthSurface::Second, directions[0], sheet), 0u);
-}
-
 TEST_F(DepthMap, pyramidBoundsEveryBlock)
 {
   for (const int size : { 16, 64, 100, 127, 129 })

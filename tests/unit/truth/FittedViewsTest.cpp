@@ -192,8 +192,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, FittedViews,
 
 } // namespace
 
-//------------------------------------------------------------------------------
-TEST_P(FittedViews, decideAsIfTheFitWereInTheView)
+TEST_P(FittedViews, matchViewsWithTheFitApplied)
 {
   const Occluders occluders = floorAndBoxes();
   const CameraView camera = cameraAbove();
@@ -229,7 +228,6 @@ TEST_P(FittedViews, decideAsIfTheFitWereInTheView)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Values of caster_map.glsl at the casters' fragments. They determine how far casters are pushed
 /// back, which shadows show too little of.
 class FittedCasters : public GlslTest
@@ -265,8 +263,7 @@ protected:
   }
 };
 
-//------------------------------------------------------------------------------
-TEST_F(FittedCasters, knowWhereTheyAreAsIfTheFitWereInTheView)
+TEST_F(FittedCasters, matchViewsWithTheFitApplied)
 {
   const Occluders occluders = floorAndBoxes();
   for (ShadowLight light : lightsOfAllLayouts())

@@ -1,12 +1,20 @@
 #include "InstancedScene.h"
 
-#include "SyntheticScene.h"
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cstdint>
 
 namespace gnomon::test
 {
+
+//------------------------------------------------------------------------------
+glm::dmat4 turned(Random& random, double spread)
+{
+  const glm::dmat4 turn =
+    glm::rotate(glm::dmat4(1.0), uniform(random, -3.0, 3.0), unitVector(random));
+  return glm::scale(turn, glm::pow(glm::dvec3(10.0), inCube(random, spread)));
+}
 
 //------------------------------------------------------------------------------
 void makeInstanced(Occluders& occluders, std::size_t surface,
@@ -74,12 +82,12 @@ Occluders cupsOverFloor(bool mirrored, bool oneSided)
     occluders.positionsCentred[occluders.surfaces[1].firstVertex + i] = glm::vec3(cup.points[i]);
   }
   occluders.surfaces[1].oneSided = oneSided;
-  SignedRandom random(3);
+  Random random(3);
   std::vector<glm::dmat4> instances;
   for (int i = 0; i < 60; ++i)
   {
-    glm::dmat4 instance = random.turned(0.3);
-    instance[3] = glm::dvec4(6.0, 6.0, 2.0, 1.0) * glm::dvec4(random.vector(), 1.0);
+    glm::dmat4 instance = turned(random, 0.3);
+    instance[3] = glm::dvec4(6.0, 6.0, 2.0, 1.0) * glm::dvec4(inCube(random), 1.0);
     instances.push_back(mirrored ? glm::scale(instance, glm::dvec3(1.0, -1.0, 1.0)) : instance);
   }
   makeInstanced(occluders, 1, instances, mirrored);

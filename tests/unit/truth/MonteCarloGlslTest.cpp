@@ -43,7 +43,6 @@ protected:
   std::mt19937 random_{ 7 };
 };
 
-//------------------------------------------------------------------------------
 TEST_F(MonteCarloGlsl, hashesAsTheCpuDoes)
 {
   std::vector<glm::uvec4> seeds;
@@ -66,7 +65,6 @@ TEST_F(MonteCarloGlsl, hashesAsTheCpuDoes)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(MonteCarloGlsl, takesTheJitteredSamplesOfTheLight)
 {
   ShadowLight light;
@@ -103,7 +101,6 @@ TEST_F(MonteCarloGlsl, takesTheJitteredSamplesOfTheLight)
   }
 }
 
-//------------------------------------------------------------------------------
 struct RayLine
 {
   glm::vec4 begin;
@@ -267,7 +264,6 @@ private:
   GlTexture texture_;
 };
 
-//------------------------------------------------------------------------------
 TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
 {
   for (const auto& [side, whole] : { std::pair(64, 64), { 100, 128 }, { 1024, 1024 } })
@@ -303,7 +299,6 @@ TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return lines of any length from behind to before all slabs.
 std::vector<RayLine> randomLines(int side, std::size_t count, std::mt19937& random)
 {
@@ -399,7 +394,6 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Rays that begin inside a solid need no test of their own: the search finds that in the first
 /// texel.
 TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
@@ -423,61 +417,6 @@ TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
     << "it only descends";
 }
 
-//------------------------------------------------------------------------------
-/// Rays from the ground below casters to points of a lamp, through the casters' layers.
-TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
-{
-  constexpr int side = 512;
-  const Occluders occluders =
-    makeOccluders({ { makePlane(12.0) }, { makeBox({ -1.2, -1.0, 0.0 }, { 0.2, 0.3, 1.6 }) },
-      { makeSphere(24, 32), at({ 1.2, 0.8, 1.3 }, 0.8) },
-      { makeTriangleSoup(300, 5), at({ -2.5, 1.0, 1.0 }) } });
-  ShadowLight light = spotLight({ -2.0, -2.5, 7.0 }, { 0.0, 0.0, 0.0 }, 40.0);
-  light.area = diskArea(light.directionWorld, 0.5);
-  light.mapSizeTexels = side;
-  LightViews views = fitLightViews(
-    lightOfMap(light), { occluders.frame.centre, occluders.castersCentred, {}, { side, 1 }, {} });
-  LightView& view = views.views.at(0);
-  view.beginsAt = std::max(view.beginsAt, nearestOfArea(light));
-  OccluderBuffers buffers;
-  buffers.update(occluders);
-  DepthLayers layers;
-  {
-    const GlStateGuard guard;
-    layers.draw({ light, views, occluders, buffers, this->library_ }, view.beginsAt);
-  }
-
-  const glm::dmat4 rayFromCentred = gnomon::rayFromCentred(view, side, view.beginsAt);
-  const auto inRaySpace = [&](const glm::dvec3& world)
-  {
-    const glm::dvec4 place = rayFromCentred * glm::dvec4(world - occluders.frame.centre, 1.0);
-    return glm::vec4(glm::dvec3(place) / place.w, 0.0);
-  };
-  std::vector<RayLine> lines;
-  const auto number = [&] { return 2.0 * this->uniform() - 1.0; };
-  while (lines.size() < 10000)
-  {
-    // From about two texels before the ground to the end of the casters.
-    const double x = 3.0 * number();
-    const glm::vec4 begin = inRaySpace({ x, 3.0 * number(), 0.05 });
-    const double across = number();
-    const glm::vec4 end = inRaySpace(
-      light.positionWorld + light.area->worldFromUnit * glm::dvec3(across, number(), 0.0));
-    const float share = std::min((-1.0f - begin.z) / (end.z - begin.z), 1.0f);
-    const RayLine cut{ begin, glm::mix(begin, end, share) };
-    const auto isOnMap = [](const glm::vec4& at)
-    { return at.x >= 0.0f && at.y >= 0.0f && at.x < side && at.y < side; };
-    if (isOnMap(cut.begin) && isOnMap(cut.end))
-    {
-      lines.push_back(cut);
-    }
-  }
-  const Searched searched = searchAll(this->library_, layers.slabs(), side, layers.pages(), lines);
-  EXPECT_LT(searched.meanVisits, 8.0);
-  EXPECT_LT(searched.mostVisits, 64u + 4u * 9u);
-}
-
-//------------------------------------------------------------------------------
 /// Boxes between depths of 5 and 20 under an eye, as a map with two layers holds them. Rays go from
 /// the ground at 20 to a light at 1 that fills the map's frustum there. The linear search's rates
 /// were specified with this geometry.
@@ -606,7 +545,6 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Pixels of surfaces across the view, as input of the filter.
 struct FilteredPicture
 {
@@ -830,7 +768,6 @@ TEST_F(MonteCarloGlsl, filterLeavesOutOnlyTilesThatStayAsTheyAre)
   EXPECT_GT(changed, 1000);
 }
 
-//------------------------------------------------------------------------------
 ShadowLight lampOver(double radius, double coneAngleDegrees)
 {
   ShadowLight light;

@@ -1,4 +1,4 @@
-// pcf_estimator.glsl against a twin: the texels that each kernel reads, and their weights.
+// pcf_estimator.glsl against closed forms: the texels that each kernel reads, and their weights.
 
 #include "EstimatorGlsl.h"
 
@@ -120,36 +120,34 @@ TEST_F(PcfGlsl, castanoIsHisSumOfBilinearLookups)
   }
 }
 
-/// The twin of noise_LIGHT.
-double noise(const glm::ivec2& cell)
-{
-  auto bits = static_cast<unsigned>(cell.x) + 65536u * static_cast<unsigned>(cell.y);
-  bits = (bits ^ (bits >> 16u)) * 0x7feb352du;
-  bits = (bits ^ (bits >> 15u)) * 0x846ca68bu;
-  bits ^= bits >> 16u;
-  return (bits >> 8u) / 16777216.0;
-}
-
+/// Turning keeps radii: a lit disk around a place holds as many points as the table has within its
+/// radius, but for those that share a texel with its rim.
 TEST_F(PcfGlsl, poissonReadsATurnedDisc)
 {
-  for (const int texels : { 1, 4, 9 })
+  constexpr int texels = 32;
+  const glm::dvec2 middle(32.1, 31.8);
+  for (const double radius : { 4.0, 8.0, 12.0, 15.0 })
   {
-    const std::vector<glm::dvec2> places = randomPlaces(texels);
-    const std::vector<float> values = runPcf(filteredSun("poisson", texels), scattered, places);
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < places.size(); ++i)
+    const Map outside = [&](const glm::ivec2& texel)
+    { return glm::distance(glm::dvec2(texel) + 0.5, middle) > radius; };
+    const auto within = [&](double most)
     {
-      const double angle = glm::radians(360.0 * noise(glm::ivec2(4.0 * places[i])));
-      const glm::dvec2 axis = 0.5 * texels * glm::dvec2(std::cos(angle), std::sin(angle));
-      double lit = 0.0;
-      for (const glm::dvec2& point : poissonDisc())
-      {
-        const glm::dvec2 at = places[i] + point.x * axis + point.y * glm::dvec2(-axis.y, axis.x);
-        lit += scattered(glm::ivec2(glm::floor(at))) ? 0.0 : 1.0 / poissonPoints;
-      }
-      different += std::abs(values[i] - lit) < 1e-6 ? 0 : 1;
+      return std::count_if(poissonDisc().begin(), poissonDisc().end(),
+        [&](const glm::dvec2& point) { return 0.5 * texels * glm::length(point) < most; });
+    };
+    // Places in cells of their own around the middle.
+    std::vector<glm::dvec2> places;
+    for (int i = 0; i < 64; ++i)
+    {
+      places.push_back(middle + glm::dvec2(i % 8 - 4, i / 8 - 4) / 40.0);
     }
-    EXPECT_LE(different, places.size() / 100) << texels << " texels"; // rounding at texels' borders
+    for (const float value : runPcf(filteredSun("poisson", texels), outside, places))
+    {
+      const double lit = value * poissonPoints;
+      EXPECT_NEAR(lit, std::round(lit), 1e-4);
+      EXPECT_GE(lit + 1e-3, within(radius - 0.9)) << radius;
+      EXPECT_LE(lit - 1e-3, within(radius + 0.9)) << radius;
+    }
   }
 }
 

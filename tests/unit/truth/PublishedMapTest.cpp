@@ -175,48 +175,7 @@ TEST(PublishedMap, movesSidesByEtaTimesHalfATexelsDiagonal)
   }
 }
 
-TEST(PublishedMap, dilatesToAllTexelsThatATriangleMeetsAndNoFartherThanItsBox)
-{
-  Random random(2);
-  for (int i = 0; i < 5000; ++i)
-  {
-    const Corners corners = randomTriangle(random, width);
-    const std::set<std::size_t> texels =
-      texelsOf(dilatedRegion(polygonWith(corners), publishedOffset(1.0)));
-    glm::dvec2 low(infinity), high(-infinity);
-    for (const glm::dvec3& corner : corners)
-    {
-      low = glm::min(low, glm::dvec2(corner));
-      high = glm::max(high, glm::dvec2(corner));
-    }
-    for (const std::size_t texel : texels)
-    {
-      const glm::dvec2 centre(texel % width + 0.5, texel / width + 0.5);
-      EXPECT_TRUE(glm::all(glm::greaterThanEqual(centre, low - 0.5)));
-      EXPECT_TRUE(glm::all(glm::lessThanEqual(centre, high + 0.5)));
-    }
-    // Points of the triangle lie in its texels.
-    for (int sample = 0; sample < 64; ++sample)
-    {
-      double u = uniform(random, 0.0, 1.0), v = uniform(random, 0.0, 1.0);
-      if (u + v > 1.0)
-      {
-        u = 1.0 - u;
-        v = 1.0 - v;
-      }
-      const glm::dvec2 point(
-        corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]));
-      if (point.x >= 0.0 && point.y >= 0.0 && point.x < width && point.y < width)
-      {
-        EXPECT_EQ(texels.count(static_cast<std::size_t>(
-                    static_cast<int>(point.y) * width + static_cast<int>(point.x))),
-          1u);
-      }
-    }
-  }
-}
-
-TEST(PublishedMap, leavesNothingOfATriangleWhoseLinesMeetTurnedOver)
+TEST(PublishedMap, erodesSmallTrianglesToNothing)
 {
   Random random(3);
   std::size_t turnedOver = 0;
@@ -458,7 +417,7 @@ TEST(PublishedMap, comparesWithATrianglesPlaneAtTexelsCentres)
   }
 }
 
-TEST(PublishedMap, knowsNoShadowOfHoles)
+TEST(PublishedMap, isUncertainBelowCutouts)
 {
   Askew askew;
   askew.occluders.surfaces.front().cutout = makePerforatedPlane(1.0, 1).cutout;
@@ -467,7 +426,7 @@ TEST(PublishedMap, knowsNoShadowOfHoles)
   EXPECT_GT(std::count(certain.begin(), certain.end(), Certainty::Uncertain), 100);
 }
 
-TEST(PublishedMap, knowsNothingWhereTheLightIsInACaster)
+TEST(PublishedMap, isEmptyWithTheLightInACaster)
 {
   EXPECT_GT(Askew(spotLight({ 0.1, 0.0, 2.0 }, { 0.0, 0.0, 0.0 }, 40.0)).map().bytes(), 0u);
   // A light in the middle of the triangle.

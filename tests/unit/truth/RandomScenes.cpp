@@ -29,6 +29,14 @@ glm::dvec3 unitVector(Random& random)
 }
 
 //------------------------------------------------------------------------------
+glm::dvec3 inCube(Random& random, double half)
+{
+  const double x = uniform(random, -half, half);
+  const double y = uniform(random, -half, half);
+  return { x, y, uniform(random, -half, half) };
+}
+
+//------------------------------------------------------------------------------
 Mesh makeCup(int rings, int segments)
 {
   Mesh mesh = makeSphere(rings, segments);

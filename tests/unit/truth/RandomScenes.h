@@ -18,6 +18,8 @@ using Random = std::mt19937;
 
 double uniform(Random& random, double low, double high);
 glm::dvec3 unitVector(Random& random);
+/// Return a point of the cube [-half, half]^3.
+glm::dvec3 inCube(Random& random, double half = 1.0);
 
 /// Return a sphere without its upper part.
 Mesh makeCup(int rings, int segments);

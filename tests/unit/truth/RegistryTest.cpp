@@ -169,7 +169,7 @@ TEST(Registry, keysHoldTheSettingsOfAnEstimatorAndOfItsMap)
   EXPECT_FALSE(changesKey("mc_layers", "eye", SettingsOf::Map));
 }
 
-TEST(Registry, saysWhoHasASetting)
+TEST(Registry, listsTheTechniquesOfASetting)
 {
   EXPECT_EQ(
     whoHas(*findSetting("map_samples")), "the setting 'map_samples' is for: esm, vsm, evsm, msm");
@@ -187,50 +187,19 @@ TEST(Registry, saysWhoHasASetting)
   }
 }
 
-TEST(Registry, sumsOnlyMomentsThatIntegersHold)
+TEST(Registry, refusesSettingsThatDoNotGoTogether)
 {
-  for (const char* name : { "single_exponential", "variance", "exponential", "moments" })
-  {
-    ShadowSettings settings;
-    settings.estimator = name;
-    settings.momentMap.blur = MapBlur::Sat;
-    const char* verdict =
-      settings.estimator.find("exponential") != std::string::npos ? "32-bit integers" : "";
-    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, name);
-    settings.momentMap.mipMaps = true;
-    verdict =
-      settings.estimator.find("exponential") != std::string::npos ? "32-bit integers" : "no levels";
-    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, name);
-  }
-}
-
-TEST(Registry, refusesARingOfPointsThatThereIsNot)
-{
-  for (const EstimatorEntry& estimator : estimators())
-  {
-    ShadowSettings settings;
-    settings.estimator = estimator.info.name;
-    settings.earlyOut = EarlyOut::Ring;
-    const char* verdict = estimator.info.name == "pcss" ? "exact or none" : "";
-    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
-    settings.earlyOut = EarlyOut::None;
-    expectVerdicts(settings, { "", "", "", "" }, settings.estimator);
-  }
-}
-
-TEST(Registry, refusesChainsOfTestsThatMakeNoSense)
-{
+  using Settings = std::vector<std::pair<const char*, const char*>>;
   struct Case
   {
     const char* technique;
-    std::vector<std::pair<const char*, const char*>> settings;
+    Settings settings;
     const char* verdict;
   };
-  const std::vector<std::pair<const char*, const char*>> nothing{ { "coherence", "off" },
-    { "neighbours", "off" }, { "adjacency", "off" } };
-  auto nothingLit = nothing;
+  const Settings nothing{ { "coherence", "off" }, { "neighbours", "off" }, { "adjacency", "off" } };
+  Settings nothingLit = nothing;
   nothingLit.emplace_back("leftovers", "lit");
-  const Case cases[] = {
+  std::vector<Case> cases = {
     { "coherence", { { "coherence", "off" } }, "takes 4 or 9" },
     { "coherence", { { "coherence", "9" } }, "" },
     { "coherence", { { "contour", "image" }, { "outside", "check" } }, "" }, // are selective's
@@ -240,59 +209,52 @@ TEST(Registry, refusesChainsOfTestsThatMakeNoSense)
     { "selective", nothing, "" }, // all of the contour is traced
     { "selective", nothingLit, "all of them would be lit" },
     { "nsm", nothingLit, "" },
+    { "montecarlo", { { "mc_layers", "peeled" }, { "mc_search", "hierarchical" } }, "" },
+    { "montecarlo", { { "mc_layers", "peeled" }, { "mc_search", "linear" } },
+      "one solid in a texel" },
+    { "montecarlo", { { "mc_layers", "near_far" }, { "mc_search", "hierarchical" } }, "" },
+    { "montecarlo", { { "mc_layers", "near_far" }, { "mc_search", "linear" } }, "" },
+    { "montecarlo", { { "mc_layers", "near" }, { "mc_search", "hierarchical" } }, "" },
+    { "montecarlo", { { "mc_layers", "near" }, { "mc_search", "linear" } }, "" },
+    { "montecarlo", { { "mc_layers", "eye" }, { "mc_search", "hierarchical" } },
+      "asks the camera" },
+    { "montecarlo", { { "mc_layers", "eye" }, { "mc_search", "linear" } }, "" },
+    { "montecarlo", { { "fit", "once" } }, "'fit' once" },
+    { "montecarlo", { { "fit", "frame" } }, "'fit' frame" },
+    { "nsm", { { "mc_layers", "eye" }, { "fit", "frame" } }, "" }, // are montecarlo's
+    { "pcss", { { "early_out", "ring" } }, "exact or none" },
+    { "pcss", { { "early_out", "none" } }, "" },
+    { "nsm", { { "early_out", "ring" } }, "" },
   };
+  // Tables sum moments that integers hold.
+  for (const char* name : { "single_exponential", "variance", "exponential", "moments" })
+  {
+    const char* const tooLarge =
+      std::string(name).find("exponential") != std::string::npos ? "32-bit integers" : nullptr;
+    const Settings table{ { "estimator", name }, { "blur", "sat" } };
+    Settings levels = table;
+    levels.emplace_back("mip_maps", "on");
+    cases.push_back({ "nsm", table, tooLarge ? tooLarge : "" });
+    cases.push_back({ "nsm", levels, tooLarge ? tooLarge : "no levels" });
+  }
   for (const Case& each : cases)
   {
     ShadowSettings settings;
     settings.technique = each.technique;
+    std::string what = each.technique;
     for (const auto& [name, value] : each.settings)
     {
       ASSERT_TRUE(findSetting(name)->set(settings, value)) << name;
+      what += std::string(", ") + name + " " + value;
     }
-    expectVerdicts(
-      settings, { each.verdict, each.verdict, each.verdict, each.verdict }, each.technique);
-  }
-}
-
-TEST(Registry, refusesRaysThatCannotBeFollowed)
-{
-  struct Case
-  {
-    const char* technique;
-    const char* layers;
-    const char* search;
-    const char* fit;
-    const char* verdict;
-  };
-  const Case cases[] = {
-    { "montecarlo", "peeled", "hierarchical", "off", "" },
-    { "montecarlo", "peeled", "linear", "off", "one solid in a texel" },
-    { "montecarlo", "near_far", "hierarchical", "off", "" },
-    { "montecarlo", "near_far", "linear", "off", "" },
-    { "montecarlo", "near", "hierarchical", "off", "" },
-    { "montecarlo", "near", "linear", "off", "" },
-    { "montecarlo", "eye", "hierarchical", "off", "asks the camera" },
-    { "montecarlo", "eye", "linear", "off", "" },
-    { "montecarlo", "peeled", "hierarchical", "once", "'fit' once" },
-    { "montecarlo", "peeled", "hierarchical", "frame", "'fit' frame" },
-    { "nsm", "eye", "hierarchical", "frame", "" }, // are montecarlo's
-  };
-  for (const Case& each : cases)
-  {
-    ShadowSettings settings;
-    settings.technique = each.technique;
-    ASSERT_TRUE(findSetting("mc_layers")->set(settings, each.layers));
-    ASSERT_TRUE(findSetting("mc_search")->set(settings, each.search));
-    ASSERT_TRUE(findSetting("fit")->set(settings, each.fit));
-    expectVerdicts(
-      settings, { each.verdict, each.verdict, each.verdict, each.verdict }, each.technique);
+    expectVerdicts(settings, { each.verdict, each.verdict, each.verdict, each.verdict }, what);
   }
 }
 
 TEST(Registry, putsSamplesIntoTheCellsOfSquareGridsOnly)
 {
-  const auto refusalOf = [](int count, LightSampling sampling, bool hasArea,
-                           const char* technique = "raytraced") -> std::string
+  const auto expectSamples = [](int count, LightSampling sampling, const std::string& word,
+                               const char* technique = "raytraced", bool hasArea = true)
   {
     ShadowLight light = lightOf(LightKind::Spot);
     light.technique = technique;
@@ -302,35 +264,25 @@ TEST(Registry, putsSamplesIntoTheCellsOfSquareGridsOnly)
     {
       light.area = diskArea({ 0.0, 0.0, -1.0 }, 1.0);
     }
-    try
-    {
-      compose(light);
-    }
-    catch (const CompositionError& error)
-    {
-      return error.what();
-    }
-    return {};
+    expectVerdict(light, word, std::to_string(count));
   };
   for (const int count : { 1, 4, 9, 64, 4096, 65536 })
   {
-    EXPECT_EQ(refusalOf(count, LightSampling::Jittered, true), "") << count;
+    expectSamples(count, LightSampling::Jittered, "");
   }
-  EXPECT_NE(refusalOf(64, LightSampling::Jittered, true, "sampled").find("opposite pairs"),
-    std::string::npos);
-  EXPECT_EQ(refusalOf(64, LightSampling::Random, true, "sampled"), "");
+  expectSamples(64, LightSampling::Jittered, "opposite pairs", "sampled");
+  expectSamples(64, LightSampling::Random, "", "sampled");
   for (const int count : { 2, 8, 63, 65, 65535 })
   {
-    const std::string refusal = refusalOf(count, LightSampling::Jittered, true);
-    EXPECT_NE(refusal.find("no " + std::to_string(count) + ";"), std::string::npos) << refusal;
-    EXPECT_EQ(refusalOf(count, LightSampling::Random, true), "") << count;
-    EXPECT_EQ(refusalOf(count, LightSampling::Sobol, true), "") << count;
-    EXPECT_EQ(refusalOf(count, LightSampling::Jittered, false), "") << "of a light that is a point";
-    EXPECT_EQ(refusalOf(count, LightSampling::Jittered, true, "nsm"), "") << "who takes none";
+    expectSamples(count, LightSampling::Jittered, "no " + std::to_string(count) + ";");
+    expectSamples(count, LightSampling::Random, "");
+    expectSamples(count, LightSampling::Sobol, "");
+    expectSamples(count, LightSampling::Jittered, "", "raytraced", false); // a point
+    expectSamples(count, LightSampling::Jittered, "", "nsm");              // takes none
   }
 }
 
-TEST(Registry, followsAPublicationWhereThereIsOneThatIsNotExact)
+TEST(Registry, composesAsPublished)
 {
   for (const std::string name : { "crsm", "crsma" })
   {
@@ -350,50 +302,43 @@ TEST(Registry, followsAPublicationWhereThereIsOneThatIsNotExact)
   EXPECT_TRUE(findEstimator("silhouette")->info.asPublished.empty());
 }
 
-// For a picture at rest: exact, unless an estimator is named.
-TEST(Registry, completesLightsThatLeaveTheirTechniqueToThePass)
+/// Without a technique it is that of a picture at rest: exact, unless an estimator is named.
+TEST(Registry, completesLights)
 {
-  for (const char* const name : { "", "auto" })
+  struct Case
   {
-    ShadowLight hard = lightOf(LightKind::Directional);
-    hard.technique = name;
-    EXPECT_TRUE(isAutomatic(hard));
-    EXPECT_EQ(&compose(hard), findEstimator("silhouette"));
-    EXPECT_EQ(hard.technique, "silhouette");
-    EXPECT_FALSE(isAutomatic(hard));
-
-    ShadowLight soft = lightOf(LightKind::Point);
-    soft.technique = name;
-    soft.area = ballArea(0.1);
-    EXPECT_EQ(&compose(soft), findEstimator("penumbra"));
-    EXPECT_EQ(soft.technique, "penumbra");
-
-    ShadowLight filtered = lightOf(LightKind::Directional);
-    filtered.technique = name;
-    filtered.estimator = "pcf";
-    EXPECT_FALSE(isAutomatic(filtered));
-    EXPECT_EQ(&compose(filtered), findEstimator("pcf"));
-    EXPECT_EQ(filtered.technique, "nsm");
+    const char* technique;
+    const char* estimator;
+    bool hasArea;
+    const char* completedTechnique;
+    const char* completedEstimator;
+    Projection projection = Projection::Uniform;
+  };
+  for (const Case& each :
+    { Case{ "", "", false, "silhouette", "silhouette" },
+      { "auto", "", false, "silhouette", "silhouette" }, { "", "", true, "penumbra", "penumbra" },
+      { "auto", "", true, "penumbra", "penumbra" }, { "", "pcf", false, "nsm", "pcf" },
+      { "auto", "pcf", false, "nsm", "pcf" }, { "nsm", "", false, "nsm", "compare" },
+      { "lispsm", "pcf", false, "lispsm", "pcf", Projection::Lispsm } })
+  {
+    ShadowLight light = lightOf(LightKind::Directional);
+    light.technique = each.technique;
+    light.estimator = each.estimator;
+    if (each.hasArea)
+    {
+      light.area = diskArea(light.directionWorld, 0.1);
+    }
+    const bool named = *each.estimator != '\0' || light.technique == "nsm";
+    EXPECT_EQ(isAutomatic(light), !named);
+    EXPECT_EQ(&compose(light), findEstimator(each.completedEstimator));
+    EXPECT_EQ(light.technique, each.completedTechnique);
+    EXPECT_EQ(light.estimator, each.completedEstimator);
+    EXPECT_EQ(light.projection, each.projection);
+    EXPECT_FALSE(isAutomatic(light));
   }
 }
 
-TEST(Registry, completesTheLight)
-{
-  ShadowLight light = lightOf(LightKind::Directional);
-  light.technique = "nsm";
-  EXPECT_EQ(&compose(light), findEstimator("compare"));
-  EXPECT_EQ(light.technique, "nsm");
-  EXPECT_EQ(light.estimator, "compare");
-  EXPECT_EQ(light.projection, Projection::Uniform);
-
-  light = lightOf(LightKind::Directional);
-  light.technique = "lispsm";
-  light.estimator = "pcf";
-  EXPECT_EQ(&compose(light), findEstimator("pcf"));
-  EXPECT_EQ(light.projection, Projection::Lispsm);
-}
-
-TEST(Registry, namesWhatThereIs)
+TEST(Registry, namesTechniquesAndEstimators)
 {
   ShadowLight light = lightOf(LightKind::Directional);
   light.technique = "magic";

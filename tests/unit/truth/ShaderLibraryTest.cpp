@@ -34,7 +34,6 @@ std::string errorOf(const std::function<void()>& call)
 
 using ShaderLibraryTest = GlslTest;
 
-//------------------------------------------------------------------------------
 TEST_F(ShaderLibraryTest, saysWhatDoesNotCompileEachTimeThatItIsAskedFor)
 {
   ShaderLibrary library;
@@ -52,7 +51,6 @@ TEST_F(ShaderLibraryTest, saysWhatDoesNotCompileEachTimeThatItIsAskedFor)
   EXPECT_EQ(library.compiles(), 1);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ShaderLibraryTest, saysWhatDoesNotLink)
 {
   ShaderLibrary library;
@@ -66,24 +64,6 @@ TEST_F(ShaderLibraryTest, saysWhatDoesNotLink)
   EXPECT_EQ(library.compiles(), 0);
 }
 
-//------------------------------------------------------------------------------
-/// A program with too many uniforms is an error.
-TEST_F(ShaderLibraryTest, saysThatUniformsAreTooMany)
-{
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &most);
-  ShaderLibrary library;
-  const std::string error = errorOf(
-    [&]
-    {
-      ScreenPass::use(library,
-        "uniform vec4 many[" + std::to_string(most / 4 + 1) +
-          "];\nuniform int i;\nout vec4 v;\nvoid main()\n{\n  v = many[i];\n}\n");
-    });
-  EXPECT_THAT(error, HasSubstr("a program does not link"));
-}
-
-//------------------------------------------------------------------------------
 TEST_F(ShaderLibraryTest, namesASourceThatIsNotThere)
 {
   EXPECT_THAT(errorOf([] { ShaderLibrary::source("shadowtech/none.glsl"); }),

@@ -3,11 +3,11 @@
 #include "shadowtech/base/ShaderLibrary.h"
 
 #include "EstimatorGlsl.h"
+#include "RandomScenes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace gnomon::test
 {
@@ -37,30 +37,18 @@ TriangleNumbers numbersOf(const glm::vec3& a, const glm::vec3& b, const glm::vec
     static_cast<float>(glm::length(areaVector)) };
 }
 
-class RandomTriangles
+/// Return a number in [-1, 1].
+float number(Random& random)
 {
-public:
-  glm::vec3 vector()
-  {
-    const float x = this->uniform_(this->random_);
-    const float y = this->uniform_(this->random_);
-    return { x, y, this->uniform_(this->random_) };
-  }
-  float uniform() { return this->uniform_(this->random_); }
-
-private:
-  std::mt19937 random_{ 5 };
-  std::uniform_real_distribution<float> uniform_{ -1.0f, 1.0f };
-};
+  return static_cast<float>(uniform(random, -1.0, 1.0));
+}
 
 TEST(PlaneNoise, ScalesWithTheScene)
 {
-  RandomTriangles random;
+  Random random(5);
   for (int i = 0; i < 1000; ++i)
   {
-    const glm::vec3 a = random.vector();
-    const glm::vec3 b = random.vector();
-    const glm::vec3 c = random.vector();
+    const glm::vec3 a(inCube(random)), b(inCube(random)), c(inCube(random));
     const float noise = numbersOf(a, b, c).noise();
     for (const float scale : { 1e-10f, 1e-4f, 1e4f, 1e10f })
     {
@@ -91,17 +79,17 @@ TEST(PlaneNoise, OfSliversStaysSmall)
 /// right if the origin is at least planeNoise() off the plane.
 TEST(PlaneNoise, BoundsWhatRoundingDoes)
 {
-  RandomTriangles random;
+  Random random(5);
   for (int i = 0; i < 300000; ++i)
   {
-    const float thinness = std::pow(10.0f, 1.3f * random.uniform() - 1.3f);
-    const float size = std::pow(10.0f, 2.0f * random.uniform());
-    const glm::vec3 a = random.vector();
-    const glm::vec3 b = a + size * random.vector();
-    const glm::vec3 c = 0.5f * (a + b) + thinness * size * random.vector();
+    const float thinness = std::pow(10.0f, 1.3f * number(random) - 1.3f);
+    const float size = std::pow(10.0f, 2.0f * number(random));
+    const glm::vec3 a = glm::vec3(inCube(random));
+    const glm::vec3 b = a + size * glm::vec3(inCube(random));
+    const glm::vec3 c = 0.5f * (a + b) + thinness * size * glm::vec3(inCube(random));
     const TriangleNumbers numbers = numbersOf(a, b, c);
-    const double u = 0.5 + 0.5 * static_cast<double>(random.uniform());
-    const double v = (0.5 + 0.5 * static_cast<double>(random.uniform())) * (1.0 - u);
+    const double u = 0.5 + 0.5 * uniform(random, -1.0, 1.0);
+    const double v = (0.5 + 0.5 * uniform(random, -1.0, 1.0)) * (1.0 - u);
     const glm::vec3 stored((1.0 - u - v) * glm::dvec3(a) + u * glm::dvec3(b) + v * glm::dvec3(c));
     const float noise = numbers.noise();
     const glm::vec3 origin = stored + noise * numbers.normal;
@@ -151,19 +139,19 @@ class ShadowRayGlsl : public GlslTest
 
 TEST_F(ShadowRayGlsl, AgreesWithItsTwin)
 {
-  RandomTriangles random;
+  Random random(5);
   std::vector<TriangleNumbers> triangles;
   std::vector<glm::mat4> inputs; // normal, noise, footprint and the way to the light
   for (int i = 0; i < 6400; ++i)
   {
-    const float size = std::pow(10.0f, 4.0f * random.uniform());
-    triangles.push_back(
-      numbersOf(size * random.vector(), size * random.vector(), size * random.vector()));
+    const float size = std::pow(10.0f, 4.0f * number(random));
+    triangles.push_back(numbersOf(size * glm::vec3(inCube(random)),
+      size * glm::vec3(inCube(random)), size * glm::vec3(inCube(random))));
     const TriangleNumbers& numbers = triangles.back();
     const float footprint = 1e-3f * size;
-    const float tangentSquared = 1.0f + random.uniform();
+    const float tangentSquared = 1.0f + number(random);
     inputs.emplace_back(glm::vec4(numbers.normal, 0.0f), glm::vec4(numbers.noise()),
-      glm::vec4(footprint), glm::vec4(random.vector(), tangentSquared));
+      glm::vec4(footprint), glm::vec4(glm::vec3(inCube(random)), tangentSquared));
   }
   ShaderLibrary library;
   const std::vector<glm::vec4> outputs = runCompute<glm::vec4>(library,

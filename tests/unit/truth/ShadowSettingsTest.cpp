@@ -15,22 +15,6 @@ namespace gnomon::test
 namespace
 {
 
-TEST(ShadowSettings, takeWhatTheyGive)
-{
-  for (const gnomon::Setting* each : shadowSettings())
-  {
-    const gnomon::Setting& setting = *each;
-    ShadowSettings settings;
-    const std::string text = setting.get(settings);
-    // No technique means the registry's default.
-    EXPECT_EQ(setting.set(settings, text), setting.name != "technique") << setting.name;
-    EXPECT_EQ(setting.get(settings), text) << setting.name;
-    EXPECT_EQ(findSetting(setting.name), &setting);
-    EXPECT_FALSE(setting.meaning.empty()) << setting.name;
-  }
-  EXPECT_EQ(findSetting("magic"), nullptr);
-}
-
 TEST(ShadowSettings, refuseWhatTheyDoNotTakeAndStayAsTheyAre)
 {
   ShadowSettings settings;
@@ -69,29 +53,6 @@ TEST(ShadowSettings, takeEveryChoiceAndGiveItBack)
   EXPECT_EQ(settings.chain.contourPixels, 0);
   EXPECT_TRUE(findSetting("map_samples")->set(settings, "8"));
   EXPECT_EQ(settings.momentMap.samples, 8);
-}
-
-TEST(ShadowSettings, areALightsOwn)
-{
-  vtkNew<vtkLight> light;
-  EXPECT_EQ(vtkGnomonLightKeys::GetSetting(light, "kernel"), nullptr);
-  vtkGnomonLightKeys::SetSetting(light, "kernel", "box");
-  vtkGnomonLightKeys::SetMapSize(light, 512);
-  vtkGnomonLightKeys::SetSetting(light, "kernel", "poisson");
-  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(light, "kernel"), "poisson");
-  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(light, "map_size"), "512");
-
-  vtkObject::GlobalWarningDisplayOff();
-  vtkGnomonLightKeys::SetSetting(light, "kernel", "magic");
-  vtkGnomonLightKeys::SetSetting(light, "magic", "1");
-  vtkGnomonLightKeys::SetSetting(light, nullptr, nullptr);
-  vtkObject::GlobalWarningDisplayOn();
-  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(light, "kernel"), "poisson");
-  EXPECT_EQ(vtkGnomonLightKeys::GetSetting(light, "magic"), nullptr);
-
-  vtkGnomonLightKeys::SetSetting(light, "kernel", "");
-  EXPECT_EQ(vtkGnomonLightKeys::GetSetting(light, "kernel"), nullptr);
-  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(light, "map_size"), "512");
 }
 
 } // namespace

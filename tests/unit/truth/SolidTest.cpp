@@ -1,7 +1,8 @@
 // Spheres and cylinders of impostors: the hits of rays, and no self-shadows.
 
-#include "SyntheticScene.h"
+#include "RandomScenes.h"
 
+#include "lights/LightSpace.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/Solid.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
@@ -13,7 +14,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -23,56 +23,30 @@ using namespace gnomon::test;
 namespace
 {
 
-class RandomSolids
+/// Return a solid's matrix as the snapshot stores it.
+glm::mat4x3 solidAlong(const glm::dvec3& halfAxis, double radius, const glm::dvec3& centre)
 {
-public:
-  explicit RandomSolids(unsigned int seed)
-    : random_(seed)
-  {
-  }
+  const glm::dvec3 x = glm::normalize(axisAcross(glm::normalize(halfAxis)));
+  const glm::dvec3 y = glm::cross(glm::normalize(halfAxis), x);
+  return glm::mat4x3(glm::dmat4x3(radius * x, radius * y, halfAxis, centre));
+}
 
-  double uniform(double lower, double upper)
-  {
-    return std::uniform_real_distribution<double>(lower, upper)(this->random_);
-  }
-  glm::dvec3 vector(double most = 1.0)
-  {
-    return { this->uniform(-most, most), this->uniform(-most, most), this->uniform(-most, most) };
-  }
-  glm::dvec3 direction()
-  {
-    glm::dvec3 vector(0.0);
-    while (glm::length(vector) < 0.1 || glm::length(vector) > 1.0)
-    {
-      vector = this->vector();
-    }
-    return glm::normalize(vector);
-  }
+/// Return the matrix of any solid.
+glm::mat4x3 anySolid(Random& random, Solid kind, double reach)
+{
+  const double radius = std::exp2(uniform(random, -8.0, 2.0));
+  const double half = kind == Solid::Sphere ? radius : std::exp2(uniform(random, -8.0, 2.0));
+  const glm::dvec3 axis = kind == Solid::Sphere ? glm::dvec3(0.0, 0.0, 1.0) : unitVector(random);
+  return solidAlong(half * axis, radius, inCube(random, reach));
+}
 
-  /// Return the solid's matrix as the snapshot stores it.
-  glm::mat4x3 matrix(Solid kind, double reach)
-  {
-    const double radius = std::exp2(this->uniform(-8.0, 2.0));
-    glm::dmat4x3 matrix(radius);
-    if (kind != Solid::Sphere)
-    {
-      matrix = alongAxis(this->direction() * std::exp2(this->uniform(-8.0, 2.0)), radius);
-    }
-    matrix[3] = this->vector(reach);
-    return glm::mat4x3(matrix);
-  }
-
-  static glm::dmat4x3 alongAxis(const glm::dvec3& halfAxis, double radius)
-  {
-    const glm::dvec3 axis = glm::normalize(halfAxis);
-    const glm::dvec3 x = glm::normalize(
-      glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0)));
-    return { radius * x, radius * glm::cross(axis, x), halfAxis, glm::dvec3(0.0) };
-  }
-
-private:
-  std::mt19937 random_;
-};
+/// Return many of a kind.
+std::vector<glm::mat4x3> anySolids(Random& random, Solid kind, std::size_t count)
+{
+  std::vector<glm::mat4x3> solids(count);
+  std::generate(solids.begin(), solids.end(), [&] { return anySolid(random, kind, 30.0); });
+  return solids;
+}
 
 /// Return a point's depth inside a solid: negative outside.
 double depthIn(const PlacedSolid& solid, const glm::dvec3& point)
@@ -136,31 +110,27 @@ INSTANTIATE_TEST_SUITE_P(Of, Solids, testing::Values(Solid::Sphere, Solid::Cylin
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(Solids, linesCrossThemWhereTheyAreInside)
 {
-  RandomSolids random(1);
+  Random random(1);
   int crossed = 0;
   for (int i = 0; i < 20000; ++i)
   {
-    const PlacedSolid solid = placedSolid(GetParam(), random.matrix(GetParam(), 10.0));
+    const PlacedSolid solid = placedSolid(GetParam(), anySolid(random, GetParam(), 10.0));
     const double size = solid.radius + solid.halfLength;
-    const glm::dvec3 origin = solid.centre + 3.0 * size * random.vector();
+    const glm::dvec3 origin = solid.centre + 3.0 * size * inCube(random);
     const glm::dvec3 direction =
-      random.uniform(0.1, 10.0) * (solid.centre + 1.2 * size * random.vector() - origin);
+      uniform(random, 0.1, 10.0) * (solid.centre + 1.2 * size * inCube(random) - origin);
     const auto crossing = crossingOf(solid, origin, direction);
     // Depth is concave along the line; find its maximum.
-    double lower = -30.0;
-    double upper = 30.0;
+    const auto depthAt = [&](double t) { return depthIn(solid, origin + t * direction); };
+    double lower = -30.0, upper = 30.0;
     for (int step = 0; step < 200; ++step)
     {
-      const double a = lower + (upper - lower) / 3.0;
-      const double b = upper - (upper - lower) / 3.0;
-      (depthIn(solid, origin + a * direction) < depthIn(solid, origin + b * direction) ? lower
-                                                                                       : upper) =
-        depthIn(solid, origin + a * direction) < depthIn(solid, origin + b * direction) ? a : b;
+      const double a = (2.0 * lower + upper) / 3.0, b = (lower + 2.0 * upper) / 3.0;
+      (depthAt(a) < depthAt(b) ? lower : upper) = depthAt(a) < depthAt(b) ? a : b;
     }
-    const double deepest = depthIn(solid, origin + lower * direction);
+    const double deepest = depthAt(lower);
     if (std::abs(deepest) < 1e-9 * size)
     {
       continue; // it only touches
@@ -169,8 +139,8 @@ TEST_P(Solids, linesCrossThemWhereTheyAreInside)
     if (crossing)
     {
       ++crossed;
-      EXPECT_NEAR(depthIn(solid, origin + crossing->enters * direction), 0.0, 1e-9 * size);
-      EXPECT_NEAR(depthIn(solid, origin + crossing->leaves * direction), 0.0, 1e-9 * size);
+      EXPECT_NEAR(depthAt(crossing->enters), 0.0, 1e-9 * size);
+      EXPECT_NEAR(depthAt(crossing->leaves), 0.0, 1e-9 * size);
       EXPECT_LE(crossing->enters, lower);
       EXPECT_GE(crossing->leaves, lower);
     }
@@ -178,17 +148,16 @@ TEST_P(Solids, linesCrossThemWhereTheyAreInside)
   EXPECT_GT(crossed, 4000);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(Solids, aRayMeetsTheirSurfaceOrPassesByIt)
 {
-  RandomSolids random(2);
+  Random random(2);
   int met = 0;
   for (int i = 0; i < 20000; ++i)
   {
-    const PlacedSolid solid = placedSolid(GetParam(), random.matrix(GetParam(), 10.0));
+    const PlacedSolid solid = placedSolid(GetParam(), anySolid(random, GetParam(), 10.0));
     const double size = solid.radius + solid.halfLength;
-    const glm::dvec3 origin = solid.centre + 4.0 * size * random.direction();
-    const glm::dvec3 direction = solid.centre + 1.2 * size * random.vector() - origin;
+    const glm::dvec3 origin = solid.centre + 4.0 * size * unitVector(random);
+    const glm::dvec3 direction = solid.centre + 1.2 * size * inCube(random) - origin;
     const SolidPoint point = seenPoint(solid, origin, direction);
     EXPECT_NEAR(depthIn(solid, point.position), 0.0, 1e-12 * size);
     EXPECT_NEAR(glm::length(point.normal), 1.0, 1e-12);
@@ -209,7 +178,6 @@ TEST_P(Solids, aRayMeetsTheirSurfaceOrPassesByIt)
   EXPECT_LT(met, 19000);
 }
 
-//------------------------------------------------------------------------------
 /// For any light that the receiver faces; at half, once and twice the offset; near the origin and
 /// far away.
 TEST_P(Solids, noneShadowsItself)
@@ -217,19 +185,19 @@ TEST_P(Solids, noneShadowsItself)
   for (const double reach : { 1.0, 100.0, 10000.0 })
   {
     SCOPED_TRACE(reach);
-    RandomSolids random(3);
+    Random random(3);
     int dark = 0;
     for (int i = 0; i < 50000; ++i)
     {
-      const PlacedSolid solid = placedSolid(GetParam(), random.matrix(GetParam(), reach));
+      const PlacedSolid solid = placedSolid(GetParam(), anySolid(random, GetParam(), reach));
       const double size = solid.radius + solid.halfLength;
-      const glm::dvec3 origin = solid.centre + 4.0 * size * random.direction();
+      const glm::dvec3 origin = solid.centre + 4.0 * size * unitVector(random);
       const SolidPoint seen =
-        seenPoint(solid, origin, solid.centre + size * random.vector() - origin);
+        seenPoint(solid, origin, solid.centre + size * inCube(random) - origin);
       const glm::vec3 position(seen.position);
       const glm::vec3 normal(seen.normal);
       const glm::vec3 light =
-        glm::normalize(seen.normal + random.uniform(0.9, 1.1) * random.direction());
+        glm::normalize(seen.normal + uniform(random, 0.9, 1.1) * unitVector(random));
       const float noise = noiseOf(solid, seen);
       for (const float share : { 0.5f, 1.0f, 2.0f })
       {
@@ -241,7 +209,6 @@ TEST_P(Solids, noneShadowsItself)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Molecules show a bond as two sticks, one for each atom's colour, each rounded separately.
 class SolidPairs : public testing::TestWithParam<Solid>
 {
@@ -250,23 +217,22 @@ INSTANTIATE_TEST_SUITE_P(Of, SolidPairs, testing::Values(Solid::Cylinder, Solid:
 
 TEST_P(SolidPairs, halvesOfABondDoNotShadowEachOther)
 {
-  RandomSolids random(4);
+  Random random(4);
   int dark = 0;
   int facing = 0;
   for (int i = 0; i < 50000; ++i)
   {
-    const double radius = std::exp2(random.uniform(-6.0, 0.0));
-    const glm::dvec3 halfAxis = random.direction() * std::exp2(random.uniform(-4.0, 1.0));
-    const glm::dvec3 middle = random.vector(1000.0);
+    const double radius = std::exp2(uniform(random, -6.0, 0.0));
+    const glm::dvec3 halfAxis = unitVector(random) * std::exp2(uniform(random, -4.0, 1.0));
+    const glm::dvec3 middle = inCube(random, 1000.0);
     PlacedSolid halves[2];
     for (const int half : { 0, 1 })
     {
-      glm::dmat4x3 matrix = RandomSolids::alongAxis(halfAxis, radius);
-      matrix[3] = middle + (half == 0 ? -1.0 : 1.0) * halfAxis;
-      halves[half] = placedSolid(GetParam(), glm::mat4x3(matrix));
+      halves[half] = placedSolid(
+        GetParam(), solidAlong(halfAxis, radius, middle + (half == 0 ? -1.0 : 1.0) * halfAxis));
     }
-    const glm::dvec3 target = halves[0].centre + random.uniform(0.0, 1.0) * halfAxis;
-    const glm::dvec3 origin = target + 5.0 * random.direction();
+    const glm::dvec3 target = halves[0].centre + uniform(random, 0.0, 1.0) * halfAxis;
+    const glm::dvec3 origin = target + 5.0 * unitVector(random);
     const SolidPoint seen = seenPoint(halves[0], origin, target - origin);
     const glm::vec3 position(seen.position);
     const glm::vec3 normal(seen.normal);
@@ -277,7 +243,7 @@ TEST_P(SolidPairs, halvesOfABondDoNotShadowEachOther)
     const float noise = noiseOf(halves[0], seen);
     const glm::vec3 start = position + shadowRayOffsetInside(noise, 0.0f) * normal;
     const glm::vec3 light =
-      glm::normalize(seen.normal + random.uniform(0.95, 1.05) * random.direction());
+      glm::normalize(seen.normal + uniform(random, 0.95, 1.05) * unitVector(random));
     if (facesLight(normal, light))
     {
       ++facing;
@@ -288,52 +254,24 @@ TEST_P(SolidPairs, halvesOfABondDoNotShadowEachOther)
   EXPECT_EQ(dark, 0);
 }
 
-//------------------------------------------------------------------------------
 /// Parts of a bent line overlap.
 TEST(SolidBends, raysFromInsideATubeAreNotInItsShadow)
 {
-  RandomSolids random(7);
+  Random random(7);
   int begun = 0;
   for (int i = 0; i < 20000; ++i)
   {
-    const PlacedSolid tube = placedSolid(Solid::Tube, random.matrix(Solid::Tube, 10.0));
-    const glm::dvec3 start = tube.centre + (tube.radius + tube.halfLength) * random.vector();
+    const PlacedSolid tube = placedSolid(Solid::Tube, anySolid(random, Solid::Tube, 10.0));
+    const glm::dvec3 start = tube.centre + (tube.radius + tube.halfLength) * inCube(random);
     if (depthIn(tube, start) > 1e-9)
     {
       ++begun;
-      EXPECT_FALSE(blocks(tube, false, start, random.direction(), INFINITY));
+      EXPECT_FALSE(blocks(tube, false, start, unitVector(random), INFINITY));
     }
   }
   EXPECT_GT(begun, 1000);
 }
 
-//------------------------------------------------------------------------------
-TEST_P(Solids, boxesHoldThem)
-{
-  RandomSolids random(5);
-  for (int i = 0; i < 5000; ++i)
-  {
-    const glm::mat4x3 matrix = random.matrix(GetParam(), 100.0);
-    const PlacedSolid solid = placedSolid(GetParam(), matrix);
-    const Bounds box = boundsOf(solid);
-    glm::dvec3 least(INFINITY);
-    for (int j = 0; j < 200; ++j)
-    {
-      const glm::dvec3 from =
-        solid.centre + 10.0 * (solid.radius + solid.halfLength) * random.direction();
-      const glm::dvec3 point = seenPoint(solid, from, solid.centre - from).position;
-      ASSERT_TRUE(glm::all(glm::lessThanEqual(box.lower, point)));
-      ASSERT_TRUE(glm::all(glm::lessThanEqual(point, box.upper)));
-      least = glm::min(least, point - box.lower);
-    }
-    if (GetParam() == Solid::Sphere)
-    {
-      EXPECT_LT(std::max(least.x, std::max(least.y, least.z)), 0.2 * solid.radius); // no larger
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_P(Solids, meshesAreClosedAndInscribed)
 {
   if (GetParam() == Solid::Tube)
@@ -376,23 +314,18 @@ TEST_P(Solids, meshesAreClosedAndInscribed)
   }
 }
 
-//------------------------------------------------------------------------------
 /// In packets and alone, built and refitted, one-sided and two-sided.
 TEST(SolidTracing, theTracerAnswersAsTheyDo)
 {
-  RandomSolids random(6);
-  std::vector<glm::mat4x3> spheres, cylinders;
-  for (int i = 0; i < 300; ++i)
-  {
-    spheres.push_back(random.matrix(Solid::Sphere, 30.0));
-    cylinders.push_back(random.matrix(Solid::Cylinder, 30.0));
-  }
+  Random random(6);
+  std::vector<glm::mat4x3> spheres = anySolids(random, Solid::Sphere, 300);
   spheres[7] = glm::mat4x3(0.0f); // left out
-  Occluders occluders = occludersOf({ { Solid::Sphere, spheres }, { Solid::Cylinder, cylinders } });
+  Occluders occluders = occludersOf(
+    { { Solid::Sphere, spheres }, { Solid::Cylinder, anySolids(random, Solid::Cylinder, 300) } });
   std::vector<PlacedReceiver> placed;
   for (int i = 0; i < 4000; ++i)
   {
-    placed.push_back({ glm::vec3(random.vector(30.0)), glm::vec3(random.direction()), 0.001f });
+    placed.push_back({ glm::vec3(inCube(random, 30.0)), glm::vec3(unitVector(random)), 0.001f });
   }
   const ReceiverPixels receivers = rowOf(placed);
   EmbreeTracer tracer;
@@ -452,26 +385,20 @@ TEST(SolidTracing, theTracerAnswersAsTheyDo)
   }
 }
 
-//------------------------------------------------------------------------------
 /// A ray meets the solid that it enters first, or leaves first if it begins inside.
 TEST(SolidTracing, raysMeetTheNearest)
 {
-  RandomSolids random(7);
-  std::vector<glm::mat4x3> spheres, cylinders;
-  for (int i = 0; i < 100; ++i)
-  {
-    spheres.push_back(random.matrix(Solid::Sphere, 30.0));
-    cylinders.push_back(random.matrix(Solid::Cylinder, 30.0));
-  }
+  Random random(7);
   const Occluders occluders =
-    occludersOf({ { Solid::Sphere, spheres }, { Solid::Cylinder, cylinders } });
+    occludersOf({ { Solid::Sphere, anySolids(random, Solid::Sphere, 100) },
+      { Solid::Cylinder, anySolids(random, Solid::Cylinder, 100) } });
   EmbreeTracer tracer;
   tracer.update(occluders);
   int met = 0;
   for (int i = 0; i < 2000; ++i)
   {
-    const glm::vec3 origin(random.vector(30.0));
-    const glm::vec3 direction(random.direction());
+    const glm::vec3 origin(inCube(random, 30.0));
+    const glm::vec3 direction(unitVector(random));
     double nearest = std::numeric_limits<double>::infinity();
     std::uint32_t surfaceMet = 0;
     for (std::uint32_t surface = 0; surface < 2; ++surface)

@@ -51,7 +51,6 @@ glm::dvec3 placeOf(LightKind kind, const glm::dvec3& centred)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(SweptBox, meetsWhatIsOnTheWayToTheLight)
 {
   const Bounds start = boxAround({ 0.0, 0.0, 0.0 }, glm::dvec3(0.5));
@@ -71,21 +70,6 @@ TEST(SweptBox, meetsWhatIsOnTheWayToTheLight)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST(SweptBox, isAsWideAsTheLight)
-{
-  const Bounds start = boxAround({ 0.0, 0.0, 0.0 }, glm::dvec3(0.1));
-  const Bounds beside = boxAround({ 0.4, 0.0, 5.0 }, glm::dvec3(0.1));
-  for (const LightKind kind : { LightKind::Directional, LightKind::Point })
-  {
-    ShadowLight light = makeLight(kind, placeOf(kind, { 0.0, 0.0, 10.0 }));
-    EXPECT_FALSE(SweptBox(start, light, centreWorld).meets(beside));
-    light.area = discOfRadius(kind == LightKind::Directional ? 0.1 : 1.0);
-    EXPECT_TRUE(SweptBox(start, light, centreWorld).meets(beside));
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST(SweptBox, holdsAllRays)
 {
   std::mt19937 random(3);

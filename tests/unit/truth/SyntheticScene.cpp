@@ -1,7 +1,6 @@
 #include "SyntheticScene.h"
 
 #include "shadowtech/base/ShadowRay.h"
-#include "shadowtech/tracing/Embree.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/constants.hpp>
@@ -9,13 +8,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
+#include <limits>
 #include <memory>
 #include <random>
-#include <sstream>
-#include <stdexcept>
 
 namespace gnomon::test
 {
@@ -178,42 +174,6 @@ Mesh apart(const Mesh& mesh)
   return result;
 }
 
-//------------------------------------------------------------------------------
-Mesh readObj(const std::string& path)
-{
-  std::ifstream file(path);
-  if (!file)
-  {
-    throw std::runtime_error("cannot read " + path);
-  }
-  Mesh mesh;
-  for (std::string line; std::getline(file, line);)
-  {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind == "v")
-    {
-      glm::dvec3 point;
-      words >> point.x >> point.y >> point.z;
-      mesh.points.push_back(point);
-    }
-    else if (kind == "f")
-    {
-      std::vector<unsigned int> corners;
-      for (std::string corner; words >> corner;)
-      {
-        corners.push_back(static_cast<unsigned int>(std::stoul(corner)) - 1);
-      }
-      for (std::size_t i = 2; i < corners.size(); ++i)
-      {
-        mesh.triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
-      }
-    }
-  }
-  return mesh;
-}
-
 namespace
 {
 
@@ -298,58 +258,6 @@ void moveSurface(Occluders& occluders, std::size_t index, const glm::dvec3& by)
 namespace
 {
 
-/// Finds the nearest triangles along rays, for makeView().
-class Caster
-{
-public:
-  explicit Caster(const Occluders& occluders)
-    : device_(rtcNewDevice(nullptr), rtcReleaseDevice)
-    , scene_(rtcNewScene(this->device_.get()), rtcReleaseScene)
-  {
-    rtcSetSceneFlags(this->scene_.get(), RTC_SCENE_FLAG_ROBUST);
-    for (const Surface& surface : occluders.surfaces)
-    {
-      RTCGeometry geometry = rtcNewGeometry(this->device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-      auto* positions =
-        static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-          RTC_FORMAT_FLOAT3, sizeof(glm::vec3), std::max(surface.vertexCount, 1u)));
-      auto* triangles =
-        static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-          RTC_FORMAT_UINT3, sizeof(glm::uvec3), std::max(surface.triangleCount, 1u)));
-      triangles[0] = glm::uvec3(0);
-      for (std::uint32_t i = 0; i < surface.vertexCount; ++i)
-      {
-        positions[i] = occluders.positionsCentred[surface.firstVertex + i];
-      }
-      for (std::uint32_t i = 0; i < surface.triangleCount; ++i)
-      {
-        triangles[i] = occluders.triangles[surface.firstTriangle + i] - surface.firstVertex;
-      }
-      rtcCommitGeometry(geometry);
-      rtcAttachGeometry(this->scene_.get(), geometry);
-      rtcReleaseGeometry(geometry);
-    }
-    rtcCommitScene(this->scene_.get());
-  }
-
-  RTCHit nearest(const glm::dvec3& origin, const glm::dvec3& direction) const
-  {
-    RTCRayHit query = {};
-    const glm::vec3 from(origin);
-    const glm::vec3 along(direction);
-    query.ray = { from.x, from.y, from.z, 0.0f, along.x, along.y, along.z, 0.0f,
-      std::numeric_limits<float>::infinity(), ~0u, 0, 0 };
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    EmbreeContext context;
-    intersect(this->scene_.get(), context, query);
-    return query.hit;
-  }
-
-private:
-  std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device_;
-  std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
-};
-
 /// Return a pseudo-random number in [-1, 1] for a pixel.
 double jitter(std::uint32_t seed)
 {
@@ -389,7 +297,15 @@ View makeView(const Occluders& occluders, const Camera& camera)
     view.drawnSurfaces.push_back({ { { 0, occluders.surfaces[i].triangleCount, i } } });
   }
 
-  const Caster caster(occluders);
+  Occluders shown = occluders; // all of it, from both sides
+  for (Surface& surface : shown.surfaces)
+  {
+    surface.casts = true;
+    surface.oneSided = false;
+    surface.cutout = nullptr;
+  }
+  EmbreeTracer tracer;
+  tracer.update(shown);
   tbb::parallel_for(0, camera.height,
     [&](int y)
     {
@@ -399,12 +315,13 @@ View makeView(const Occluders& occluders, const Camera& camera)
           static_cast<std::size_t>(x);
         const double column = x + jitter(static_cast<std::uint32_t>(2 * i)) / 512.0;
         const double row = y + jitter(static_cast<std::uint32_t>(2 * i + 1)) / 512.0;
-        const RTCHit hit = caster.nearest(
-          images.rays.origin(column, row), glm::normalize(images.rays.direction(column, row)));
-        if (hit.geomID != RTC_INVALID_GEOMETRY_ID)
+        const auto hit = tracer.nearest(images.rays.origin(column, row),
+          glm::normalize(images.rays.direction(column, row)), 0.0f,
+          std::numeric_limits<float>::infinity());
+        if (hit)
         {
-          images.fragments[i] = { static_cast<float>(hit.geomID + 1),
-            static_cast<float>(hit.primID) };
+          images.fragments[i] =
+            glm::vec2(hit->surface + 1, hit->triangle - shown.surfaces[hit->surface].firstTriangle);
         }
       }
     });
@@ -421,21 +338,40 @@ ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera)
 }
 
 //------------------------------------------------------------------------------
+void place(
+  ReceiverPixels& pixels, std::size_t pixel, const PlacedReceiver& receiver, std::uint32_t surface)
+{
+  const auto& [position, normal, offset] = receiver;
+  pixels.positionX[pixel] = position.x;
+  pixels.positionY[pixel] = position.y;
+  pixels.positionZ[pixel] = position.z;
+  pixels.normalX[pixel] = normal.x;
+  pixels.normalY[pixel] = normal.y;
+  pixels.normalZ[pixel] = normal.z;
+  pixels.offset[pixel] = offset;
+  pixels.surface[pixel] = surface;
+}
+
+//------------------------------------------------------------------------------
+glm::vec3 positionOf(const ReceiverPixels& pixels, std::size_t pixel)
+{
+  return { pixels.positionX[pixel], pixels.positionY[pixel], pixels.positionZ[pixel] };
+}
+
+//------------------------------------------------------------------------------
+glm::vec3 normalOf(const ReceiverPixels& pixels, std::size_t pixel)
+{
+  return { pixels.normalX[pixel], pixels.normalY[pixel], pixels.normalZ[pixel] };
+}
+
+//------------------------------------------------------------------------------
 ReceiverPixels rowOf(const std::vector<PlacedReceiver>& receivers, std::uint32_t surface)
 {
   ReceiverPixels pixels;
   pixels.resize(static_cast<int>(receivers.size()), 1);
-  std::fill(pixels.surface.begin(), pixels.surface.end(), surface);
   for (std::size_t i = 0; i < receivers.size(); ++i)
   {
-    const auto& [position, normal, offset] = receivers[i];
-    pixels.positionX[i] = position.x;
-    pixels.positionY[i] = position.y;
-    pixels.positionZ[i] = position.z;
-    pixels.normalX[i] = normal.x;
-    pixels.normalY[i] = normal.y;
-    pixels.normalZ[i] = normal.z;
-    pixels.offset[i] = offset;
+    place(pixels, i, receivers[i], surface);
   }
   return pixels;
 }
@@ -478,163 +414,94 @@ ShadowLight boxLight(
   return light;
 }
 
-namespace
+//------------------------------------------------------------------------------
+ShadowLight withArea(ShadowLight light, const LightArea& area, int samples)
 {
-
-struct Segment
-{
-  glm::dvec3 a;
-  glm::dvec3 b;
-};
-
-/// Return the distance between two segments (Ericson, Real-Time Collision Detection, 5.1.9). The
-/// first one has a length; the second need not.
-double distanceBetween(const Segment& first, const Segment& second)
-{
-  const glm::dvec3 d = first.b - first.a;
-  const glm::dvec3 e = second.b - second.a;
-  const glm::dvec3 between = first.a - second.a;
-  const double dd = glm::dot(d, d);
-  const double ee = glm::dot(e, e);
-  const double de = glm::dot(d, e);
-  const double db = glm::dot(d, between);
-  const double eb = glm::dot(e, between);
-  const double denominator = dd * ee - de * de; // 0 for parallels
-  double s = denominator > 0.0 ? std::clamp((de * eb - db * ee) / denominator, 0.0, 1.0) : 0.0;
-  const double t = ee > 0.0 ? std::clamp((de * s + eb) / ee, 0.0, 1.0) : 0.0;
-  s = std::clamp((de * t - db) / dd, 0.0, 1.0);
-  return glm::length(first.a + s * d - (second.a + t * e));
+  light.area = area;
+  light.lightSamples = samples;
+  return light;
 }
 
-/// Return the ray of a pixel, if one is traced.
-ShadowRay rayOf(const ShadowRayLight& light, const Occluders& occluders,
-  const ReceiverPixels& receivers, std::size_t i)
-{
-  const std::uint32_t surface = receivers.surface[i];
-  if (surface == ReceiverPixels::notCovered || !occluders.surfaces[surface].receives)
-  {
-    return { glm::vec3(0.0f), glm::vec3(0.0f), false };
-  }
-  const glm::vec3 position(receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
-  const glm::vec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
-  return visitShadowRays(light,
-    [&](const auto& makeRay, float) { return makeRay(position, normal, receivers.offset[i]); });
-}
-
-/// A triangle that casts.
-struct CastingTriangle
-{
-  glm::dvec3 a, b, c;
-  bool oneSided;
-  const CutoutMask* cutout = nullptr;
-  std::array<glm::dvec2, 3> textureCoordinates = {}; ///< with a cut-out
-};
+//------------------------------------------------------------------------------
 std::vector<CastingTriangle> castingTriangles(const Occluders& occluders)
 {
   std::vector<CastingTriangle> result;
-  for (const Surface& surface : occluders.surfaces)
+  for (std::uint32_t i = 0; i < occluders.surfaces.size(); ++i)
   {
+    const Surface& surface = occluders.surfaces[i];
     for (std::uint32_t k = 0; surface.casts && k < surface.triangleCount; ++k)
     {
-      const glm::uvec3 corners = occluders.triangles[surface.firstTriangle + k];
-      result.push_back({ glm::dvec3(occluders.positionsCentred[corners.x]),
-        glm::dvec3(occluders.positionsCentred[corners.y]),
-        glm::dvec3(occluders.positionsCentred[corners.z]), surface.oneSided });
-      if (surface.cutout)
-      {
-        result.back().cutout = surface.cutout.get();
-        for (int corner = 0; corner < 3; ++corner)
-        {
-          result.back().textureCoordinates[static_cast<std::size_t>(corner)] =
-            surface.textureCoordinates[corners[corner] - surface.firstVertex];
-        }
-      }
+      const std::uint32_t triangle = surface.firstTriangle + k;
+      const glm::uvec3 corners = occluders.triangles[triangle];
+      result.push_back({ i, triangle,
+        { glm::dvec3(occluders.positionsCentred[corners.x]),
+          glm::dvec3(occluders.positionsCentred[corners.y]),
+          glm::dvec3(occluders.positionsCentred[corners.z]) } });
     }
   }
   return result;
 }
 
-/// Differences of floats are exact in double, so neighbours agree on their common edge.
-bool hits(const glm::dvec3& origin, const glm::dvec3& direction, double rayFar,
-  const CastingTriangle& triangle)
+//------------------------------------------------------------------------------
+std::optional<LineHit> meet(
+  const CastingTriangle& triangle, const glm::dvec3& origin, const glm::dvec3& direction)
 {
-  // The signed volumes of the ray's line with the three edges have one sign if it passes inside.
-  const glm::dvec3 v0 = triangle.a - origin;
-  const glm::dvec3 v1 = triangle.b - origin;
-  const glm::dvec3 v2 = triangle.c - origin;
-  const double u = glm::dot(glm::cross(v1, v2), direction);
-  const double v = glm::dot(glm::cross(v2, v0), direction);
-  const double w = glm::dot(glm::cross(v0, v1), direction);
-  const bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
-  const glm::dvec3 normal = glm::cross(triangle.b - triangle.a, triangle.c - triangle.a);
+  const auto& [a, b, c] = triangle.corners;
+  const glm::dvec3 volumes(glm::dot(glm::cross(b - origin, c - origin), direction),
+    glm::dot(glm::cross(c - origin, a - origin), direction),
+    glm::dot(glm::cross(a - origin, b - origin), direction));
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
   const double cosine = glm::dot(normal, direction);
-  if (!inside || cosine == 0.0 || (triangle.oneSided && cosine < 0.0))
+  const double sum = volumes.x + volumes.y + volumes.z;
+  if (cosine == 0.0 || sum == 0.0)
   {
-    return false;
+    return std::nullopt;
   }
-  const double t = glm::dot(v0, normal) / cosine;
-  if (t < 0.0 || t > rayFar)
-  {
-    return false;
-  }
-  const auto& [a, b, c] = triangle.textureCoordinates;
-  return !triangle.cutout ||
-    triangle.cutout->isDrawn(glm::vec2((u * a + v * b + w * c) / (u + v + w)));
+  return LineHit{ glm::dot(a - origin, normal) / cosine, cosine, volumes / sum };
 }
-
-} // namespace
 
 //------------------------------------------------------------------------------
 std::vector<float> traceBruteForce(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
-  const ShadowRayLight rayLight(light, occluders.frame.centre);
-  const double rayFar =
-    visitShadowRays(rayLight, [](const auto&, float end) { return static_cast<double>(end); });
   const std::vector<CastingTriangle> triangles = castingTriangles(occluders);
-  std::vector<float> visibility(receivers.size(), 1.0f);
-  tbb::parallel_for(std::size_t(0), receivers.size(),
-    [&](std::size_t i)
+  const auto stops = [&](const CastingTriangle& triangle, const ShadowRay& ray, float rayFar)
+  {
+    const Surface& surface = occluders.surfaces[triangle.surface];
+    const auto hit = meet(triangle, glm::dvec3(ray.origin), glm::dvec3(ray.direction));
+    if (!hit || !hit->isInside() || hit->at < 0.0 || hit->at > static_cast<double>(rayFar) ||
+      (surface.oneSided && hit->cosine < 0.0))
     {
-      const std::uint32_t surface = receivers.surface[i];
-      if (surface == ReceiverPixels::notCovered || !occluders.surfaces[surface].receives)
-      {
-        return;
-      }
-      const ShadowRay ray = rayOf(rayLight, occluders, receivers, i);
-      const bool lit = ray.traced &&
-        std::none_of(triangles.begin(), triangles.end(),
-          [&](const CastingTriangle& triangle)
-          { return hits(glm::dvec3(ray.origin), glm::dvec3(ray.direction), rayFar, triangle); });
-      visibility[i] = lit ? 1.0f : 0.0f;
+      return false;
+    }
+    glm::dvec2 place(0.0);
+    for (int k = 0; surface.cutout && k < 3; ++k)
+    {
+      const std::uint32_t corner = occluders.triangles[triangle.triangle][k] - surface.firstVertex;
+      place += hit->weights[k] * glm::dvec2(surface.textureCoordinates[corner]);
+    }
+    return !surface.cutout || surface.cutout->isDrawn(place);
+  };
+  std::vector<float> visibility(receivers.size(), 1.0f);
+  visitShadowRays(ShadowRayLight(light, occluders.frame.centre),
+    [&](const auto& makeRay, float rayFar)
+    {
+      tbb::parallel_for(std::size_t(0), receivers.size(),
+        [&](std::size_t i)
+        {
+          const std::uint32_t surface = receivers.surface[i];
+          if (surface != ReceiverPixels::notCovered && occluders.surfaces[surface].receives)
+          {
+            const ShadowRay ray =
+              makeRay(positionOf(receivers, i), normalOf(receivers, i), receivers.offset[i]);
+            const bool lit = ray.traced &&
+              std::none_of(triangles.begin(), triangles.end(),
+                [&](const CastingTriangle& triangle) { return stops(triangle, ray, rayFar); });
+            visibility[i] = lit ? 1.0f : 0.0f;
+          }
+        });
     });
   return visibility;
-}
-
-//------------------------------------------------------------------------------
-double edgeDistance(const ShadowLight& light, const Occluders& occluders,
-  const ReceiverPixels& receivers, std::size_t pixel)
-{
-  const ShadowRayLight rayLight(light, occluders.frame.centre);
-  const ShadowRay ray = rayOf(rayLight, occluders, receivers, pixel);
-  if (!ray.traced)
-  {
-    return 1.0;
-  }
-  const glm::dvec3 origin(ray.origin);
-  // A directional light's ray ends where it has left the scene for certain.
-  const double rayFar =
-    visitShadowRays(rayLight, [](const auto&, float end) { return static_cast<double>(end); });
-  const double length = std::min(rayFar, 4.0 * occluders.allCentred.radius());
-  const Segment segment{ origin, origin + length * glm::dvec3(ray.direction) };
-  double closest = std::numeric_limits<double>::infinity();
-  for (const CastingTriangle& triangle : castingTriangles(occluders))
-  {
-    closest = std::min({ closest, distanceBetween(segment, { triangle.a, triangle.b }),
-      distanceBetween(segment, { triangle.b, triangle.c }),
-      distanceBetween(segment, { triangle.c, triangle.a }) });
-  }
-  return closest / occluders.allCentred.radius();
 }
 
 //------------------------------------------------------------------------------

@@ -1,14 +1,16 @@
 #pragma once
 
+#include "lights/LightArea.h"
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Receivers.h"
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
 /// @file
@@ -36,8 +38,6 @@ Mesh makeSphere(int rings, int segments, double bumps = 0.0);
 Mesh makeTriangleSoup(int count, unsigned int seed);
 /// Return the same triangles, each with its own corners, at exactly the same places.
 Mesh apart(const Mesh& mesh);
-/// Return the mesh of a Wavefront file; polygons are fanned.
-Mesh readObj(const std::string& path);
 
 /// One prop: a mesh and its matrix.
 struct Prop
@@ -93,6 +93,10 @@ struct PlacedReceiver
   glm::vec3 normal;
   float offset; ///< of its shadow ray
 };
+void place(ReceiverPixels& pixels, std::size_t pixel, const PlacedReceiver& receiver,
+  std::uint32_t surface = 0);
+glm::vec3 positionOf(const ReceiverPixels& pixels, std::size_t pixel);
+glm::vec3 normalOf(const ReceiverPixels& pixels, std::size_t pixel);
 /// Return a row of receivers of one surface.
 ReceiverPixels rowOf(const std::vector<PlacedReceiver>& receivers, std::uint32_t surface = 0);
 
@@ -104,14 +108,35 @@ ShadowLight pointLight(const glm::dvec3& position);
 ShadowLight boxLight(
   const glm::dvec3& direction, const glm::dvec3& position, const glm::dvec3& size);
 
+ShadowLight withArea(ShadowLight light, const LightArea& area, int samples = 64);
+
+/// A triangle that casts, with its corners centred.
+struct CastingTriangle
+{
+  std::uint32_t surface;
+  std::uint32_t triangle; ///< of the snapshot
+  std::array<glm::dvec3, 3> corners;
+};
+std::vector<CastingTriangle> castingTriangles(const Occluders& occluders);
+
+/// Where a line meets a triangle's plane.
+struct LineHit
+{
+  double at;          ///< in lengths of the direction
+  double cosine;      ///< of direction and normal, times their lengths
+  glm::dvec3 weights; ///< barycentric
+
+  double leastWeight() const { return glm::min(glm::min(weights.x, weights.y), weights.z); }
+  bool isInside() const { return this->leastWeight() >= 0.0; }
+};
+/// Intersect by three volumes; none if the line lies along the plane. Differences of floats are
+/// exact in double, so the signs of weights agree on an edge that neighbours share.
+std::optional<LineHit> meet(
+  const CastingTriangle& triangle, const glm::dvec3& origin, const glm::dvec3& direction);
+
 /// Return visibility by every triangle against every ray, in double precision.
 std::vector<float> traceBruteForce(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers);
-
-/// Return the smallest distance between a pixel's shadow ray and an edge of a casting triangle,
-/// over the largest coordinate of the scene.
-double edgeDistance(const ShadowLight& light, const Occluders& occluders,
-  const ReceiverPixels& receivers, std::size_t pixel);
 
 /// Return visibility by a new EmbreeTracer.
 std::vector<float> trace(

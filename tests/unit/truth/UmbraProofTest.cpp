@@ -160,7 +160,6 @@ bool isProved(const Blocked& blocked, EmbreeTracer& tracer)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(UmbraProof, FindsBlockersThatAreLargeEnough)
 {
   Random random(1);
@@ -175,8 +174,7 @@ TEST(UmbraProof, FindsBlockersThatAreLargeEnough)
   EXPECT_EQ(proved, cases);
 }
 
-//------------------------------------------------------------------------------
-TEST(UmbraProof, ProvesOnlyWhatIsBlocked)
+TEST(UmbraProof, ProvesNoLitReceiverDark)
 {
   Random random(2);
   int proved = 0;
@@ -205,7 +203,6 @@ TEST(UmbraProof, ProvesOnlyWhatIsBlocked)
   EXPECT_GT(refused, 500);
 }
 
-//------------------------------------------------------------------------------
 TEST(UmbraProof, LeavesOutBlockersBehindTheReceiversOrTheLight)
 {
   const Bounds box{ glm::dvec3(-0.1), glm::dvec3(0.1) };

@@ -113,7 +113,6 @@ const std::array<int, 3> background{ 51, 102, 153 };
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, drawsWithoutADisplayAndWithoutAWord)
 {
   ASSERT_EQ(std::getenv("DISPLAY"), nullptr);
@@ -127,7 +126,6 @@ TEST_F(EGLRenderWindow, drawsWithoutADisplayAndWithoutAWord)
   EXPECT_GT(countColours(picture), 100u); // and shaded
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, asksForOpenGL45AndTellsWhatItGot)
 {
   vtkNew<vtkGnomonEGLRenderWindow> window;
@@ -143,7 +141,6 @@ TEST_F(EGLRenderWindow, asksForOpenGL45AndTellsWhatItGot)
   EXPECT_EQ(window->SupportsOpenGL(), 1);
 }
 
-//------------------------------------------------------------------------------
 /// A renderer asks for the depths' bits when it first places the clipping planes. VTK's window asks
 /// the default framebuffer, which there is none of here: an error of OpenGL, and 0 bits, for which
 /// the nearer plane was put ten times as far away as it need be.
@@ -173,7 +170,6 @@ TEST_F(EGLRenderWindow, clippingPlanesArePlacedBetweenFramesAsBeforeTheFirst)
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, twoWindowsAlternate)
 {
   const auto first = makeWindow(64, 48);
@@ -203,7 +199,6 @@ TEST_F(EGLRenderWindow, twoWindowsAlternate)
   EXPECT_EQ(readPicture(second), secondPicture);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, oneWindowGoesAndTheOtherDrawsOn)
 {
   const auto staying = makeWindow(64, 48);
@@ -219,7 +214,6 @@ TEST_F(EGLRenderWindow, oneWindowGoesAndTheOtherDrawsOn)
   EXPECT_EQ(readPicture(staying), picture);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, followsItsSize)
 {
   const auto window = makeWindow(100, 100);
@@ -236,7 +230,6 @@ TEST_F(EGLRenderWindow, followsItsSize)
   EXPECT_EQ(wide, readPicture(fresh));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, multisamplingIsOffUntilAskedFor)
 {
   const auto window = makeWindow(100, 100);
@@ -250,7 +243,6 @@ TEST_F(EGLRenderWindow, multisamplingIsOffUntilAskedFor)
   EXPECT_GT(countColours(smooth), countColours(aliased)); // edges mix colours
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, windowToImageFilterReadsTheSamePixels)
 {
   const auto window = makeWindow(90, 70);
@@ -266,7 +258,6 @@ TEST_F(EGLRenderWindow, windowToImageFilterReadsTheSamePixels)
   EXPECT_TRUE(std::equal(picture.begin(), picture.end(), pixels));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, depthIsReadable)
 {
   const auto window = makeWindow(90, 70);
@@ -277,7 +268,6 @@ TEST_F(EGLRenderWindow, depthIsReadable)
   EXPECT_LT(depth->GetValue(35 * 90 + 45), 1.0f); // sphere
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, startsAgainAfterFinalize)
 {
   const auto window = makeWindow(64, 48);
@@ -292,7 +282,6 @@ TEST_F(EGLRenderWindow, startsAgainAfterFinalize)
   EXPECT_EQ(readPicture(window), picture);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, aRendererOutlivesItsWindow)
 {
   const auto renderer = makeSphereScene();
@@ -312,7 +301,6 @@ TEST_F(EGLRenderWindow, aRendererOutlivesItsWindow)
   EXPECT_EQ(renderer->GetRenderWindow(), nullptr);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, everyListedDeviceCanBeAskedFor)
 {
   const auto reference = makeWindow(64, 48);
@@ -330,7 +318,6 @@ TEST_F(EGLRenderWindow, everyListedDeviceCanBeAskedFor)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, aDeviceThatIsNotThereIsAnErrorAndNoCrash)
 {
   const auto window = makeWindow(64, 48);
@@ -348,7 +335,6 @@ TEST_F(EGLRenderWindow, aDeviceThatIsNotThereIsAnErrorAndNoCrash)
   EXPECT_GT(countColours(readPicture(window)), 50u);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, pixelsBeforeTheFirstFrameAreAnError)
 {
   const auto window = makeWindow(8, 8);
@@ -366,7 +352,6 @@ TEST_F(EGLRenderWindow, pixelsBeforeTheFirstFrameAreAnError)
   expectError(window->SetZbufferData(0, 0, 7, 7, floats.data()));
 }
 
-//------------------------------------------------------------------------------
 // X's interactor is the one that VTK's factory makes here, with and without an X server.
 TEST_F(EGLRenderWindow, interactorsDrawAndOnlyXsIsAnError)
 {
@@ -399,7 +384,6 @@ TEST_F(EGLRenderWindow, interactorsDrawAndOnlyXsIsAnError)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, callsOnASecondThreadAreOneErrorUntilTheFirstReleasesTheContext)
 {
   const auto window = makeWindow(64, 48);
@@ -444,7 +428,6 @@ TEST_F(EGLRenderWindow, callsOnASecondThreadAreOneErrorUntilTheFirstReleasesTheC
   EXPECT_EQ(readPicture(window), picture);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, saysOneErrorInAForkedProcess)
 {
   const auto window = makeWindow(64, 48);
@@ -470,7 +453,6 @@ TEST_F(EGLRenderWindow, saysOneErrorInAForkedProcess)
   EXPECT_EQ(readPicture(window), picture);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(EGLRenderWindow, printsWhatItStandsOn)
 {
   vtkNew<vtkGnomonEGLRenderWindow> window;
@@ -482,7 +464,6 @@ TEST_F(EGLRenderWindow, printsWhatItStandsOn)
   EXPECT_THAT(text.str(), HasSubstr("Context: EGL "));
 }
 
-//------------------------------------------------------------------------------
 // The tests below need an environment of their own, which their registration with CTest sets.
 
 using EGLRenderWindowWithoutEgl = EGLRenderWindow;

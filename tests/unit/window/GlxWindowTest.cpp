@@ -36,7 +36,6 @@ std::vector<unsigned char> draw(vtkRenderWindow* window)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 // Both windows draw into VTK's framebuffers with the same driver, so that not a byte may differ.
 TEST(GlxWindow, showsTheSameBytesAsTheWindowWithoutADisplay)
 {
@@ -51,7 +50,6 @@ TEST(GlxWindow, showsTheSameBytesAsTheWindowWithoutADisplay)
   EXPECT_TRUE(draw(withoutDisplay) == expected);
 }
 
-//------------------------------------------------------------------------------
 // A thread has a context of GLX or of EGL. While it has one of EGL, GLX ends the process.
 TEST(GlxWindow, takesTurnsWithTheWindowWithoutADisplay)
 {
@@ -89,7 +87,6 @@ TEST(GlxWindow, takesTurnsWithTheWindowWithoutADisplay)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(GlxWindow, itsInteractorIsHarmlessAtTheWindowWithoutADisplay)
 {
   vtkNew<vtkGnomonEGLRenderWindow> window;
@@ -101,7 +98,6 @@ TEST(GlxWindow, itsInteractorIsHarmlessAtTheWindowWithoutADisplay)
   EXPECT_FALSE(draw(window).empty());
 }
 
-//------------------------------------------------------------------------------
 // On the screen, and then through the window that QVTKOpenGLNativeWidget and other toolkits'
 // widgets draw through: one without a context of its own, here that of the window on the screen.
 TEST(GlxWindow, showsTheSameBytesOnTheScreenAndInAnotherToolkitsContext)

@@ -71,7 +71,6 @@ std::vector<unsigned char> drawWithoutDisplay()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(QtWidget, showsTheSameBytesAsTheWindowWithoutADisplay)
 {
   const auto expected = drawWithoutDisplay();
