@@ -25,11 +25,6 @@ struct Misuse
   const char* text; ///< a part of what is said
 };
 
-vtkLight* onlyLight(PassScene& scene)
-{
-  return vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(0));
-}
-
 vtkActor* firstActor(PassScene& scene)
 {
   return scene.renderer->GetActors()->GetLastActor();
@@ -41,11 +36,6 @@ void shadeFiner(PassScene& scene)
   vtkNew<vtkSSAAPass> finer;
   finer->SetDelegatePass(steps);
   scene.pass->SetDelegatePass(finer);
-}
-
-std::string nameOfMisuse(const testing::TestParamInfo<Misuse>& misuse)
-{
-  return misuse.param.name;
 }
 
 class ComplaintsOf
@@ -93,8 +83,9 @@ INSTANTIATE_TEST_SUITE_P(All, ComplaintsOf,
         scene.pass->SetSetting("kernel_size", "3");
       },
       [](PassScene& scene) { scene.pass->SetTechnique("pcf"); }, "kernel_size" },
-    Misuse{ "headlight", [](PassScene& scene) { onlyLight(scene)->SetLightTypeToHeadlight(); },
-      [](PassScene& scene) { onlyLight(scene)->SetLightTypeToSceneLight(); },
+    Misuse{ "headlight",
+      [](PassScene& scene) { lightOf(scene.renderer)->SetLightTypeToHeadlight(); },
+      [](PassScene& scene) { lightOf(scene.renderer)->SetLightTypeToSceneLight(); },
       "only light is a headlight" },
     Misuse{ "leftOut",
       [](PassScene& scene) { firstActor(scene)->GetProperty()->SetRepresentationToWireframe(); },
@@ -103,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(All, ComplaintsOf,
     Misuse{ "resolution", shadeFiner,
       [](PassScene& scene) { scene.pass->SetDelegatePass(nullptr); },
       "shades at another resolution" }),
-  nameOfMisuse);
+  byName);
 
 TEST_P(ComplaintsOf, misuseIsSaidOnceUntilItIsMended)
 {

@@ -5,24 +5,10 @@
 
 #include "Scene.h"
 
-#include "shadowtech/base/Gl.h"
-
-#include <vtkAnnotatedCubeActor.h>
-#include <vtkAxesActor.h>
-#include <vtkAxisActor.h>
-#include <vtkAxisFollower.h>
-#include <vtkImageProperty.h>
-#include <vtkImageSlice.h>
-#include <vtkImageSliceMapper.h>
-#include <vtkImageStack.h>
-#include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLPolyDataMapper.h>
-#include <vtkOpenGLRenderWindow.h>
-#include <vtkPropAssembly.h>
 #include <vtkRenderStepsPass.h>
 #include <vtkShaderProperty.h>
 #include <vtkTextActor.h>
-#include <vtkTextProperty.h>
 #include <vtkToneMappingPass.h>
 
 using namespace gnomon::test;
@@ -152,6 +138,29 @@ TEST_F(Deferred, OtherPropsThanOpaqueOnesComeAfterwards)
   this->expectTheSame("text on top");
   this->scene.renderer->UseFXAAOn();
   this->expectTheSame("smoothed");
+}
+
+TEST_F(Deferred, WhereverThePictureIs)
+{
+  this->scene.renderer->SetViewport(0.3, 0.2, 0.9, 0.8);
+  this->expectTheSame("in a part of the window");
+  this->scene.renderer->SetViewport(0.35, 0.2, 0.95, 0.8); // the same size, elsewhere
+  this->expectTheSame("in another part");
+  const Picture there = this->draw(vtkGnomonShadowPass::ROUTE_AUTO);
+  this->scene.renderer->SetViewport(0.3, 0.2, 0.9, 0.8);
+  const Picture back = this->scene.render();
+  EXPECT_GT(differingPixels(there, back), 100u);
+  this->scene.pass->SetSetting("light_seed", "7"); // rays start from the same receivers again
+  EXPECT_EQ(differingPixels(this->scene.render(), back), 0u);
+  EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), back), 0u);
+  vtkNew<vtkRenderer> below;
+  below->SetBackground(0.5, 0.0, 0.0);
+  this->scene.window->AddRenderer(below);
+  this->scene.window->SetNumberOfLayers(2);
+  this->scene.renderer->SetLayer(1);
+  this->expectTheSame("in front of another renderer");
+  this->scene.window->SetSize(120, 300);
+  this->expectTheSame("in a window of another size");
 }
 
 TEST_F(Deferred, IntoColoursOfFloats)

@@ -3,8 +3,6 @@
 #include "BuiltinPass.h"
 #include "PassScene.h"
 
-#include <vtkOpenGLSphereMapper.h>
-
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
 
@@ -42,8 +40,7 @@ public:
   std::vector<double> truth(const VisibilityImages& centres)
   {
     const VisibilityImages fine = this->draw("1", perSide * side);
-    auto* light = vtkLight::SafeDownCast(
-      this->scene_.renderer->GetLights()->GetItemAsObject(centres.sceneIndices[0]));
+    vtkLight* const light = lightOf(this->scene_.renderer, centres.sceneIndices[0]);
     vtkCamera* camera = this->scene_.renderer->GetActiveCamera();
     std::vector<double> means;
     for (std::size_t i = 0; i < centres.coverage.size(); ++i)

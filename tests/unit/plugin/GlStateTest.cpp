@@ -203,11 +203,13 @@ std::ostream& operator<<(std::ostream& stream, const Drawing& drawing)
   return stream << drawing.name;
 }
 
+constexpr const char* routeNames[] = { "Auto", "Inline", "Image", "Deferred" };
+
 Drawing byTechnique(const char* technique, int route, const char* setting = nullptr,
   const char* value = nullptr, bool textured = false)
 {
-  std::string name = std::string(technique) + std::to_string(route) +
-    (setting ? std::string(setting) + value : "") + (textured ? "Textured" : "");
+  std::string name = std::string(technique) + routeNames[route] +
+    (setting ? std::string("_") + setting + "_" + value : "") + (textured ? "Textured" : "");
   return { std::move(name),
     [=](PassScene& scene) -> vtkSmartPointer<vtkRenderPass>
     {
@@ -231,8 +233,8 @@ Drawing byTechnique(const char* technique, int route, const char* setting = null
 /// A picture from each point of a light.
 Drawing fromPoints(const Way& way, int samplesPerFrame, int multiSamples)
 {
-  return { std::string("points") + way.technique + std::to_string(way.route) +
-      std::to_string(multiSamples),
+  return { std::string("points_") + way.technique + routeNames[way.route] +
+      (multiSamples > 0 ? "Multisampled" : ""),
     [=](PassScene& scene) -> vtkSmartPointer<vtkRenderPass>
     {
       vtkNew<vtkGnomonLightSamplingPass> sampling;

@@ -105,13 +105,12 @@ TEST_P(HardMaps, thinPostsCastWhereverTheyCoverTexelCentres)
   scene.pass->SetTechnique("raytraced");
   const VisibilityImages traced = drawKept(scene);
   const Agreement agreement = compareVisibility(mapped, traced);
-  std::size_t shadow = 0;
-  for (std::size_t i = 0; i < traced.coverage.size(); ++i)
-  {
-    shadow +=
-      traced.coverage[i] > 0.0f && traced.normalZ[i] > 0.9f && traced.visibility[0][i] == 0.0f ? 1
-                                                                                               : 0;
-  }
+  const std::size_t shadow = countPixels(traced,
+    [&](std::size_t i)
+    {
+      return traced.coverage[i] > 0.0f && traced.normalZ[i] > 0.9f &&
+        traced.visibility[0][i] == 0.0f;
+    });
   EXPECT_GT(shadow, 150u);
   EXPECT_LE(agreement.wrong, shadow / 2);
 }

@@ -215,8 +215,7 @@ TEST_P(LifeCycle, passMovedToAnotherWindowAndBackManyTimes)
 
 TEST_P(LifeCycle, lightSamplingReleasesEverything)
 {
-  auto* spot = vtkLight::SafeDownCast(this->scene_.renderer->GetLights()->GetItemAsObject(1));
-  vtkGnomonLightKeys::SetSetting(spot, "light_radius", "0.5");
+  set(lightOf(this->scene_.renderer, 1), "light_radius", "0.5");
   this->scene_.usePlain();
   this->draw();
   const LiveObjects plain = countLiveObjects(this->scene_.window);
@@ -243,9 +242,7 @@ TEST_P(LifeCycle, lightSamplingReleasesEverything)
   {
     PassScene other(40, 30);
     fillWithSunAndSpot(other);
-    vtkGnomonLightKeys::SetSetting(
-      vtkLight::SafeDownCast(other.renderer->GetLights()->GetItemAsObject(1)), "light_radius",
-      "0.5");
+    set(lightOf(other.renderer, 1), "light_radius", "0.5");
     other.choose(GetParam());
     sampling->SetDelegatePass(other.pass);
     other.renderer->SetPass(sampling);

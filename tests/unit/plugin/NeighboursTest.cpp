@@ -5,7 +5,6 @@
 
 #include "shadowtech/base/Kernel.h"
 
-#include <vtkActor2D.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDataObject.h>
 #include <vtkFixedPointVolumeRayCastMapper.h>
@@ -14,12 +13,8 @@
 #include <vtkInformation.h>
 #include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPiecewiseFunction.h>
-#include <vtkPolyDataMapper2D.h>
-#include <vtkProperty2D.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
-#include <vtkTextActor.h>
-#include <vtkTextProperty.h>
 #include <vtkVolume.h>
 #include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>

@@ -179,8 +179,7 @@ TEST_P(PassChains, WithoutShadowsTheyDrawTheSame)
   vtkActor* actor = this->scene.add(pane);
   actor->GetProperty()->SetOpacity(0.5);
   actor->GetProperty()->SetColor(1.0, 0.0, 0.0);
-  vtkLight::SafeDownCast(this->scene.renderer->GetLights()->GetItemAsObject(0))
-    ->SetShadowAttenuation(0.0f);
+  lightOf(this->scene.renderer)->SetShadowAttenuation(0.0f);
   this->useChain(chain);
   const Picture with = this->scene.render();
   const Pass inside = chain.inner ? chain.inner() : steps();

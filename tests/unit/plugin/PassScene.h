@@ -261,6 +261,17 @@ double largestDifference(const std::vector<float>& a, const std::vector<float>& 
 std::size_t countDifferences(
   const std::vector<float>& a, const std::vector<float>& b, double tolerance = 0.0);
 ///@}
+/// Count the pixels for whose number holds() is true.
+template <typename Holds>
+std::size_t countPixels(const VisibilityImages& kept, const Holds& holds)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    count += holds(i) ? 1 : 0;
+  }
+  return count;
+}
 /// Count the pixels between light and shadow.
 std::size_t countBetween(const std::vector<float>& visibility);
 

@@ -103,15 +103,12 @@ void addBoxes(PassScene& scene)
 
 std::size_t visible(const VisibilityImages& kept, float visibility, float normalZ)
 {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-  {
-    count +=
-      kept.coverage[i] > 0.0f && kept.normalZ[i] > normalZ && kept.visibility[0][i] == visibility
-      ? 1
-      : 0;
-  }
-  return count;
+  return countPixels(kept,
+    [&](std::size_t i)
+    {
+      return kept.coverage[i] > 0.0f && kept.normalZ[i] > normalZ &&
+        kept.visibility[0][i] == visibility;
+    });
 }
 
 /// Return the mean difference of two images over covered pixels; there must be a penumbra.
@@ -330,12 +327,10 @@ TEST_F(Planar, shadowsEndWhereTheirReceiverEnds)
   const VisibilityImages truth = drawKept(scene);
   scene.pass->SetTechnique("planar");
   const VisibilityImages& kept = drawKept(scene);
-  std::size_t falseShadow = 0;
-  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-  {
-    falseShadow += kept.visibility[0][i] < truth.visibility[0][i] - 0.5f ? 1 : 0;
-  }
-  EXPECT_LE(falseShadow, 20u);
+  EXPECT_LE(countPixels(kept,
+              [&](std::size_t i) { return kept.visibility[0][i] < truth.visibility[0][i] - 0.5f; }),
+    20u)
+    << "false shadow";
   const Acne onSphere = countAcne(
     kept,
     [](const glm::dvec3& position)
@@ -384,15 +379,12 @@ TEST_F(Planar, noMorePlanesThanAskedForShowShadows)
   EXPECT_EQ(scene.report().lights[0].planes, 2);
   const auto darkOnUpper = [](const VisibilityImages& kept)
   {
-    std::size_t dark = 0;
-    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-    {
-      dark += kept.coverage[i] > 0.0f && std::abs(positionOf(kept, i).z - 0.5) < 0.01 &&
-          kept.normalZ[i] > 0.99f && kept.visibility[0][i] == 0.0f
-        ? 1
-        : 0;
-    }
-    return dark;
+    return countPixels(kept,
+      [&](std::size_t i)
+      {
+        return kept.coverage[i] > 0.0f && std::abs(positionOf(kept, i).z - 0.5) < 0.01 &&
+          kept.normalZ[i] > 0.99f && kept.visibility[0][i] == 0.0f;
+      });
   };
   EXPECT_GT(darkOnUpper(scene.pass->GetVisibility()), 100u);
   const std::int64_t offBoth = scene.report().lights[0].pixelsOffPlanes;

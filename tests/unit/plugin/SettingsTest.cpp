@@ -26,7 +26,7 @@ protected:
   Settings()
   {
     fillUnderSun(this->scene);
-    this->sun = vtkLight::SafeDownCast(this->scene.renderer->GetLights()->GetItemAsObject(0));
+    this->sun = lightOf(this->scene.renderer);
   }
 
   PassScene scene{ 200, 150 };

@@ -12,18 +12,13 @@ constexpr int side = 200; // pixels
 
 using Skipping = PassTest;
 
-vtkLight* lightOf(const BuiltinPass& scene, int index)
-{
-  return vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(index));
-}
-
 /// Return a light's visibility as the only light, with no earlier frame by that camera: all of it
 /// is traced.
 std::vector<float> traceAlone(const BuiltinPass& scene, const glm::dvec3& position, int index)
 {
   for (int i = 0; i < scene.renderer->GetLights()->GetNumberOfItems(); ++i)
   {
-    lightOf(scene, i)->SetSwitch(i == index);
+    lightOf(scene.renderer, i)->SetSwitch(i == index);
   }
   for (const double lift : { 0.1, 0.0 })
   {

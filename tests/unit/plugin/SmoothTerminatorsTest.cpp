@@ -3,7 +3,6 @@
 
 #include "PassScene.h"
 
-#include <vtkGlyph3DMapper.h>
 #include <vtkPolyDataNormals.h>
 
 using namespace gnomon::test;

@@ -18,7 +18,6 @@
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
 #include <vtkPointGaussianMapper.h>
-#include <vtkPropAssembly.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <optional>
@@ -439,17 +438,14 @@ TEST_F(SolidsTest, mapsShowThemWithoutAcne)
     SCOPED_TRACE(technique);
     setTechnique(scene, technique);
     const VisibilityImages& kept = drawKept(scene);
-    std::size_t darkSolids = 0;
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    const auto isDarkSolid = [&](std::size_t i)
     {
-      const bool ofSolid = positionOf(kept, i).z > 0.5;
-      const bool faces = cosineTowards(kept, i, light) > 0.05;
-      darkSolids += ofSolid && faces && kept.visibility[0][i] < 0.5f ? 1 : 0;
-      wrong += std::abs(kept.visibility[0][i] - truth.visibility[0][i]) > 0.5f ? 1 : 0;
-    }
-    EXPECT_EQ(darkSolids, 0u);
-    EXPECT_LT(wrong, kept.coverage.size() / 100);
+      return positionOf(kept, i).z > 0.5 && cosineTowards(kept, i, light) > 0.05 &&
+        kept.visibility[0][i] < 0.5f;
+    };
+    EXPECT_EQ(countPixels(kept, isDarkSolid), 0u);
+    EXPECT_LT(
+      countDifferences(kept.visibility[0], truth.visibility[0], 0.5), kept.coverage.size() / 100);
   }
 }
 
@@ -534,12 +530,8 @@ TEST_F(SolidsTest, atomsAndBondsCast)
   const auto inShadow = [&]
   {
     const VisibilityImages& kept = drawKept(scene);
-    std::size_t dark = 0;
-    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-    {
-      dark += positionOf(kept, i).z < -1.9 && kept.visibility[0][i] == 0.0f ? 1 : 0;
-    }
-    return dark;
+    return countPixels(kept,
+      [&](std::size_t i) { return positionOf(kept, i).z < -1.9 && kept.visibility[0][i] == 0.0f; });
   };
   const std::size_t all = inShadow();
   mapper->RenderBondsOff();

@@ -171,8 +171,7 @@ TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
   PassScene scene(100, 80);
   scene.addSun({ 1.0, 0.3, -1.5 });
   fillRoundLamp(scene);
-  vtkGnomonLightKeys::SetMapSize(
-    vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(1)), hugeMap);
+  vtkGnomonLightKeys::SetMapSize(lightOf(scene.renderer, 1), hugeMap);
   scene.render();
   if (isOnGpu())
   {
