@@ -4,6 +4,7 @@
 
 #include "lights/LightSpace.h"
 #include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/ShadowRay.h"
 
 #include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
@@ -28,7 +29,7 @@ class LightViewsGlsl : public GlslTest
 struct FoundView
 {
   glm::vec4 inFace;    ///< the point in its face, with the face
-  glm::vec4 seen;      ///< texel, view
+  glm::vec4 seen;      ///< texel, view, and if the light reaches the point
   glm::vec4 onCubeMap; ///< texel, view and face of a lookup on the whole cube
 };
 
@@ -44,9 +45,13 @@ std::vector<FoundView> runLightViews(
   vec3 p = given[i].xyz;
   int face = cubeFaceOf(p);
   ViewPoint point;
+  bool inBox = true;
+#if VIEWS_BOX_LIGHT
+  inBox = insideBox(p, lightBox_LIGHT);
+#endif
   bool found = findView_LIGHT(p, -p, point);
   result[i].inFace = vec4(cubeFaceFromLight(face, p), float(face));
-  result[i].seen = vec4(point.texel, found ? float(point.view) : -1.0, 0.0);
+  result[i].seen = vec4(point.texel, found ? float(point.view) : -1.0, inBox ? 1.0 : 0.0);
 #if VIEWS_CUBE_LIGHT
   found = findFace_LIGHT(p, -p, point);
   result[i].onCubeMap = vec4(point.texel, found ? float(point.view) : -1.0, float(point.face));
@@ -215,6 +220,25 @@ TEST_F(LightViewsGlsl, FindsTexelsOfAWarpedView)
     EXPECT_GT(found, 500u);
     EXPECT_LT(found, 6000u);
   }
+}
+
+TEST_F(LightViewsGlsl, AgreesOnWhatLiesInABox)
+{
+  const ShadowLight light = boxLight({ 0.0, 1.0, -0.5 }, { 0.0, 0.0, 0.0 }, { 1.1, 1.3, 0.7 });
+  const LightViews views = fitLightViews(
+    light, { glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, {}, { 64, 1 }, {} });
+  const ShadowRayLight rayLight(light, glm::dvec3(0.0));
+  const std::vector<glm::vec4> points = randomPoints();
+  const std::vector<FoundView> outputs = runLightViews(light, views, 64, points);
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const bool expected = insideBox(glm::vec3(points[i]), rayLight.box);
+    EXPECT_EQ(outputs[i].seen.w != 0.0f, expected);
+    inside += expected ? 1 : 0;
+  }
+  EXPECT_GT(inside, 500u);
+  EXPECT_LT(inside, 5000u);
 }
 
 } // namespace
