@@ -10,9 +10,9 @@
 namespace gnomon::tool
 {
 
-/// A variant in a case (a scene from a view), or its mean over cases: a row of a study's table, with
-/// the table's columns as members. `place` describes its most wrong place: `of`, the case and its
-/// error, and the pictures `truth` and `technique` as data URIs. Without timed frames it has no
+/// A variant in a case (a scene from a view), or its mean over cases: a row of a study's table,
+/// with the table's columns as members. `place` describes its most wrong place: `of`, the case and
+/// its error, and the pictures `truth` and `technique` as data URIs. Without timed frames it has no
 /// times; a variant that is right everywhere has no place.
 using Row = nlohmann::ordered_json;
 using Rows = std::vector<Row>;

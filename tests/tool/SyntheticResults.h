@@ -78,8 +78,8 @@ inline Row row(const std::string& scene, const std::string& variant, double erro
     { "light_moving_over_plain", 3.0 * overPlain } };
 }
 
-/// A comparison of three variants on a scene with an awkward name; "nsm 1024 inline" is wrong in 100
-/// of 1000 pixels.
+/// A comparison of three variants on a scene with an awkward name; "nsm 1024 inline" is wrong in
+/// 100 of 1000 pixels.
 inline ComparisonResults syntheticResults()
 {
   ComparisonResults results;
