@@ -16,29 +16,17 @@ namespace gnomon::tool
 namespace
 {
 
-using Json = nlohmann::json;
+using Node = nlohmann::json;
 
 const std::map<std::string, void (*)(Scene& scene)> parts = {
   { "arcades", addArcades },
   { "books", addBooks },
   { "building lamps", addBuildingLamps },
-  { "bunny",
-    [](Scene& scene) {
-      addModelOnPlane(scene, "bunny.obj", { 0.8, 0.7, 0.55 });
-    } },
-  { "cat",
-    [](Scene& scene) {
-      addModelOnPlane(scene, "cat.3ds", { 0.55, 0.57, 0.62 });
-    } },
   { "city", addCity },
   { "cloth", addCloth },
   { "desk things", addDeskThings },
   { "flowers", addFlowers },
   { "grass", addGrass },
-  { "horse",
-    [](Scene& scene) {
-      addModelOnPlane(scene, "horse.3ds", { 0.62, 0.45, 0.32 });
-    } },
   { "impostors", addImpostors },
   { "molecule", addMolecule },
   { "plants", addPlants },
@@ -53,26 +41,26 @@ const std::map<std::string, void (*)(Scene& scene)> parts = {
 
 /// Return the document. Its scenes have a scene file's keys, and for short "sun", a direction;
 /// "view", a camera's position, target and field of view; "lamp", see lampOf(); "like", a scene
-/// whose keys they share. Besides: "models" that several scenes share by name, and hard cases
-/// "elsewhere".
-const Json& document()
+/// whose keys they share; "file" and "color", see addModelOnPlane(). It also has "models" that
+/// several scenes share by name, and hard cases "elsewhere".
+const Node& document()
 {
-  static const Json parsed = Json::parse(BuiltinSceneTable);
+  static const Node parsed = Node::parse(BuiltinSceneTable);
   return parsed;
 }
 
 /// Return a scene's entry, with what it takes from the scene that it is "like".
-Json entryOf(const std::string& name)
+Node entryOf(const std::string& name)
 {
   for (const char* list : { "scenes", "hard", "bases" })
   {
-    for (const Json& entry : document()[list])
+    for (const Node& entry : document()[list])
     {
       if (entry["name"] == name)
       {
         const std::string base =
           entry.value("like", list == std::string("hard") ? "over-floor" : "");
-        Json whole = base.empty() ? Json::object() : entryOf(base);
+        Node whole = base.empty() ? Node::object() : entryOf(base);
         if (entry.contains("lights"))
         {
           whole.erase("sun");
@@ -92,7 +80,7 @@ void scale(SceneModel& model, const std::array<double, 4>& by)
 }
 
 /// Return a model: a shape, [name, colour or null, shapes...], or {"model", with more}.
-SceneModel makeModel(const Json& model)
+SceneModel makeModel(const Node& model)
 {
   if (model.is_object())
   {
@@ -107,9 +95,9 @@ SceneModel makeModel(const Json& model)
   }
   if (model[1].is_number())
   {
-    return makeShapes(Json::array({ model }));
+    return makeShapes(Node::array({ model }));
   }
-  SceneModel made = makeShapes(Json(model.begin() + 2, model.end()));
+  SceneModel made = makeShapes(Node(model.begin() + 2, model.end()));
   made.name = model[0];
   if (!model[1].is_null())
   {
@@ -119,7 +107,7 @@ SceneModel makeModel(const Json& model)
 }
 
 /// Add a model, or one that several scenes share, or parts, by name.
-void addModel(Scene& scene, const Json& model)
+void addModel(Scene& scene, const Node& model)
 {
   if (!model.is_string())
   {
@@ -137,7 +125,7 @@ void addModel(Scene& scene, const Json& model)
 
 /// Return a square lamp of [distance, side, intensity] in the sun's direction, at that distance
 /// from the camera's target. Its side is a tenth of that distance. It lights the camera's view.
-SceneLight lampOf(const Json& entry, const Vec3& target)
+SceneLight lampOf(const Node& entry, const Vec3& target)
 {
   const std::vector<double> lamp = entry["lamp"];
   SceneLight light;
@@ -156,7 +144,7 @@ SceneLight lampOf(const Json& entry, const Vec3& target)
 std::vector<BuiltinScene> listed(const char* list)
 {
   std::vector<BuiltinScene> scenes;
-  for (const Json& entry : document()[list])
+  for (const Node& entry : document()[list])
   {
     scenes.push_back(
       { entry["name"], entry["summary"], entry.value("cases", std::vector<std::string>()) });
@@ -169,10 +157,14 @@ std::vector<BuiltinScene> listed(const char* list)
 //------------------------------------------------------------------------------
 Scene BuiltinScene::make() const
 {
-  const Json entry = entryOf(this->name);
+  const Node entry = entryOf(this->name);
   Scene scene;
   scene.name = this->name;
-  for (const Json& model : entry["models"])
+  if (entry.contains("file"))
+  {
+    addModelOnPlane(scene, entry["file"], entry["color"]);
+  }
+  for (const Node& model : entry.value("models", Node::array()))
   {
     addModel(scene, model);
   }
@@ -253,7 +245,7 @@ std::string builtinSceneNames()
 std::vector<HardCaseElsewhere> hardCasesElsewhere()
 {
   std::vector<HardCaseElsewhere> cases;
-  for (const Json& entry : document()["elsewhere"])
+  for (const Node& entry : document()["elsewhere"])
   {
     cases.push_back({ entry[0], entry[1] });
   }

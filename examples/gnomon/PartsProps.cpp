@@ -413,22 +413,6 @@ void place(vtkProp3D* prop, const Vec3& at)
 
 constexpr double windingRadius = 50.0;
 
-/// Return a point at an angle around the helix's axis, at a share, in [0, 1], of its length.
-Vec3 helixPoint(double share, double angle, double distance)
-{
-  const double turn = 2.0 * vtkMath::Pi() * share;
-  const double winding = 80.0 * turn; // windings
-  const double ring = 120.0 + windingRadius * std::cos(winding);
-  const Vec3 axis{ ring * std::cos(turn), windingRadius * std::sin(winding),
-    ring * std::sin(turn) };
-  const Vec3 outwards{ std::cos(winding) * std::cos(turn), std::sin(winding),
-    std::cos(winding) * std::sin(turn) };
-  // The axis makes 80 turns on its way around the ring, so the point lies across it within a
-  // degree.
-  const Vec3 along{ -std::sin(turn), 0.0, std::cos(turn) };
-  return axis + distance * (std::cos(angle) * outwards + std::sin(angle) * along);
-}
-
 Prop helixProp()
 {
   constexpr int pairs = 25000; // of four atoms each
@@ -439,11 +423,20 @@ Prop helixProp()
   std::array<vtkIdType, 4> before{};
   for (int pair = 0; pair < pairs; ++pair)
   {
-    const double share = static_cast<double>(pair) / pairs;
+    const double turn = 2.0 * vtkMath::Pi() * (static_cast<double>(pair) / pairs);
+    const double winding = 80.0 * turn; // windings
+    const Vec3 ring{ std::cos(turn), 0.0, std::sin(turn) };
+    const double distance = 120.0 + windingRadius * std::cos(winding);
+    const Vec3 axis = distance * ring + (windingRadius * std::sin(winding)) * up;
+    const Vec3 outwards = std::cos(winding) * ring + std::sin(winding) * up;
+    // The axis makes 80 turns on its way around the ring, so this lies across it within a degree.
+    const Vec3 along{ -ring[2], 0.0, ring[0] };
+    const double angle = 2.0 * vtkMath::Pi() * pair / pairsPerTurn;
+    const Vec3 across = std::cos(angle) * outwards + std::sin(angle) * along;
     std::array<vtkIdType, 4> atoms{};
     for (std::size_t i = 0; i < 4; ++i)
     {
-      const Vec3 at = helixPoint(share, 2.0 * vtkMath::Pi() * pair / pairsPerTurn, places[i] * 1.6);
+      const Vec3 at = axis + (places[i] * 1.6) * across;
       atoms[i] = molecule->AppendAtom(elements[i], at[0], at[1], at[2]).GetId();
     }
     for (std::size_t i = 0; i + 1 < 4; ++i)
