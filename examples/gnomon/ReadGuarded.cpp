@@ -31,7 +31,7 @@ const std::string damaged =
   "the file is damaged: its reader crashed, ran out of memory or did not end";
 
 // For the signal handler: the innermost guard's line, and the program's standard error.
-std::atomic<const char*> line = nullptr;
+std::atomic<const char*> lineOfGuard = nullptr;
 std::atomic<std::size_t> lineBytes = 0;
 std::atomic<int> standardError = -1;
 
@@ -43,7 +43,7 @@ extern "C" void endProgram(int)
   {
     pause(); // another thread writes the line
   }
-  (void)!write(standardError, line, lineBytes);
+  (void)!write(standardError, lineOfGuard, lineBytes);
   _exit(badInputCode);
 }
 
@@ -122,7 +122,7 @@ public:
   Guard(const std::string& path, std::size_t bytes)
     : line_("gnomon: error: " + oneLine(path) + ": " + damaged + "\n")
   {
-    line = this->line_.c_str();
+    lineOfGuard = this->line_.c_str();
     lineBytes = this->line_.size();
 
     // Only this thread recurses as deep as the file says. Others use their own stacks.
@@ -151,7 +151,7 @@ public:
       sigaction(caught[i], &this->actions_[i], nullptr);
     }
     sigaltstack(&this->stack_, nullptr);
-    line = this->outerLine_;
+    lineOfGuard = this->outerLine_;
     lineBytes = this->outerLineBytes_;
   }
   Guard(const Guard&) = delete;
@@ -189,7 +189,7 @@ private:
 
   const std::string line_;
   // The process before.
-  const char* const outerLine_ = line;
+  const char* const outerLine_ = lineOfGuard;
   const std::size_t outerLineBytes_ = lineBytes;
   stack_t stack_{};
   std::array<struct sigaction, caught.size()> actions_{};

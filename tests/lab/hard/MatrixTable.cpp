@@ -1,13 +1,14 @@
 #include "MatrixTable.h"
 
 #include "BuiltinScenes.h"
-#include "CsvRow.h"
 #include "Errors.h"
 #include "Files.h"
 #include "Report.h"
 #include "Text.h"
 
 #include "lights/SettingsTable.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -54,10 +55,8 @@ std::string csvHeading()
 //------------------------------------------------------------------------------
 std::string csvLine(const Cell& cell)
 {
-  tool::CsvRow line;
-  line << cell.row->name << cell.column->name << std::string(nameOf(cell.outcome)) << cell.counted
-       << cell.wrong << cell.beyond << cell.error << cell.bound << tool::oneLine(cell.message);
-  return line.line();
+  return tool::csvLine({ cell.row->name, cell.column->name, nameOf(cell.outcome), cell.counted,
+    cell.wrong, cell.beyond, cell.error, cell.bound, tool::oneLine(cell.message) });
 }
 
 //------------------------------------------------------------------------------
