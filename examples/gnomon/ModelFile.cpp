@@ -358,9 +358,10 @@ void importActors(
 {
   importer->SetRenderWindow(renderer->GetRenderWindow());
   importer->Update();
+  vtkActorCollection* const actors = renderer->GetActors(); // each call makes it anew
   vtkCollectionSimpleIterator iterator;
-  renderer->GetActors()->InitTraversal(iterator);
-  while (vtkActor* actor = renderer->GetActors()->GetNextActor(iterator))
+  actors->InitTraversal(iterator);
+  while (vtkActor* actor = actors->GetNextActor(iterator))
   {
     actor->GetMapper()->Update();
     if (SceneModel* const part =

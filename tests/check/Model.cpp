@@ -120,8 +120,9 @@ Mesh readWithImporter(const std::string& path)
   importer->Update();
   Mesh mesh;
   vtkCollectionSimpleIterator position;
-  renderer->GetActors()->InitTraversal(position);
-  while (vtkActor* actor = renderer->GetActors()->GetNextActor(position))
+  vtkActorCollection* const actors = renderer->GetActors(); // each call makes it anew
+  actors->InitTraversal(position);
+  while (vtkActor* actor = actors->GetNextActor(position))
   {
     actor->GetMapper()->Update();
     addSurface(mesh, vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()), actor->GetMatrix());

@@ -39,7 +39,7 @@ vtkLight* addSoftSunInABox(PassScene& scene)
 
 vtkLight* addFading(PassScene& scene)
 {
-  vtkGnomonAreaLight* light = addRectangle(scene, { -2.0, -2.5, 4.0 }, middle, 2.0, 50.0);
+  vtkGnomonAreaLight* light = addRectangle(scene, lampPlace, middle, 1.0, 50.0);
   light->SetExponent(4.0);
   light->SetAttenuationValues(0.2, 0.1, 0.02);
   light->SetDiffuseColor(1.0, 0.8, 0.5);
