@@ -358,7 +358,7 @@ void importActors(
 {
   importer->SetRenderWindow(renderer->GetRenderWindow());
   importer->Update();
-  vtkActorCollection* const actors = renderer->GetActors(); // each call makes it anew
+  vtkActorCollection* const actors = renderer->GetActors(); // each call rebuilds it
   vtkCollectionSimpleIterator iterator;
   actors->InitTraversal(iterator);
   while (vtkActor* actor = actors->GetNextActor(iterator))

@@ -120,7 +120,7 @@ Mesh readWithImporter(const std::string& path)
   importer->Update();
   Mesh mesh;
   vtkCollectionSimpleIterator position;
-  vtkActorCollection* const actors = renderer->GetActors(); // each call makes it anew
+  vtkActorCollection* const actors = renderer->GetActors(); // each call rebuilds it
   actors->InitTraversal(position);
   while (vtkActor* actor = actors->GetNextActor(position))
   {
