@@ -42,7 +42,7 @@ const std::map<std::string, void (*)(Scene& scene)> parts = {
 /// Return the document. Its scenes have a scene file's keys, and for short "sun", a direction;
 /// "view", a camera's position, target and field of view; "lamp", see lampOf(); "like", a scene
 /// whose keys they share; "file" and "color", see addModelOnPlane(). It also has "models" that
-/// several scenes share by name, and hard cases "elsewhere".
+/// several scenes share by name.
 const Node& document()
 {
   static const Node parsed = Node::parse(BuiltinSceneTable);
@@ -239,17 +239,6 @@ std::string builtinSceneNames()
     names.push_back(scene.name);
   }
   return listOf(names);
-}
-
-//------------------------------------------------------------------------------
-std::vector<HardCaseElsewhere> hardCasesElsewhere()
-{
-  std::vector<HardCaseElsewhere> cases;
-  for (const Node& entry : document()["elsewhere"])
-  {
-    cases.push_back({ entry[0], entry[1] });
-  }
-  return cases;
 }
 
 } // namespace gnomon::tool

@@ -37,14 +37,6 @@ const BuiltinScene* findBuiltinScene(const std::string& name);
 /// Return all names for messages: "bunny, horse, ...".
 std::string builtinSceneNames();
 
-/// A hard case that needs no scene.
-struct HardCaseElsewhere
-{
-  std::string hardCase;
-  std::string where; ///< the test of the case, or why none is needed
-};
-std::vector<HardCaseElsewhere> hardCasesElsewhere();
-
 /// The x of the shadow edge of the scene half-plane on the plane y = 0. Larger x are lit.
 constexpr double halfPlaneShadowEdge = 1.25;
 

@@ -3,7 +3,7 @@
 # (`path`) or one test in it (`path:name`). A remark may follow the tests, after a semicolon.
 #
 # The publications are apelles (Moschig 2012), hybrid (Morais 2016), montecarlo (Curtis 2009),
-# selective (Moderno) and survey (Rzeczkowski 2024): docs/results/conclusions.md has their titles.
+# selective (Moderno) and survey (Rzeczkowski 2024). Rows of `hard` are hard cases without a scene.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)

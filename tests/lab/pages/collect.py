@@ -9,7 +9,7 @@
     collect.py rows NAME                  a table from the standard input, with tabs
     collect.py machine RESULTS MACHINE
 
-Rows of an experiment, of a kind of OpenGL or of a machine replace those with the same keys.
+Rows of an experiment, a run, a kind of OpenGL or a machine replace those with the same keys.
 """
 
 import csv
@@ -95,16 +95,19 @@ def conclusions(folder):
                 "run": run, "scene": scene, "map_size": row["map_size"],
                 "variant": re.sub(r"( \d+)?( inline| image)?$", "", row["variant"]),
             } | {name: f"{value:.6g}" for name, value in sums.items()})
-    for task, milliseconds in re.findall(
-            r"^(\S.*?) +[\d.]+ +[\d.]+ +([\d.]+) +[\d.]+$",
-            (folder / "fitting.txt").read_text(), re.MULTILINE):
-        rows.append({"run": "fitting", "scene": "bunny", "variant": task, "maps_ms": milliseconds})
-    tests = (folder / "md5.txt").read_text()
-    rows.append({
-        "run": "md5", "variant": "ReducedMd5", "facing": tests.count("[       OK ]"),
-        "wrong": len(re.findall(r"^\[  FAILED  \] \S+ \(", tests, re.MULTILINE)),
-    })
-    write("conclusions", [{name: row.get(name, "") for name in names} for row in rows])
+    for fitting in folder.glob("fitting.txt"):
+        for task, milliseconds in re.findall(
+                r"^(\S.*?) +[\d.]+ +[\d.]+ +([\d.]+) +[\d.]+$", fitting.read_text(), re.MULTILINE):
+            rows.append(
+                {"run": "fitting", "scene": "bunny", "variant": task, "maps_ms": milliseconds})
+    for md5 in folder.glob("md5.txt"):
+        tests = md5.read_text()
+        rows.append({
+            "run": "md5", "variant": "ReducedMd5", "facing": tests.count("[       OK ]"),
+            "wrong": len(re.findall(r"^\[  FAILED  \] \S+ \(", tests, re.MULTILINE)),
+        })
+    write("conclusions", [{name: row.get(name, "") for name in names} for row in rows],
+          keys=("run",))
 
 
 def auto(opengl, path):

@@ -18,9 +18,9 @@ EDGES, VERTICES = (ALONE.format(ring, "off") for ring in ("edges", "vertices"))
 NEAR, HIERARCHICAL, HIERARCHICAL_4 = (
     f"montecarlo mc_layers={of}"
     for of in (
-        "near mc_pyramid=nbuffer",
-        "near_far mc_pyramid=nbuffer",
-        "near_far mc_pyramid=nbuffer mc_rays=2",
+        "near",
+        "near_far",
+        "near_far mc_rays=2",
     )
 )
 LINEAR, LINEAR_4 = (

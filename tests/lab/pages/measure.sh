@@ -155,8 +155,8 @@ conclusions()
     --size 256x256 --frames 5 --truth-samples 1024
 
   # Curtis' dragon is the bunny here.
-  local montecarlo=montecarlo:mc_layers=near:mc_pyramid=nbuffer,montecarlo
-  for way in layers=near_far:mc_pyramid=nbuffer layers=eye:mc_search=linear; do
+  local montecarlo=montecarlo:mc_layers=near,montecarlo
+  for way in layers=near_far layers=eye:mc_search=linear; do
     montecarlo+=",montecarlo:mc_rays=2:mc_$way,montecarlo:mc_$way"
   done
   local curtis=(--map-sizes "512,1024" --size 384x288 --frames 7 --truth-samples 256)

@@ -839,3 +839,44 @@ TEST(OccluderCutouts, CoordinatesThatAreNotFiniteOrNotThereAreZero)
   EXPECT_EQ(scene.surface(0).textureCoordinates,
     (std::vector<glm::vec2>{ { 0, 0 }, { 0, 0 }, { 0.25, 0.5 }, { 0, 0 } }));
 }
+
+TEST(OccluderCutouts, AreHeldForTexturesWithHolesOnly)
+{
+  Scene scene;
+  vtkActor* const actor = scene.add(makeTexturedSquare());
+  scene.add(makeSquare()); // without texture coordinates
+  scene.collect();
+  const auto expectNone = [&]
+  {
+    EXPECT_FALSE(scene.surface(0).cutout);
+    EXPECT_TRUE(scene.surface(0).textureCoordinates.empty());
+  };
+  actor->SetTexture(makeTexture({ 255, 255, 255 }));
+  expectNothingDone(scene);
+  expectNone();
+
+  actor->SetTexture(makeTexture({ 0, 255, 0 }));
+  EXPECT_EQ(scene.collect().extracted, 1);
+  ASSERT_TRUE(scene.surface(0).cutout);
+  EXPECT_EQ(scene.surface(0).cutout->texels, (std::vector<std::uint8_t>{ 0, 255, 0 }));
+  EXPECT_EQ(scene.surface(0).textureCoordinates,
+    (std::vector<glm::vec2>{ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }));
+  EXPECT_FALSE(scene.surface(1).cutout);
+  expectNothingDone(scene);
+
+  // Neither another mask nor a movement makes another surface.
+  const std::uint64_t topology = scene.occluders().topologyVersion;
+  const std::uint64_t surface = scene.surface(0).topologyVersion;
+  actor->SetTexture(makeTexture({ 255, 0, 0 }));
+  actor->SetPosition(1.0, 0.0, 0.0);
+  const SnapshotChange change = scene.collect();
+  EXPECT_EQ(change.extracted, 0);
+  EXPECT_EQ(change.retransformed, 1);
+  EXPECT_GT(scene.occluders().topologyVersion, topology);
+  EXPECT_EQ(scene.surface(0).topologyVersion, surface);
+  EXPECT_EQ(scene.surface(0).cutout->texels, (std::vector<std::uint8_t>{ 255, 0, 0 }));
+  EXPECT_EQ(scene.surface(0).textureCoordinates.size(), 4u);
+  actor->SetTexture(nullptr);
+  scene.collect();
+  expectNone();
+}

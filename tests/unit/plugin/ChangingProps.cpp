@@ -246,6 +246,12 @@ ChangingProp makeSlice(vtkRenderer*)
   prop.image = picture();
   vtkNew<Mapper> mapper;
   mapper->SetInputData(prop.image);
+  if (auto* const reslicing = vtkImageResliceMapper::SafeDownCast(mapper))
+  {
+    vtkNew<vtkPlane> heightOfProps;
+    heightOfProps->SetOrigin(0.0, 0.0, 1.0);
+    reslicing->SetSlicePlane(heightOfProps);
+  }
   vtkNew<vtkImageSlice> slice;
   slice->SetMapper(mapper);
   prop.leaf = slice;

@@ -5,10 +5,24 @@
 
 #include "Scene.h"
 
+#include "shadowtech/base/Gl.h"
+
+#include <vtkAnnotatedCubeActor.h>
+#include <vtkAxesActor.h>
+#include <vtkAxisActor.h>
+#include <vtkAxisFollower.h>
+#include <vtkImageProperty.h>
+#include <vtkImageSlice.h>
+#include <vtkImageSliceMapper.h>
+#include <vtkImageStack.h>
+#include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLPolyDataMapper.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkPropAssembly.h>
 #include <vtkRenderStepsPass.h>
 #include <vtkShaderProperty.h>
 #include <vtkTextActor.h>
+#include <vtkTextProperty.h>
 #include <vtkToneMappingPass.h>
 
 using namespace gnomon::test;
@@ -272,4 +286,167 @@ TEST_F(Deferred, OtherFramesTakeTheImageRouteAndSayWhy)
   this->draw(vtkGnomonShadowPass::ROUTE_DEFERRED);
   EXPECT_THAT(this->takeErrors(), HasSubstr("between light and shadow"));
   EXPECT_EQ(this->autoRoute(), "inline");
+}
+
+TEST_F(Deferred, AllOfVtksShadingIsLitTwice)
+{
+  vtkProperty* property = this->sphere->GetProperty();
+  this->expectTheSame("matt");
+  property->SetSpecular(0.8);
+  property->SetSpecularPower(20.0);
+  property->SetAmbient(0.2);
+  this->expectTheSame("with a highlight");
+  property->SetInterpolationToPBR();
+  property->SetMetallic(0.4);
+  property->SetRoughness(0.3);
+  this->expectTheSame("physically based");
+  property->SetInterpolationToFlat();
+  this->expectTheSame("flat");
+  property->EdgeVisibilityOn();
+  this->expectTheSame("with edges");
+  property->EdgeVisibilityOff();
+  property->LightingOff();
+  this->expectTheSame("unlit");
+  property->LightingOn();
+
+  // VTK multiplies by the texture after lighting.
+  vtkActor* textured = this->scene.addFloor(1.5, 0.5);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(
+    makeImage(8, 8, [](int x, int y) { return glm::dvec3(0.1 * x, 0.1 * y, (x + y) % 2); }));
+  textured->SetTexture(texture);
+  textured->GetProperty()->SetAmbient(0.4);
+  this->expectTheSame("with a texture");
+}
+
+TEST_F(Deferred, LightsOfAllKindsAndStrengths)
+{
+  this->sun->SetShadowAttenuation(0.3f);
+  this->expectTheSame("a shadow that is not black");
+  this->sun->SetShadowAttenuation(1.0f);
+  vtkLight* fill = this->scene.addSun({ -1.0, 1.0, -1.0 });
+  fill->SetIntensity(0.4);
+  fill->SetShadowAttenuation(0.0f);
+  this->expectTheSame("beside one that casts nothing");
+  this->sun->SetPositional(true);
+  this->sun->SetConeAngle(allDirections);
+  this->sun->SetPosition(-2.0, -0.8, 3.0);
+  this->expectTheSame("a lamp");
+  this->sun->SetIntensity(40.0);
+  this->expectTheSame("far too bright");
+}
+
+/// Annotations' parts have their own shaders, without shadows. In front of a shadow they are as
+/// bright as VTK draws them; behind other surfaces they are hidden.
+TEST_F(Deferred, PropsThatPassesDoNotReachAreAsVtkDrawsThem)
+{
+  vtkNew<vtkAnnotatedCubeActor> cube;
+  cube->SetPosition(1.5, 0.9, 0.5); // in the sphere's shadow
+  vtkNew<vtkAxesActor> axes;
+  axes->SetTotalLength(2.0, 2.0, 2.0);
+  vtkNew<vtkTextActor> below;
+  below->SetInput("below");
+  vtkNew<vtkTextActor> above;
+  above->SetInput("above");
+  above->GetTextProperty()->SetColor(1.0, 0.0, 0.0);
+  this->scene.renderer->AddActor(below);
+  this->scene.renderer->AddActor(cube);
+  this->scene.renderer->AddActor(axes);
+  this->scene.addBox({ -2.0, -1.0, 0.0 }, { -1.5, -0.5, 1.0 });
+  this->scene.renderer->AddActor(above);
+  this->expectTheSame("annotations");
+
+  vtkNew<vtkImageSlice> slice;
+  vtkNew<vtkImageSliceMapper> image;
+  image->SetInputData(
+    makeImage(8, 8, [](int x, int y) { return glm::dvec3(0.1 * x, 0.1 * y, 1); }));
+  slice->SetMapper(image);
+  slice->GetProperty()->SetAmbient(1.0);
+  slice->SetScale(0.2);
+  slice->SetPosition(1.0, 0.5, 0.4);
+  vtkNew<vtkImageStack> stack;
+  stack->AddImage(slice);
+  this->scene.renderer->AddViewProp(stack);
+  this->expectTheSame("a stack of images");
+
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(0.3);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sphere->GetOutputPort());
+  vtkNew<vtkAxisActor> axis;
+  vtkNew<vtkAxisFollower> follower;
+  follower->SetAxis(axis);
+  follower->SetMapper(mapper);
+  follower->SetPosition(1.0, 0.2, 0.4);
+  follower->SetCamera(this->scene.renderer->GetActiveCamera());
+  this->scene.renderer->AddActor(follower);
+  this->expectTheSame("an axis follower");
+
+  vtkNew<vtkPropAssembly> together;
+  together->AddPart(cube);
+  together->AddPart(this->sphere);
+  this->scene.renderer->RemoveActor(cube);
+  this->scene.renderer->RemoveActor(this->sphere);
+  this->scene.renderer->AddActor(together);
+  EXPECT_EQ(this->autoRoute(), "image");
+  EXPECT_THAT(this->scene.report().routeReason, HasSubstr("works on the whole screen"));
+}
+
+/// The translucent part of an opaque prop is blended over the surfaces behind it, in light and in
+/// shadow.
+TEST_F(Deferred, OpaquePropsThatBlendAreOverBoth)
+{
+  this->scene.renderer->GradientBackgroundOn();
+  this->scene.renderer->SetBackground2(0.2, 0.4, 0.9);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(4, 4, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* texels = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (int i = 0; i < 16; ++i, texels += 4)
+  {
+    texels[0] = texels[1] = texels[2] = 255;
+    texels[3] = static_cast<unsigned char>(60 + 12 * i);
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  vtkActor* veil = this->scene.addFloor(2.5, 0.6);
+  veil->SetTexture(texture);
+  veil->ForceOpaqueOn();
+  veil->GetProperty()->SetAmbient(0.2);
+  this->floor->VisibilityOff(); // the background is then behind the shadow
+  this->scene.window->SetSize(200, 200);
+  this->expectTheSame("a veil");
+}
+
+/// Receivers are cached while only a light moves.
+TEST_F(Deferred, ShowsTheSameWhileALightMoves)
+{
+  this->autoRoute();
+  const std::size_t before = this->scene.report().bytesImages;
+  for (int frame = 1; frame <= 6; ++frame)
+  {
+    this->sun->SetPosition(-1.0, -0.1 * frame, 1.5);
+    this->scene.render();
+  }
+  EXPECT_GT(this->scene.report().bytesImages, before);
+  const Picture moved = this->scene.render();
+  EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), moved), 0u);
+}
+
+TEST_F(Deferred, LeavesTheFramebufferAsItWas)
+{
+  EXPECT_EQ(this->autoRoute(), "deferred");
+  this->scene.window->GetRenderFramebuffer()->Bind();
+  GLint buffer = 0;
+  glGetIntegerv(GL_DRAW_BUFFER0, &buffer);
+  EXPECT_EQ(buffer, GL_COLOR_ATTACHMENT0);
+  glGetIntegerv(GL_DRAW_BUFFER1, &buffer);
+  EXPECT_EQ(buffer, GL_NONE);
+  for (const GLenum attachment : { GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2 })
+  {
+    GLint kind = 0;
+    glGetFramebufferAttachmentParameteriv(
+      GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &kind);
+    EXPECT_EQ(kind, GL_NONE);
+  }
 }

@@ -476,4 +476,22 @@ INSTANTIATE_TEST_SUITE_P(Loops, Drag,
   nameOf);
 
 } // namespace
+TEST_F(PictureTimer, aProgramsOwnTimerMayRemoveThePass)
+{
+  this->on(this->interactor, vtkCommand::TimerEvent, [this] { this->renderer->SetPass(nullptr); });
+  this->interactor->CreateOneShotTimer(5);
+  this->move();
+  wait(*this, 600.0);
+  EXPECT_FALSE(this->hasTimers());
+}
+
+TEST_F(PictureTimer, goesOnBesideARepeatingTimerThatRenders)
+{
+  this->on(this->interactor, vtkCommand::TimerEvent, [this] { this->interactor->Render(); });
+  this->interactor->CreateRepeatingTimer(20);
+  this->move();
+  wait(*this, 600.0);
+  EXPECT_EQ(this->technique(), "silhouette");
+}
+
 } // namespace gnomon::test

@@ -38,13 +38,14 @@ protected:
     this->without = this->scene.render();
   }
 
-  /// Return the pixels that differ from plain VTK's picture with a prop.
+  /// Return the pixels that differ from plain VTK's picture with a prop, which is seen.
   std::size_t changedPixels(vtkProp* prop)
   {
     this->scene.renderer->AddViewProp(prop);
     this->scene.usePlain();
+    this->scene.render(); // image reslicing begins in the second frame
     const Picture plain = this->scene.render();
-    this->seen += differingPixels(this->without, plain) > 20 ? 1 : 0;
+    EXPECT_GT(differingPixels(this->without, plain), 20u) << "it is not seen";
     this->scene.useGnomon();
     const std::size_t changed = differingPixels(plain, this->scene.render());
     EXPECT_NE(this->scene.report().route, "none");
@@ -54,13 +55,26 @@ protected:
 
   PassScene scene{ 120, 90 };
   Picture without;
-  std::size_t seen = 0; ///< props
 };
 INSTANTIATE_TEST_SUITE_P(Ways, DrawnUnchanged, allWays, nameOf);
 
-/// Annotations that lie over the picture or around the scene.
+/// Annotations that lie over the picture or around the scene, and lines and points that VTK lights.
 std::vector<vtkSmartPointer<vtkProp>> annotations(vtkRenderer* renderer)
 {
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetCenter(0.0, 0.0, 1.0);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sphere->GetOutputPort());
+  vtkNew<vtkActor> tubes;
+  tubes->SetMapper(mapper);
+  tubes->GetProperty()->SetRepresentationToWireframe();
+  tubes->GetProperty()->RenderLinesAsTubesOn();
+  tubes->GetProperty()->SetLineWidth(5.0f);
+  vtkNew<vtkActor> roundPoints;
+  roundPoints->SetMapper(mapper);
+  roundPoints->GetProperty()->SetRepresentationToPoints();
+  roundPoints->GetProperty()->RenderPointsAsSpheresOn();
+  roundPoints->GetProperty()->SetPointSize(8.0f);
   vtkNew<vtkBillboardTextActor3D> billboard;
   billboard->SetInput("shadow");
   billboard->GetTextProperty()->SetFontSize(20);
@@ -84,7 +98,8 @@ std::vector<vtkSmartPointer<vtkProp>> annotations(vtkRenderer* renderer)
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(colours);
   bar->SetTitle("shadow");
-  return { billboard.Get(), text.Get(), skybox.Get(), axes.Get(), bar.Get() };
+  return { tubes.Get(), roundPoints.Get(), billboard.Get(), text.Get(), skybox.Get(), axes.Get(),
+    bar.Get() };
 }
 
 } // namespace
@@ -93,15 +108,16 @@ TEST_P(DrawnUnchanged, inTheShadowToo)
 {
   for (const PropKind& kind : changingProps())
   {
+    SCOPED_TRACE(kind.name);
     const ChangingProp prop = kind.make(this->scene.renderer);
     const bool isSurface = kind.name == std::string("surface") || kind.name == std::string("fence");
-    EXPECT_EQ(this->changedPixels(prop.prop) > 0, isSurface) << kind.name;
+    EXPECT_EQ(this->changedPixels(prop.prop) > 0, isSurface);
   }
   for (const vtkSmartPointer<vtkProp>& prop : annotations(this->scene.renderer))
   {
-    EXPECT_EQ(this->changedPixels(prop), 0u) << prop->GetClassName();
+    SCOPED_TRACE(prop->GetClassName());
+    EXPECT_EQ(this->changedPixels(prop), 0u);
   }
-  EXPECT_GE(this->seen, changingProps().size() + 4); // of five annotations
 }
 
 } // namespace gnomon::test

@@ -3,6 +3,9 @@
 #include "BuiltinPass.h"
 #include "PassScene.h"
 
+#include <vtkCellArray.h>
+#include <vtkOpenGLSphereMapper.h>
+
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
 
@@ -305,4 +308,33 @@ TEST_F(EdgeSamples, areNotOfAreaLights)
   const std::vector<float> sixteen = drawKept(this->scene).visibility[0];
   this->set("1");
   EXPECT_EQ(drawKept(this->scene).visibility[0], sixteen);
+}
+
+TEST_F(EdgeSamples, lieOnSolids)
+{
+  this->scene.renderer->RemoveActor(this->sphere);
+  vtkNew<vtkPolyData> centres;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> vertices;
+  for (const glm::dvec3& centre : { glm::dvec3(0.0, 0.0, 1.2), { -0.8, -0.3, 2.4 } })
+  {
+    const vtkIdType point = points->InsertNextPoint(&centre.x);
+    vertices->InsertNextCell(1, &point);
+  }
+  centres->SetPoints(points);
+  centres->SetVerts(vertices);
+  vtkNew<vtkOpenGLSphereMapper> mapper;
+  mapper->SetInputData(centres);
+  mapper->SetRadius(0.7);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->scene.renderer->AddActor(actor);
+  const VisibilityImages& kept = drawKept(this->scene);
+  std::size_t mixed = 0;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const float of = kept.visibility[0][i];
+    mixed += kept.coverage[i] == 1.0f && positionOf(kept, i).z > 0.1 && of > 0.0f && of < 1.0f;
+  }
+  EXPECT_GT(mixed, 5u) << "the upper sphere's shadow on the lower one";
 }

@@ -2,6 +2,8 @@
 
 #include "PassScene.h"
 
+#include "shadowtech/Registry.h"
+
 #include <vtkBitArray.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkMatrix4x4.h>
@@ -228,4 +230,72 @@ TEST_P(GlyphInstances, takeTheMemoryOfOneAndTheirMatrices)
   {
     EXPECT_LT(report.bytesBvh, 600u * glyphCount);
   }
+}
+
+TEST_P(GlyphInstances, thatWouldLosePrecisionAreExpanded)
+{
+  vtkNew<vtkMatrix4x4> matrix;
+  this->actor->SetUserMatrix(matrix);
+  matrix->SetElement(0, 2, 0.3); // slightly sheared
+  this->expectSameAsExpanded(glyphCount);
+  matrix->SetElement(0, 2, 8.0);
+  matrix->Modified();
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().instances, 0u);
+  matrix->SetElement(0, 2, 0.0);
+  matrix->Modified();
+  this->points->GetPointData()->GetArray("sizes")->SetComponent(7, 1, -0.2); // one is mirrored
+  this->points->GetPointData()->GetArray("sizes")->Modified();
+  this->points->Modified();
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().instances, 0u);
+}
+
+TEST_P(GlyphInstances, changesCostWhatChanged)
+{
+  const bool traced = std::string(GetParam().technique) == "raytraced";
+  const bool drawsMaps = gnomon::findTechnique(GetParam().technique)->estimator->info.bakesMap();
+  std::vector<vtkActor*> boxes;
+  for (int i = 0; i < 10; ++i)
+  {
+    boxes.push_back(this->scene.addBox({ i - 5.0, -7.5, 0.0 }, { i - 4.5, -7.0, 3.0 }));
+  }
+  const auto expectUpdate = [&](int extracted, int retransformed, int builds, int refits)
+  {
+    this->scene.render();
+    const gnomon::FrameReport report = this->scene.report();
+    EXPECT_EQ(report.surfacesExtracted, extracted);
+    EXPECT_EQ(report.surfacesRetransformed, retransformed);
+    EXPECT_EQ(report.bvhBuilds, traced ? builds : 0);
+    EXPECT_EQ(report.bvhRefits, traced ? refits : 0);
+    EXPECT_EQ(report.mapBakes, drawsMaps && extracted + retransformed > 0 ? 1 : 0);
+    EXPECT_EQ(report.instances, glyphCount);
+  };
+  this->scene.render(); // in which VTK touches the mapper
+  const Picture before = this->scene.render();
+  expectUpdate(0, 0, 0, 0);
+  this->actor->SetPosition(0.5, 0.0, 0.2);
+  expectUpdate(0, 1, 0, 1);
+  EXPECT_GT(differingPixels(before, this->scene.render()), 1000u);
+  boxes[3]->SetPosition(0.1, 0.2, 0.0);
+  expectUpdate(0, 1, 0, 1);
+
+  // A point moves: the instances are extracted again.
+  this->points->GetPoints()->SetPoint(5, 0.0, 0.0, 6.0);
+  this->points->GetPoints()->Modified();
+  this->points->Modified();
+  expectUpdate(1, 0, 0, 1);
+  this->expectSameAsExpanded(glyphCount);
+  this->scene.render();
+  expectUpdate(0, 0, 0, 0);
+  // Other instances than before are drawn.
+  this->points->GetPoints()->SetPoint(5, std::nan(""), 0.0, 6.0);
+  this->points->GetPoints()->Modified();
+  this->points->Modified();
+  expectUpdate(1, 0, 1, 0);
+  EXPECT_EQ(this->scene.report().droppedNonFinite,
+    static_cast<std::size_t>(this->cup->GetOutput()->GetNumberOfPolys()));
+  // Another source.
+  this->cup->SetRadius(0.6);
+  expectUpdate(1, 0, 1, 0);
 }

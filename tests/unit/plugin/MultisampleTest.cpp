@@ -393,3 +393,18 @@ TEST_F(PassTest, headlightsLeaveLitWhatIsSeenInSeveralSamples)
   }
   EXPECT_GT(scene.window->GetMultiSamples(), 1);
 }
+
+TEST_F(PassTest, theNumberOfSamplesMayChange)
+{
+  const auto scene = makeSurfaces(false);
+  const Picture single = scene->render();
+  scene->window->SetMultiSamples(samples);
+  const Picture multiple = scene->render();
+  const auto fresh = makeSurfaces(false);
+  fresh->window->SetMultiSamples(samples);
+  EXPECT_EQ(differingPixels(multiple, fresh->render()), 0u);
+  scene->window->SetMultiSamples(0);
+  EXPECT_EQ(differingPixels(scene->render(), single), 0u);
+  scene->render();
+  EXPECT_EQ(scene->report().programCompiles, 0);
+}

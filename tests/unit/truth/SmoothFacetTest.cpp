@@ -5,10 +5,13 @@
 #include "shadowtech/base/SeenTriangle.h"
 
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <random>
 
 using namespace gnomon;
 
@@ -56,18 +59,31 @@ struct FacetOfBall
   }
 };
 
-/// True if a facet is curved as a triangle of a surface with normals.
-bool isCurved(const FacetOfBall& facet, bool fromBack)
+/// Return the corners' normals of a triangle of a surface under a matrix; nothing if it is flat.
+std::optional<Normals> normalsUnder(const glm::dmat4& matrix, const FacetOfBall& facet, bool back)
 {
   Occluders occluders;
-  Surface& surface = occluders.surfaces.emplace_back();
+  Surface surface;
   surface.vertexCount = 3;
   surface.triangleCount = 1;
   surface.pointNormals.assign(facet.normals.begin(), facet.normals.end());
-  surface.centredFromNormals = glm::mat3(1.0f);
+  surface.centredFromNormals = glm::mat3(glm::dmat3(matrix));
+  occluders.surfaces.push_back(surface);
   occluders.triangles.emplace_back(0, 1, 2);
-  const glm::dvec3 normal(0.0, 0.0, fromBack ? -1.0 : 1.0);
-  return cornerNormals(occluders, { 0, 0, 0 }, normal, fromBack).has_value();
+  Corners centred;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    centred[i] = matrix * glm::dvec4(facet.corners[i], 1.0);
+  }
+  const glm::dvec3 normal =
+    glm::normalize(glm::cross(centred[1] - centred[0], centred[2] - centred[0]));
+  return cornerNormals(occluders, { 0, 0, 0 }, back ? -normal : normal, back);
+}
+
+/// True if a facet is curved as a triangle of a surface with normals.
+bool isCurved(const FacetOfBall& facet, bool fromBack)
+{
+  return normalsUnder(glm::dmat4(1.0), facet, fromBack).has_value();
 }
 
 } // namespace
@@ -118,5 +134,41 @@ TEST(SmoothFacet, wantsNormalsThatGoWithTheFacet)
   {
     facet.normals[1] = normal;
     EXPECT_FALSE(isCurved(facet, false));
+  }
+}
+
+/// The normals of a mapped ball are those of the ellipsoid, also if the matrix mirrors.
+TEST(SmoothFacet, takesNormalsAlong)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const FacetOfBall facet(0.3);
+  for (int i = 0; i < 50; ++i)
+  {
+    glm::dmat4 matrix = glm::rotate(
+      glm::dmat4(1.0), 3.0 * uniform(random), glm::dvec3(uniform(random), uniform(random), 1.0));
+    matrix = glm::scale(matrix, glm::dvec3(1.5 + uniform(random), 1.2, 1.0));
+    const bool mirrors = i % 2 == 1;
+    if (mirrors)
+    {
+      matrix = glm::scale(matrix, glm::dvec3(-1.0, 1.0, 1.0));
+    }
+    // A mirrored ball shows its outside as the back.
+    const std::optional<Normals> normals = normalsUnder(matrix, facet, mirrors);
+    const glm::dmat3 inverse = glm::inverse(glm::dmat3(matrix));
+    for (std::size_t corner = 0; corner < 3; ++corner)
+    {
+      const glm::dvec3 outward =
+        glm::normalize(glm::transpose(inverse) * glm::dvec3(facet.normals[corner]));
+      if (mirrors)
+      {
+        EXPECT_FALSE(normals.has_value()); // VTK turns them inwards
+      }
+      else
+      {
+        ASSERT_TRUE(normals.has_value());
+        EXPECT_LT(glm::distance(glm::dvec3((*normals)[corner]), outward), 1e-6);
+      }
+    }
   }
 }
