@@ -4,6 +4,7 @@
 #include "plugin/data/AddedLights.h"
 #include "plugin/data/DataScene.h"
 #include "plugin/data/ReceiverStarts.h"
+#include "plugin/data/SkyRun.h"
 #include "plugin/data/VisibilityRun.h"
 #include "plugin/scene/SurfaceExtraction.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
@@ -29,6 +30,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -77,6 +79,8 @@ struct Results
 struct vtkGnomonVisibilityFilter::Internals
 {
   std::vector<gnomon::AddedLight> lights;
+  gnomon::SkyModel skyModel = gnomon::SkyModel::Uniform;
+  int skyDirections = 0; ///< 0: there is no sky
   vtkTimeStamp lightsTime;
   bool unfinished = false;
   vtkTimeStamp unfinishedTime;
@@ -88,14 +92,32 @@ struct vtkGnomonVisibilityFilter::Internals
   Key runKey;
   Results results;
   std::optional<gnomon::ReceiverStarts> starts;
-  std::optional<gnomon::VisibilityRun> run;
+  std::optional<gnomon::VisibilityRun> run; ///< of the lights, if there are any
+  std::optional<gnomon::SkyRun> skyRun;     ///< of the sky, if there is one
   bool finished = false;
   std::uint64_t rays = 0;
 
   void dropRun()
   {
     this->run.reset();
+    this->skyRun.reset();
     this->starts.reset();
+  }
+  /// Continue until all is done or goOn() returns false.
+  /// @param goOn called with the completed share
+  /// @return true if all is done
+  bool go(const std::function<bool(double)>& goOn)
+  {
+    const double ofLights =
+      static_cast<double>(this->lights.size()) * static_cast<double>(this->starts->samples());
+    const double all = ofLights + this->skyDirections;
+    const bool isDone =
+      (!this->run || this->run->go([&](double share) { return goOn(share * ofLights / all); })) &&
+      (!this->skyRun ||
+        this->skyRun->go(
+          [&](double share) { return goOn((ofLights + share * this->skyDirections) / all); }));
+    this->rays = (this->run ? this->run->rays() : 0) + (this->skyRun ? this->skyRun->rays() : 0);
+    return isDone;
   }
   void dropScene()
   {
@@ -253,9 +275,58 @@ void vtkGnomonVisibilityFilter::AddLight(vtkLight* light, double hours)
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonVisibilityFilter::AddSky(int model, int directions)
+{
+  if (model < UNIFORM || model > OVERCAST)
+  {
+    vtkErrorMacro(
+      "A sky of model " << model << " does not exist: 0 is uniform, 1 a dome, 2 overcast.");
+    return;
+  }
+  if (!gnomon::SkyDirections::isCount(directions))
+  {
+    vtkErrorMacro(
+      "A sky takes a power of two in [16, 65536] as directions, not " << directions << ".");
+    return;
+  }
+  this->Internal->skyModel = static_cast<gnomon::SkyModel>(model);
+  this->Internal->skyDirections = directions;
+  this->Internal->lightsTime.Modified();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonVisibilityFilter::GetSkyModel()
+{
+  return static_cast<int>(this->Internal->skyModel);
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonVisibilityFilter::GetSkyDirections()
+{
+  return this->Internal->skyDirections;
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonVisibilityFilter::SetSkyDistance(double distance)
+{
+  if (!(distance >= 0.0 && std::isfinite(distance)))
+  {
+    vtkErrorMacro("SkyDistance " << distance << " is not finite, or below 0.");
+    return;
+  }
+  if (distance != this->SkyDistance)
+  {
+    this->SkyDistance = distance;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonVisibilityFilter::ClearLights()
 {
   this->Internal->lights.clear();
+  this->Internal->skyDirections = 0;
   this->Internal->lightsTime.Modified();
   this->Modified();
 }
@@ -313,6 +384,13 @@ void vtkGnomonVisibilityFilter::SetUp(double x, double y, double z)
 namespace
 {
 
+/// Return a vector's direction; 0 if it has none.
+glm::vec3 unitUp(const double up[3])
+{
+  const glm::dvec3 vector = glm::make_vec3(up);
+  return gnomon::isDirection(vector) ? glm::vec3(glm::normalize(vector)) : glm::vec3(0.0f);
+}
+
 Key sceneKeyOf(const std::vector<gnomon::DataScene::Input>& inputs)
 {
   Key key;
@@ -333,6 +411,95 @@ Key sceneKeyOf(const std::vector<gnomon::DataScene::Input>& inputs)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+/// Report what is missing for an execution.
+bool vtkGnomonVisibilityFilter::CanRun()
+{
+  const Internals& internal = *this->Internal;
+  const int lightCount = this->GetNumberOfLights();
+  if (lightCount == 0 && internal.skyDirections == 0)
+  {
+    vtkErrorMacro("There are no directions, suns or lights, and no sky: add some.");
+    return false;
+  }
+  if (internal.skyDirections > 0 && internal.skyModel != gnomon::SkyModel::Uniform &&
+    unitUp(this->Up) == glm::vec3(0.0f))
+  {
+    vtkErrorMacro("The sky has a horizon, and up is (0, 0, 0): call SetUp().");
+    return false;
+  }
+  if (lightCount > 0 && (this->ExplainedLight >= lightCount || this->ExplainedLight < -1))
+  {
+    vtkErrorMacro("The explained light " << this->ExplainedLight << " is none of the " << lightCount
+                                         << " lights.");
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/// Begin to trace what the filter has to compute.
+/// @return false, with an error, if a light cannot shine
+bool vtkGnomonVisibilityFilter::BeginRun(vtkPolyData* receivers, int samples)
+{
+  Internals& internal = *this->Internal;
+  const std::size_t lightCount = internal.lights.size();
+  const vtkIdType count =
+    this->Elements == POINTS ? receivers->GetNumberOfPoints() : receivers->GetNumberOfCells();
+  Results& results = internal.results = {};
+  internal.starts.emplace(*internal.scene, this->Elements == POINTS, samples,
+    this->AngularDiameter > 0.0, static_cast<gnomon::ReceivingSide>(this->ReceivingSide));
+  if (!internal.lights.empty())
+  {
+    std::string reason;
+    gnomon::VisibilityRun::Plan plan;
+    plan.lights = gnomon::weightedLights(
+      internal.lights, internal.scene->occluders().frame, this->AngularDiameter, reason);
+    if (!reason.empty())
+    {
+      vtkErrorMacro("Shadows of " << reason << ".");
+      return false;
+    }
+    plan.up = unitUp(this->Up);
+    plan.explained =
+      this->ExplainedLight < 0 ? lightCount - 1 : static_cast<std::size_t>(this->ExplainedLight);
+    plan.bothSides = this->ReceivingSide == BOTH;
+    gnomon::VisibilityArrays& to = results.pointers;
+    to.fraction = results.add<vtkFloatArray>(GetLitFractionName(), count, 1, 0);
+    if (samples > 1)
+    {
+      to.error = results.add<vtkFloatArray>(GetLitFractionErrorName(), count, 1, 0);
+    }
+    to.hours = results.add<vtkFloatArray>(GetHoursName(), count, 1, 0);
+    if (this->ComputeBits)
+    {
+      to.bits = results.add<vtkUnsignedCharArray>(
+        GetBitsName(), count, static_cast<int>((lightCount + 7) / 8), 0);
+    }
+    if (this->ComputeReasons)
+    {
+      to.fate = results.add<vtkUnsignedCharArray>(GetWhyName(), count, 1, NO_SURFACE);
+      to.blockerCell = results.add<vtkIdTypeArray>(GetBlockerName(), count, 1, -1);
+      to.blockerInput = results.add<vtkIntArray>(GetBlockerInputName(), count, 1, -1);
+    }
+    internal.run.emplace(*internal.scene, *internal.starts, *internal.tracer, std::move(plan), to);
+  }
+  if (internal.skyDirections > 0)
+  {
+    gnomon::Sky sky{ internal.skyModel, unitUp(this->Up) };
+    if (this->SkyDistance > 0.0)
+    {
+      sky.farthest =
+        static_cast<float>(internal.scene->occluders().frame.unitsPerWorld() * this->SkyDistance);
+    }
+    const gnomon::SkyRun::Arrays to{ results.add<vtkFloatArray>(GetSkyViewName(), count, 1, 0),
+      results.add<vtkFloatArray>(GetSkyViewErrorName(), count, 1, 0) };
+    internal.skyRun.emplace(*internal.starts, *internal.tracer, sky, internal.skyDirections,
+      this->ReceivingSide == BOTH, to);
+  }
+  return true;
+}
 
 //------------------------------------------------------------------------------
 int vtkGnomonVisibilityFilter::RequestUpdateExtent(
@@ -358,16 +525,8 @@ int vtkGnomonVisibilityFilter::RequestData(
   vtkPolyData* const result = vtkPolyData::GetData(output);
   result->ShallowCopy(receivers);
 
-  const std::size_t lightCount = internal.lights.size();
-  if (lightCount == 0)
+  if (!this->CanRun())
   {
-    vtkErrorMacro("There are no directions, suns or lights: add some.");
-    return 1;
-  }
-  if (this->ExplainedLight >= static_cast<int>(lightCount) || this->ExplainedLight < -1)
-  {
-    vtkErrorMacro("The explained light " << this->ExplainedLight << " is none of the " << lightCount
-                                         << " lights.");
     return 1;
   }
   const bool ofPoints = this->Elements == POINTS;
@@ -391,9 +550,9 @@ int vtkGnomonVisibilityFilter::RequestData(
     runKey.objects.emplace_back(
       this, std::max(internal.lightsTime.GetMTime(), gnomon::changeTime(internal.lights)));
     runKey.settings.insert(runKey.settings.end(),
-      { this->AngularDiameter, static_cast<double>(samples), static_cast<double>(this->Elements),
-        static_cast<double>(this->ReceivingSide), this->Up[0], this->Up[1], this->Up[2],
-        this->ComputeBits ? 1.0 : 0.0, this->ComputeReasons ? 1.0 : 0.0,
+      { this->AngularDiameter, this->SkyDistance, static_cast<double>(samples),
+        static_cast<double>(this->Elements), static_cast<double>(this->ReceivingSide), this->Up[0],
+        this->Up[1], this->Up[2], this->ComputeBits ? 1.0 : 0.0, this->ComputeReasons ? 1.0 : 0.0,
         static_cast<double>(this->ExplainedLight) });
     if (!(internal.runKey == runKey))
     {
@@ -401,66 +560,29 @@ int vtkGnomonVisibilityFilter::RequestData(
       internal.runKey = {};
       internal.finished = false;
       internal.rays = 0;
-      std::string reason;
-      gnomon::VisibilityRun::Plan plan;
-      plan.lights = gnomon::weightedLights(
-        internal.lights, internal.scene->occluders().frame, this->AngularDiameter, reason);
-      if (!reason.empty())
+      if (!this->BeginRun(receivers, samples))
       {
-        vtkErrorMacro("Shadows of " << reason << ".");
         return 1;
       }
-      const glm::dvec3 up = glm::make_vec3(this->Up);
-      plan.up = gnomon::isDirection(up) ? glm::vec3(glm::normalize(up)) : glm::vec3(0.0f);
-      plan.explained =
-        this->ExplainedLight < 0 ? lightCount - 1 : static_cast<std::size_t>(this->ExplainedLight);
-      plan.bothSides = this->ReceivingSide == BOTH;
-
-      const vtkIdType count =
-        ofPoints ? receivers->GetNumberOfPoints() : receivers->GetNumberOfCells();
-      Results& results = internal.results = {};
-      gnomon::VisibilityArrays& to = results.pointers;
-      to.fraction = results.add<vtkFloatArray>(GetLitFractionName(), count, 1, 0);
-      if (samples > 1)
-      {
-        to.error = results.add<vtkFloatArray>(GetLitFractionErrorName(), count, 1, 0);
-      }
-      to.hours = results.add<vtkFloatArray>(GetHoursName(), count, 1, 0);
-      if (this->ComputeBits)
-      {
-        to.bits = results.add<vtkUnsignedCharArray>(
-          GetBitsName(), count, static_cast<int>((lightCount + 7) / 8), 0);
-      }
-      if (this->ComputeReasons)
-      {
-        to.fate = results.add<vtkUnsignedCharArray>(GetWhyName(), count, 1, NO_SURFACE);
-        to.blockerCell = results.add<vtkIdTypeArray>(GetBlockerName(), count, 1, -1);
-        to.blockerInput = results.add<vtkIntArray>(GetBlockerInputName(), count, 1, -1);
-      }
-      internal.starts.emplace(*internal.scene, ofPoints, samples, hasDisc,
-        static_cast<gnomon::ReceivingSide>(this->ReceivingSide));
-      internal.run.emplace(
-        *internal.scene, *internal.starts, *internal.tracer, std::move(plan), to);
       internal.runKey = std::move(runKey);
     }
 
     if (!internal.finished)
     {
-      internal.finished = internal.run->go(
+      internal.finished = internal.go(
         [this](double share)
         {
           this->UpdateProgress(share);
           return !this->GetAbortExecute();
         });
-      internal.rays = internal.run->rays();
       internal.unfinished = !internal.finished;
     }
   }
   catch (const std::exception& error)
   {
     internal.dropScene();
-    vtkErrorMacro("Shadows of " << receivers->GetNumberOfCells() << " cells with " << lightCount
-                                << " lights: " << error.what() << ".");
+    vtkErrorMacro("Shadows of " << receivers->GetNumberOfCells() << " cells with "
+                                << this->GetNumberOfLights() << " lights: " << error.what() << ".");
     return 1;
   }
   if (internal.finished)
@@ -482,6 +604,8 @@ void vtkGnomonVisibilityFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfLights: " << this->GetNumberOfLights() << "\n";
   os << indent << "AngularDiameter: " << this->AngularDiameter << "\n";
+  os << indent << "SkyDirections: " << this->Internal->skyDirections << "\n";
+  os << indent << "SkyDistance: " << this->SkyDistance << "\n";
   os << indent << "Samples: " << this->Samples << "\n";
   os << indent << "Elements: " << (this->Elements == CELLS ? "Cells" : "Points") << "\n";
   os << indent << "ReceivingSide: "

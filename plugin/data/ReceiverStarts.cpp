@@ -26,9 +26,6 @@ constexpr double pixelsAlong = 1024.0;
 constexpr std::uint32_t seedOfPlaces = 1;
 constexpr std::uint32_t seedOfDiscs = 2;
 
-/// Columns of the square from which SobolPoints takes its points.
-constexpr std::size_t columns = 65536;
-
 using Corners = std::array<glm::dvec3, 3>;
 
 glm::dvec3 areaVector(const Corners& corners)
@@ -263,8 +260,7 @@ void ReceiverStarts::appendSpread(std::size_t element, SampleStarts& starts) con
   {
     all += glm::length(areaVector(this->scene_.corners(this->elements_.triangles[i])));
   }
-  const SamplePixel pixel = this->points_.pixel(
-    static_cast<std::uint32_t>(element % columns), static_cast<std::uint32_t>(element / columns));
+  const SamplePixel pixel = pixelOf(this->points_, element);
   for (int sample = 0; sample < this->samples_; ++sample)
   {
     const glm::uvec3 fractions = this->points_.point(sample, pixel);
@@ -306,8 +302,7 @@ void ReceiverStarts::appendCorners(std::size_t element, SampleStarts& starts) co
 /// Append disc points in random order, since both they and the starts come from one sequence.
 void ReceiverStarts::appendDisc(std::size_t element, SampleStarts& starts) const
 {
-  const SamplePixel pixel = this->discPoints_.pixel(
-    static_cast<std::uint32_t>(element % columns), static_cast<std::uint32_t>(element / columns));
+  const SamplePixel pixel = pixelOf(this->discPoints_, element);
   const std::size_t begin = starts.disc.size();
   for (int sample = 0; sample < this->samples_; ++sample)
   {

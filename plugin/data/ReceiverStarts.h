@@ -12,6 +12,14 @@
 namespace gnomon
 {
 
+/// Return the pixel of an element, for points of SobolPoints that differ between elements.
+inline SamplePixel pixelOf(const SobolPoints& points, std::size_t element)
+{
+  constexpr std::size_t columns = 65536;
+  return points.pixel(
+    static_cast<std::uint32_t>(element % columns), static_cast<std::uint32_t>(element / columns));
+}
+
 /// The side of a surface that receives light.
 enum class ReceivingSide
 {

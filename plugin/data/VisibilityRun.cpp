@@ -17,8 +17,6 @@ namespace
 
 /// Samples of a chunk, at least one element's.
 constexpr std::size_t samplesOfChunk = 16384;
-/// Approximate rays of a part: a twentieth of a second on two cores. An abort waits for its end.
-constexpr std::size_t raysOfPart = std::size_t(1) << 20;
 /// Samples of a tile, which one thread traces. Four packets, so that few packets are incomplete.
 constexpr std::size_t samplesOfTile = 64;
 /// Answers that a tile holds at a time: they fit the processor's first cache.

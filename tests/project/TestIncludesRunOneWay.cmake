@@ -41,7 +41,7 @@ folder(plugin/window lights shadowtech/base)
 # Differences between VTK's releases.
 folder(plugin/vtk_versions lights shadowtech/base plugin/window)
 folder(plugin/scene lights shadowtech/base plugin/ranks plugin/vtk_versions plugin/window)
-folder(plugin/data lights shadowtech/base shadowtech/tracing plugin/scene)
+folder(plugin/data lights shadowtech/base shadowtech/sky shadowtech/tracing plugin/scene)
 folder(plugin/plan lights shadowtech shadowtech/base shadowtech/probing shadowtech/tracing)
 folder(plugin/frame ${shared} shadowtech plugin/plan plugin/ranks plugin/scene plugin/window)
 folder(plugin/pass lights shadowtech/base plugin/plan)

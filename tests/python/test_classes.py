@@ -16,6 +16,7 @@ from scene import Scene
 
 # Setters whose values are got one by one, and those that only others call.
 GETTERS = {
+    "vtkGnomonVisibilityFilter.AddSky": ["GetSkyModel", "GetSkyDirections"],
     "vtkGnomonSun.SetDate": ["GetYear", "GetMonth", "GetDay"],
     "vtkGnomonSun.SetTime": ["GetHour", "GetMinute", "GetSecond", "GetZoneHours"],
     "vtkGnomonSun.SetPlace": ["GetLatitude", "GetLongitude"],

@@ -510,6 +510,23 @@ class Data(unittest.TestCase):
         self.assertTrue(abs(noon[0]) < 0.1 and noon[1] < 0, noon)  # in the south
         self.assertAlmostEqual(noon[2], numpy.sin(numpy.radians(90 - 52.52 - 23.44)), delta=0.002)
 
+    def test_a_wall_hides_half_of_the_sky(self):
+        wall = ([[1, -999, 0], [1, 999, 0], [1, 0, 999]], [[0, 1, 2]])
+        ground = ([[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0]], [[0, 1, 2]])
+        for model in ("uniform", "dome", "overcast"):
+            (view,), (error,) = gnomon.sky_view(ground, casters=[wall], model=model)
+            self.assertAlmostEqual(view, 0.5, delta=0.01)
+            self.assertTrue(0 < error < 0.01, error)
+        facade = ([[0, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2]])  # looks at the wall
+        view, error = gnomon.sky_view(facade, casters=[wall], model="overcast")
+        self.assertAlmostEqual(view[0], 0, delta=0.01)
+        from vtkmodules.vtkFiltersSources import vtkPlaneSource
+
+        polydata = vtkPlaneSource()
+        polydata.Update()
+        (view,), _ = gnomon.sky_view(polydata.GetOutput(), [wall, self.roof], distance=1e-3)
+        self.assertEqual(view, 1.0)
+
     def test_a_picture_of_arrays(self):
         # Seen from above, a roof of 1 x 1 beside its shadow, over a floor of 3 x 3.
         with tempfile.TemporaryDirectory() as folder:
@@ -533,6 +550,11 @@ class Data(unittest.TestCase):
             (lambda: gnomon.hours_lit((self.floor[0], [[0, 1, 9]]), self.suns), "found 0 to 9"),
             (lambda: gnomon.hours_lit(self.floor, [[0, 0, 0]]), "."),
             (lambda: gnomon.hours_lit(self.floor, self.suns, [1, 2, 3, -4]), "."),
+            (lambda: gnomon.sky_view(self.floor, [self.roof], "cloudy"), "model: expected"),
+            (lambda: gnomon.sky_view(self.floor, directions=100), "power of two"),
+            (lambda: gnomon.sky_view(self.floor, [([[0, 0]], [])]), r"casters\[0\]' points"),
+            (lambda: gnomon.sky_view(self.floor, distance=-1.0), "SkyDistance"),
+            (lambda: gnomon.sky_view(self.floor, model="dome", up=(0, 0, 0)), "horizon"),
         ):
             with self.assertRaisesRegex(ValueError, what):
                 call()

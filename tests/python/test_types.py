@@ -69,7 +69,7 @@ class Stubs(unittest.TestCase):
 class Functions(unittest.TestCase):
     def test_functions_have_types_and_text(self):
         functions = [name for name in gnomon.__all__ if not name.startswith("vtk")]
-        self.assertEqual(len(functions), 9)
+        self.assertEqual(len(functions), 10)
         for name in functions:
             function = getattr(gnomon, name)
             signature = inspect.signature(function)

@@ -46,7 +46,11 @@ if TYPE_CHECKING:
 
     import numpy
 
-    from .data import hours_lit as hours_lit, sun_path as sun_path
+    from .data import (
+        hours_lit as hours_lit,
+        sky_view as sky_view,
+        sun_path as sun_path,
+    )
     from .figure import draw as draw
 
     class _HasRenderer(Protocol):
@@ -62,6 +66,7 @@ __all__ = [
     "hours_lit",
     "remove_shadows",
     "report",
+    "sky_view",
     "sun_path",
     "visibility",
     "why",
@@ -87,7 +92,8 @@ if not TYPE_CHECKING:  # for which every name would exist, and classes made by a
     vtkGnomonPropKeys = taking_holders(vtkGnomonPropKeys)
 
     def __getattr__(name):
-        if name in ("draw", "hours_lit", "sun_path"):  # need NumPy, which the rest can do without
+        # These need NumPy, which the rest can do without.
+        if name in ("draw", "hours_lit", "sky_view", "sun_path"):
             from . import data, figure
 
             return getattr(figure if name == "draw" else data, name)

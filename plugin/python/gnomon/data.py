@@ -18,7 +18,11 @@ from .GnomonLights import vtkGnomonSun
 from .GnomonPlugin import vtkGnomonVisibilityFilter
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike
+
+_SKIES = ("uniform", "dome", "overcast")  # in the order of vtkGnomonVisibilityFilter.SkyModelType
 
 
 def sun_path(
@@ -123,6 +127,67 @@ def hours_lit(
     return vtk_to_numpy(data.GetArray(shadows.GetHoursName()))
 
 
+def sky_view(
+    surface: tuple[ArrayLike, ArrayLike] | vtkPolyData,
+    casters: Sequence[tuple[ArrayLike, ArrayLike] | vtkPolyData] = (),
+    model: str = "uniform",
+    directions: int = 1024,
+    distance: float = 0.0,
+    up: ArrayLike = (0.0, 0.0, 1.0),
+) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Return how much of the sky each cell sees, by vtkGnomonVisibilityFilter.
+
+    Parameters
+    ----------
+    surface : (points, triangles) or vtkPolyData
+        As the receivers of `hours_lit`; or polydata, whose polygons count. It casts, too.
+    casters : sequence of the same, optional
+        What else hides the sky.
+    model : str
+        "uniform": as bright from everywhere, from below, too (ambient occlusion); "dome": as
+        bright from everywhere above the horizon; "overcast": CIE's sky, three times as bright in
+        the zenith as at the horizon.
+    directions : int
+        Rays from the middle of each cell, a power of two in [16, 65536].
+    distance : float
+        From which on nothing hides the sky, in world units; 0: there is none.
+    up : array of 3
+        Of the horizon, of any length.
+
+    Returns
+    -------
+    (numpy.ndarray, numpy.ndarray)
+        Each cell's view, 1 where a horizontal surface sees all, and its standard error.
+
+    Raises
+    ------
+    ValueError
+        For arrays of other shapes, numbers of points that do not exist, and what the filter
+        refuses.
+    KeyboardInterrupt
+        After Ctrl-C on the main thread.
+    """
+    if model not in _SKIES:
+        raise ValueError(f"model: expected one of {', '.join(_SKIES)}, found {model!r}")
+    shadows = vtkGnomonVisibilityFilter()
+    shadows.SetInputData(0, _polydata("surface", surface))
+    for number, caster in enumerate(casters):
+        shadows.AddInputData(1, _polydata(f"casters[{number}]", caster))
+    with raising(shadows) as errors:
+        shadows.SetUp(_array("up", up, (3,), float))
+        shadows.SetSkyDistance(distance)
+        shadows.AddSky(_SKIES.index(model), directions)
+        if not errors:
+            with _interruptible(shadows):
+                shadows.Update()
+    data = shadows.GetOutput().GetCellData()
+    view, error = (
+        vtk_to_numpy(data.GetArray(name))
+        for name in (shadows.GetSkyViewName(), shadows.GetSkyViewErrorName())
+    )
+    return view, error
+
+
 @contextlib.contextmanager
 def _interruptible(algorithm):
     """Let Ctrl-C end an algorithm's execution by its exception.
@@ -168,6 +233,8 @@ def _array(name, values, shape, kind):
 
 
 def _polydata(name, mesh):
+    if isinstance(mesh, vtkPolyData):
+        return mesh
     points = _array(f"{name}' points", mesh[0], (None, 3), float)
     triangles = _array(f"{name}' triangles", mesh[1], (None, 3), numpy.int64)
     if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):

@@ -4,11 +4,16 @@
 
 #include "plugin/vtkGnomonVisibilityFilter.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <glm/glm.hpp>
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace gnomon::test
@@ -33,5 +38,27 @@ vtkSmartPointer<vtkPolyData> together(const std::vector<vtkSmartPointer<vtkPolyD
 std::vector<double> shownArrayOf(vtkGnomonVisibilityFilter* filter, const char* name);
 /// Update the filter first.
 std::vector<double> arrayOf(vtkGnomonVisibilityFilter* filter, const char* name);
+
+/// Calls a function on each progress event.
+class Progress
+{
+public:
+  Progress(vtkAlgorithm* algorithm, const std::function<void(double)>& told)
+    : algorithm_(algorithm)
+    , told_(told)
+  {
+    this->command_->SetClientData(this);
+    this->command_->SetCallback([](vtkObject* caller, unsigned long, void* self, void*)
+      { static_cast<Progress*>(self)->told_(vtkAlgorithm::SafeDownCast(caller)->GetProgress()); });
+    this->tag_ = algorithm->AddObserver(vtkCommand::ProgressEvent, this->command_);
+  }
+  ~Progress() { this->algorithm_->RemoveObserver(this->tag_); }
+
+private:
+  vtkAlgorithm* algorithm_;
+  std::function<void(double)> told_;
+  vtkNew<vtkCallbackCommand> command_;
+  unsigned long tag_;
+};
 
 } // namespace gnomon::test

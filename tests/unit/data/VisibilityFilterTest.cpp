@@ -313,28 +313,6 @@ TEST_F(VisibilityFilter, BitsAreThoseOfEachLightAlone)
   EXPECT_LT(lit, cells * 30);
 }
 
-/// Calls a function on each progress event.
-class Progress
-{
-public:
-  Progress(vtkAlgorithm* algorithm, const std::function<void(double)>& told)
-    : algorithm_(algorithm)
-    , told_(told)
-  {
-    this->command_->SetClientData(this);
-    this->command_->SetCallback([](vtkObject* caller, unsigned long, void* self, void*)
-      { static_cast<Progress*>(self)->told_(vtkAlgorithm::SafeDownCast(caller)->GetProgress()); });
-    this->tag_ = algorithm->AddObserver(vtkCommand::ProgressEvent, this->command_);
-  }
-  ~Progress() { this->algorithm_->RemoveObserver(this->tag_); }
-
-private:
-  vtkAlgorithm* algorithm_;
-  std::function<void(double)> told_;
-  vtkNew<vtkCallbackCommand> command_;
-  unsigned long tag_;
-};
-
 TEST_F(VisibilityFilter, AbortedExecutionsGoOn)
 {
   // Use several chunks of samples, and in the last one several blocks of lights.
