@@ -19,6 +19,7 @@
 #include "vtkProp.h"
 #include "vtkRenderState.h"
 
+#include <glm/gtc/type_ptr.hpp>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -477,6 +478,12 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes(vtkRenderer* renderer) const
   const bool isOfWindow = this->TimeBudget == GNOMON_TIME_BUDGET_OF_WINDOW &&
     gnomon::PictureTimer::asksForSpeed(renderer->GetRenderWindow());
   wishes.windowTime = isOfWindow ? 1000.0 * renderer->GetAllocatedRenderTime() : 0.0;
+  wishes.sky.intensity = this->SkyIntensity;
+  wishes.sky.colour = glm::make_vec3(this->SkyColor);
+  wishes.sky.model = static_cast<gnomon::SkyModel>(this->SkyModel);
+  wishes.sky.upWorld = glm::make_vec3(this->SkyUp);
+  wishes.sky.distanceWorld = this->SkyDistance;
+  wishes.sky.directions = this->SkyDirections;
   wishes.memoryBudget = this->MemoryBudget * 1024.0 * 1024.0;
   wishes.reductionFactor = this->DelegatePass ? this->ImageReductionFactor : 1;
   wishes.factors = this->Internal->factors;

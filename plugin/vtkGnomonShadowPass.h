@@ -284,6 +284,65 @@ public:
   vtkGetMacro(MemoryBudget, double);
   ///@}
 
+  ///@{
+  /**
+   * The light of a sky, in units of a light's intensity; 0, the default: there is none. It adds
+   * SkyColor times the material's diffuse colour, and what each point sees of the sky scales that
+   * sum with the material's ambient term, and the diffuse light of an environment on physically
+   * based materials. Other light, highlights and unlit props stay as they are. Surfaces that show
+   * no shadows, and translucent ones, have all of the sky's light. Negative numbers are an error
+   * and change nothing.
+   *
+   * Rays find the view, so all receivers are drawn first (the image route). At rest it is complete
+   * after SkyDirections rays from each pixel, on screen in steps (GetProgress()); moving pictures
+   * have a sixteenth of them. Several processes have no sky.
+   */
+  virtual void SetSkyIntensity(double intensity);
+  vtkGetMacro(SkyIntensity, double);
+  vtkSetVector3Macro(SkyColor, double);
+  vtkGetVector3Macro(SkyColor, double);
+  ///@}
+
+  /**
+   * Models of a sky.
+   */
+  enum SkyModelType
+  {
+    SKY_UNIFORM = 0, ///< as bright from everywhere, from below, too: ambient occlusion
+    SKY_DOME = 1,    ///< as bright from everywhere above the horizon, dark below it
+    SKY_OVERCAST = 2 ///< CIE's overcast sky: three times as bright in the zenith as at the horizon
+  };
+
+  ///@{
+  /**
+   * The sky's model, and which way is up in the world, by a vector of any length but 0. Default:
+   * SKY_UNIFORM, (0, 0, 1). In all models a horizontal surface below the open sky sees 1.
+   */
+  vtkSetClampMacro(SkyModel, int, SKY_UNIFORM, SKY_OVERCAST);
+  vtkGetMacro(SkyModel, int);
+  virtual void SetSkyUp(double x, double y, double z);
+  void SetSkyUp(const double up[3]) { this->SetSkyUp(up[0], up[1], up[2]); }
+  vtkGetVector3Macro(SkyUp, double);
+  ///@}
+
+  ///@{
+  /**
+   * The distance from which on nothing hides the sky, in world coordinates. 0, the default: there
+   * is none. Negative numbers are an error and change nothing.
+   */
+  virtual void SetSkyDistance(double distance);
+  vtkGetMacro(SkyDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Rays to the sky from each pixel: a power of two in [16, 65536]; anything else is an error and
+   * changes nothing. Default: 256.
+   */
+  virtual void SetSkyDirections(int directions);
+  vtkGetMacro(SkyDirections, int);
+  ///@}
+
   /**
    * Have "auto" go by what frames cost on this machine, in a file that `gnomon calibrate` wrote. A
    * file that is none is an error and changes nothing. Null: the default factors, those of llvmpipe
@@ -455,6 +514,12 @@ protected:
   double MaximumSoftError = 0.03;
   double TimeBudget = GNOMON_TIME_BUDGET_OF_WINDOW;
   double MemoryBudget = 0.0;
+  double SkyIntensity = 0.0;
+  double SkyColor[3] = { 1.0, 1.0, 1.0 };
+  int SkyModel = SKY_UNIFORM;
+  double SkyUp[3] = { 0.0, 0.0, 1.0 };
+  double SkyDistance = 0.0;
+  int SkyDirections = 256;
   bool MeasureStages = false;
   bool KeepVisibility = false;
   vtkRenderPass* DelegatePass = nullptr;

@@ -5,10 +5,12 @@
 #include "plugin/frame/VisibilityData.h"
 #include "plugin/pass/ReportText.h"
 #include "shadowtech/Registry.h"
+#include "shadowtech/sky/Sky.h"
 
 #include "vtkMultiProcessController.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -42,6 +44,52 @@ void vtkGnomonShadowPass::SetTimeBudget(double milliseconds)
 void vtkGnomonShadowPass::SetMemoryBudget(double mebibytes)
 {
   this->SetNumber("MemoryBudget", mebibytes, 1e9, this->MemoryBudget);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetSkyIntensity(double intensity)
+{
+  this->SetNumber("SkyIntensity", intensity, VTK_DOUBLE_MAX, this->SkyIntensity);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetSkyDistance(double distance)
+{
+  this->SetNumber("SkyDistance", distance, VTK_DOUBLE_MAX, this->SkyDistance);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetSkyUp(double x, double y, double z)
+{
+  const double length = glm::length(glm::dvec3(x, y, z));
+  if (!(length > 0.0 && std::isfinite(length)))
+  {
+    vtkErrorMacro(<< "SkyUp was to be (" << x << ", " << y << ", " << z
+                  << "), which has no direction.");
+    return;
+  }
+  const double up[3] = { x, y, z };
+  if (!std::equal(up, up + 3, this->SkyUp))
+  {
+    std::copy_n(up, 3, this->SkyUp);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetSkyDirections(int directions)
+{
+  if (!gnomon::SkyDirections::isCount(directions))
+  {
+    vtkErrorMacro(<< "SkyDirections was to be " << directions
+                  << ", expected a power of two in [16, 65536].");
+    return;
+  }
+  if (this->SkyDirections != directions)
+  {
+    this->SkyDirections = directions;
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -252,6 +300,14 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumSoftError: " << this->MaximumSoftError << "\n";
   os << indent << "TimeBudget: " << this->TimeBudget << " ms\n";
   os << indent << "MemoryBudget: " << this->MemoryBudget << " MiB\n";
+  os << indent << "SkyIntensity: " << this->SkyIntensity << "\n";
+  os << indent << "SkyColor: " << this->SkyColor[0] << ", " << this->SkyColor[1] << ", "
+     << this->SkyColor[2] << "\n";
+  os << indent << "SkyModel: " << this->SkyModel << "\n";
+  os << indent << "SkyUp: " << this->SkyUp[0] << ", " << this->SkyUp[1] << ", " << this->SkyUp[2]
+     << "\n";
+  os << indent << "SkyDistance: " << this->SkyDistance << "\n";
+  os << indent << "SkyDirections: " << this->SkyDirections << "\n";
   os << indent << "CostFactors: " << (this->Internal->factors ? "read" : "default") << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";

@@ -133,17 +133,6 @@ constexpr int mostFetchesOneByOne = 15;
 } // namespace
 
 //------------------------------------------------------------------------------
-int layersOf(const std::vector<ShadedLight>& lights)
-{
-  int layers = 0;
-  for (const ShadedLight& shaded : lights)
-  {
-    layers = shaded.bit != noBit ? layers : std::max(layers, shaded.layer + shaded.channels);
-  }
-  return layers;
-}
-
-//------------------------------------------------------------------------------
 bool haveBits(const std::vector<ShadedLight>& lights)
 {
   return std::any_of(
@@ -159,7 +148,7 @@ std::string litOf(const ShadedLight& shaded, int light)
 //------------------------------------------------------------------------------
 HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& lights)
   : variant_(variant)
-  , hasLights_(!lights.empty())
+  , hasLights_(!lights.empty() || variant.skyLayer != noSkyLayer)
   , declarations_(std::string("#define VTK_VIEW_IS_RIGID ") +
       (variant.vtkViewIsRigid ? "1\n" : "0\n") + frameShaders().at("plugin/frame/hook.glsl"))
 {
@@ -197,6 +186,10 @@ HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& l
       "  curvedView = vec4(gnomonCurve, gnomonFacetHeight);\n";
   }
   this->addLights(lights);
+  if (variant.skyLayer != noSkyLayer)
+  {
+    this->addSky();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -216,7 +209,7 @@ void HookGlsl::addImages(const std::vector<ShadedLight>& lights)
   {
     this->declarations_ += frameShaders().at("plugin/frame/hook_pixel.glsl");
   }
-  const int layers = layersOf(lights);
+  const int layers = this->variant_.layers;
   if (layers > mostFetchesOneByOne)
   {
     this->declarations_ += "const int gnomonMostLayers = " + std::to_string(layers) + ";\n" +
@@ -258,6 +251,16 @@ void HookGlsl::addLights(const std::vector<ShadedLight>& lights)
       this->darkenings_ += darkeningOf(shaded, number);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void HookGlsl::addSky()
+{
+  this->declarations_ += frameShaders().at("plugin/frame/hook_sky.glsl");
+  this->multiplications_ += "  gnomonSkyView = gnomonReceives == 0 || gnomonTranslucent == 1\n"
+                            "    ? 1.0 : gnomonLayer(" +
+    std::to_string(this->variant_.skyLayer) +
+    ");\n  ambientColor = gnomonSkyView * (ambientColor + gnomonSkyLight * diffuseColor);\n";
 }
 
 //------------------------------------------------------------------------------
@@ -391,6 +394,14 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
   replace(fragmentShader, uniformFlowMarker, uniformFlow);
   replace(fragmentShader, beginMarker, begin);
   replace(fragmentShader, endMarker, end);
+  if (receives && this->variant_.skyLayer != noSkyLayer)
+  {
+    // Of physically based materials; other shaders have no such lines.
+    replace(fragmentShader, "vec3 Lo = vec3(0.0);",
+      "vec3 Lo = gnomonSkyView * gnomonSkyLight * (1.0 - metallic) * albedo;");
+    replace(fragmentShader, "vec3 color = iblDiffuse + iblSpecular;",
+      "vec3 color = gnomonSkyView * iblDiffuse + iblSpecular;");
+  }
 }
 
 //------------------------------------------------------------------------------

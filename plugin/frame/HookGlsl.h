@@ -12,6 +12,9 @@
 namespace gnomon
 {
 
+/// HookVariant::skyLayer without a sky.
+inline constexpr int noSkyLayer = -1;
+
 /// The tasks of a frame's shaders, besides their lights.
 struct HookVariant
 {
@@ -22,6 +25,8 @@ struct HookVariant
   bool namesTriangles = true;  ///< not on the inline route: triangle numbers may be written
   bool vtkViewIsRigid = true;  ///< ShownView::viewFromVtkView is the identity
   bool anySeenThrough = false; ///< true if DrawnProps::seenThrough has some
+  int layers = 0;              ///< image route: of visibility
+  int skyLayer = noSkyLayer;   ///< image route: the layer of the view of the sky
 };
 
 /// One casting light, as the shader hook needs it.
@@ -36,8 +41,6 @@ struct ShadedLight
   const PointwiseTechnique* pointwise = nullptr;
 };
 
-/// Return the number of the lights' layers.
-int layersOf(const std::vector<ShadedLight>& lights);
 /// True if the visibility of any light is a bit.
 bool haveBits(const std::vector<ShadedLight>& lights);
 /// Return the expression of the factor of a light's colour if nothing hides the light; a uniform if
@@ -49,6 +52,11 @@ std::string litOf(const ShadedLight& shaded, int light);
 /// For a light with a texture the visibility is a colour, and the texture's mean in full light. The
 /// local variable hides VTK's uniform of the same name, so VTK's loop works with the shadowed
 /// colour, for every shading model and kind of light. The hook relies on the uniforms' names alone.
+///
+/// A sky lights by the material's own terms, before VTK's lights:
+///     ambientColor = (view of the sky) * (ambientColor + (light of the sky) * diffuseColor);
+/// Physically based materials have neither, but `Lo` for lights and `iblDiffuse` for an
+/// environment.
 ///
 /// On the image route the same programs also serve the receivers stage. A uniform selects the
 /// stage, so VTK rebuilds no shader between stages. On the deferred route they light each fragment
@@ -77,11 +85,12 @@ public:
 private:
   void addImages(const std::vector<ShadedLight>& lights);
   void addLights(const std::vector<ShadedLight>& lights);
+  void addSky();
   std::string lightInShadow(const std::string& fragmentShader) const;
   std::string writeReceiver(bool receives, const std::string& primitive) const;
 
   HookVariant variant_;
-  bool hasLights_ = false;
+  bool hasLights_ = false; ///< or a sky
   std::string extensions_;
   std::string declarations_;
   std::string uniformFlow_;     ///< statements that must be in uniform control flow

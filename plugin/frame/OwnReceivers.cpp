@@ -11,8 +11,9 @@ Receivers& OwnReceivers::receivers()
 {
   ReceiversValue& value = this->frame_.view->receivers;
   const CastingLights& lights = this->frame_.lights;
-  const bool findsCurves = std::any_of(lights.begin(), lights.end(),
-    [](const CastingLight& casting) { return casting.isOnCpu(); }); // others do not ask for them
+  const bool findsCurves = this->frame_.plan.sky ||
+    std::any_of(lights.begin(), lights.end(),
+      [](const CastingLight& casting) { return casting.isOnCpu(); }); // others do not ask for them
   if (!value.onCpu || value.onCpu->findsCurves() != findsCurves)
   {
     if (value.numberOfImages != value.number)

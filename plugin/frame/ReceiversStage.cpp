@@ -99,7 +99,6 @@ void ReceiversStage::begin(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 void ReceiversStage::update(const vtkRenderState* s, vtkObjectBase* pass)
 {
-  this->findStale(s);
   const bool areDue = this->due_.has_value() || !this->frame_.view->receivers.shared.areShared();
   if (this->frame_.ranks->isAny(areDue))
   {

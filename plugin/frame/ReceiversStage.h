@@ -41,10 +41,10 @@ public:
   void findStale(const vtkRenderState* s);
   bool areDue() const { return this->due_.has_value(); }
 
-  /// Deferred route: count the frames in a row that kept their receivers.
+  /// Count the frames in a row that kept their receivers.
   int countRest();
 
-  /// Image route: draw the receivers if they are stale, and points for techniques that read them on
+  /// Image route: draw the receivers if they are due, and points for techniques that read them on
   /// the GPU.
   /// @param pass whose hook the props' shaders have
   void update(const vtkRenderState* s, vtkObjectBase* pass);
@@ -70,7 +70,7 @@ private:
   std::optional<ValueKey> due_;           ///< the key of receivers that this frame draws
   std::size_t numbered_ = 0;              ///< how many images of receivers were drawn
   std::int64_t wrongByDriver_ = 0;        ///< numbers, while geometry shaders draw receivers
-  int restingFrames_ = 0;                 ///< deferred route: in a row that kept their receivers
+  int restingFrames_ = 0;                 ///< in a row that kept their receivers
 };
 
 } // namespace gnomon

@@ -106,7 +106,7 @@ bool RenderManager::readLights(
   const LightSet& lights = frame.scene.lights.set;
   frame.ranks->requireSame([&] { return hashOf(lights, true); }, "lights");
   frame.endStage("lights");
-  return !lights.lights.empty() || frame.wishes.keepVisibility;
+  return !lights.lights.empty() || frame.wishes.sky.intensity > 0.0 || frame.wishes.keepVisibility;
 }
 
 //------------------------------------------------------------------------------
@@ -208,7 +208,7 @@ void RenderManager::configureShaders(const vtkRenderState* s)
     shaded.push_back({ plan.light, plan.channels, plan.layer, plan.bit, casting.pointwise() });
   }
   bool writes = true;
-  if (frame.route() == Route::Deferred)
+  if (frame.route() != Route::Inline)
   {
     this->receivers_.findStale(s);
     writes = writesNumbers({ this->receivers_.countRest(), frame.scene.picture.severalViews,
@@ -216,8 +216,10 @@ void RenderManager::configureShaders(const vtkRenderState* s)
   }
   this->programs_.shaders.configure(
     { frame.route(), this->receivers_.readsPoints(), frame.scene.picture.samples > 1, writes,
-      this->stageValues_.viewFromVtkView == glm::dmat4(1.0), frame.scene.props.seenThrough },
+      this->stageValues_.viewFromVtkView == glm::dmat4(1.0), frame.scene.props.seenThrough,
+      frame.plan.layers, frame.plan.sky ? frame.plan.sky->layer : noSkyLayer },
     shaded);
+  this->stageValues_.skyLight = frame.plan.sky ? frame.plan.sky->light : glm::vec3(0.0f);
 }
 
 //------------------------------------------------------------------------------
@@ -230,6 +232,7 @@ void RenderManager::makeRoomForLayers()
   if (count + bits > 0 && !layers.have(size.x, size.y, count, bits))
   {
     this->frame_.view->visibility.clear();
+    this->frame_.view->sky.key.reset();
     layers.resize(size.x, size.y, count, bits);
   }
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, layers.texture() };
@@ -275,6 +278,13 @@ void RenderManager::bakeMaps()
     }
   }
   this->frame_.endStage("maps");
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::computeVisibility()
+{
+  this->sky_.compute(); // may store the receivers, which the lights read then
+  this->visibility_.compute();
 }
 
 //------------------------------------------------------------------------------
@@ -396,7 +406,7 @@ void RenderManager::endFrame(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 double RenderManager::progress() const
 {
-  double progress = 1.0;
+  double progress = this->frame_.counts.skyProgress;
   for (const CastingLight& casting : this->frame_.lights)
   {
     progress = std::min(progress, casting.counts.progress);

@@ -8,6 +8,7 @@
 #include "plugin/frame/ReceiversOnCpu.h"
 #include "plugin/frame/ReceiversStage.h"
 #include "plugin/frame/SceneReading.h"
+#include "plugin/frame/SkyStage.h"
 #include "plugin/frame/SnapshotTracer.h"
 #include "plugin/frame/VisibilityStage.h"
 #include "plugin/ranks/SharedPatches.h"
@@ -80,10 +81,10 @@ public:
   /// @throws TextureMemoryError for maps without room
   void bakeMaps();
 
-  /// visibility (image route): fills the layers of the lights whose visibility is another one than
-  /// the view has, and keeps a copy if asked to.
+  /// visibility (image route): fills the layers of the sky and of the lights whose visibility is
+  /// another one than the view has, and keeps a copy of the lights' if asked to.
   /// @throws std::runtime_error if there is no tracer
-  void computeVisibility() { this->visibility_.compute(); }
+  void computeVisibility();
 
   /// shading and receivers (deferred route): between the two calls VTK draws its opaque props, lit
   /// and in shadow. Afterwards it is known which lights' visibility is another one than the view
@@ -139,6 +140,7 @@ private:
   ReceiversOfRanks receiversOfRanks_{ frame_, collector_, names_, patches_ };
   VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, tracer_,
     programs_.library };
+  SkyStage sky_{ frame_, tracer_ };
   FramePlanner planner_{ frame_, collector_.occluders(), tracer_, programs_.library };
   RendererViews views_;
   std::optional<ShadedView> shadedView_; ///< once a frame's shaders shade

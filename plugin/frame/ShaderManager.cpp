@@ -136,7 +136,8 @@ void ShaderManager::bindVisibility(const StageValues& values)
   if (this->glsl_.variant().route == Route::Image)
   {
     add("gnomonLayers", this->bindTexture(values.layers));
-    add("gnomonLayerCount", layersOf(this->lights_));
+    add("gnomonLayerCount", this->glsl_.variant().layers);
+    add("gnomonSkyLight", values.skyLight);
     if (haveBits(this->lights_))
     {
       add("gnomonBits", this->bindTexture(values.bits));

@@ -52,6 +52,7 @@ public:
     glm::dmat4 viewFromVtkView{ 1.0 };        ///< ShownView
     glm::dvec4 eyeView{ 0.0, 0.0, 0.0, 1.0 }; ///< CameraView::eyeView()
     TextureBinding layers;                    ///< image route: the visibility layers
+    glm::vec3 skyLight{ 0.0f };               ///< image route: SkyPlan::light
     TextureBinding bits;                      ///< image route: the image of bits
     glm::ivec2 layersSize{ 0 };               ///< size of both in pixels
     int reductionFactor = 1;                  ///< FrameWishes::reductionFactor

@@ -32,7 +32,8 @@ std::size_t ViewValues::bytesOfImages() const
     bytesOf(this->receivers.images.fragments) + bytesOf(this->receivers.fragmentsBefore) +
     this->receivers.pixels.bytes() + this->receivers.shared.bytes() + this->layers.bytes() +
     (this->receivers.boxes ? this->receivers.boxes->bytes() : 0) +
-    bytesOfAll(this->visibility, &VisibilityValue::bytes);
+    bytesOfAll(this->visibility, &VisibilityValue::bytes) +
+    (this->sky.image ? this->sky.image->bytes() : 0);
 }
 
 //------------------------------------------------------------------------------

@@ -11,6 +11,7 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/VisibilityLayers.h"
 #include "shadowtech/base/vtkGnomonFrameCounts.h"
+#include "shadowtech/sky/SkyImage.h"
 #include "shadowtech/tracing/TracedTiles.h"
 
 #include <array>
@@ -75,6 +76,13 @@ struct VisibilityValue
   std::size_t bytes() const;
 };
 
+/// The sky stage's value. The view itself is in the view's layers.
+struct SkyValue
+{
+  std::optional<ValueKey> key; ///< none: there is no value
+  std::optional<SkyImage> image;
+};
+
 /// One view's values, cached from frame to frame.
 struct ViewValues
 {
@@ -83,6 +91,7 @@ struct ViewValues
   TechniqueCache techniques; ///< of lights whose maps are fitted to this view's camera
   VisibilityLayers layers;
   std::vector<VisibilityValue> visibility; ///< by casting light
+  SkyValue sky;
 
   std::size_t bytesOfImages() const;
 };

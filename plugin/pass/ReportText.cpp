@@ -67,6 +67,7 @@ Json jsonOf(const FrameReport& report)
   {
     json["lights"].push_back(jsonOf(light));
   }
+  json["sky_progress"] = report.skyProgress;
   json["notes"] = report.notes;
   json["misfits"] = report.misfits;
   json["left_out"] = report.leftOut;

@@ -110,6 +110,36 @@ void planSamples(LightPlan& plan, bool areSeveral, int inTime)
   }
 }
 
+/// Plan the sky. Of several views all directions are traced at once: the pass's progress is that of
+/// the last view alone.
+std::optional<SkyPlan> planSky(
+  const Scene& scene, const FrameWishes& wishes, std::vector<std::string>& notes)
+{
+  const SkyWish& wish = wishes.sky;
+  if (!(wish.intensity > 0.0))
+  {
+    return std::nullopt;
+  }
+  if (wishes.isShared)
+  {
+    notes.emplace_back("the sky does not shine where several processes draw the picture");
+    return std::nullopt;
+  }
+  SkyPlan plan;
+  plan.sky.model = wish.model;
+  plan.sky.up = glm::normalize(wish.upWorld);
+  if (wish.distanceWorld > 0.0)
+  {
+    plan.sky.farthest = static_cast<float>(scene.props.frame.unitsPerWorld() * wish.distanceWorld);
+  }
+  plan.light = static_cast<float>(wish.intensity) * wish.colour;
+  plan.directions = wish.directions;
+  plan.few = scene.picture.moves;
+  plan.batchesOfFrame =
+    scene.picture.mayRefine && !scene.picture.severalViews ? 1 : SkyDirections::batches;
+  return plan;
+}
+
 /// Assign layers, and bits to lights with hard shadows.
 void placeVisibility(FramePlan& plan)
 {
@@ -125,6 +155,10 @@ void placeVisibility(FramePlan& plan)
       light.layer = plan.layers;
       plan.layers += light.channels;
     }
+  }
+  if (plan.sky)
+  {
+    plan.sky->layer = plan.layers++;
   }
 }
 
@@ -144,7 +178,10 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   plan.moves = scene.picture.moves && !wishes.isShared;
   plan.history = history;
 
-  plan.hasShadows = !plan.lights.empty() || wishes.keepVisibility;
+  plan.sky = planSky(scene, wishes, plan.notes);
+  plan.isApproximate = plan.sky && plan.moves;
+
+  plan.hasShadows = !plan.lights.empty() || plan.sky || wishes.keepVisibility;
   if (!plan.hasShadows)
   {
     return plan;

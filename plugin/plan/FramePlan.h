@@ -14,11 +14,23 @@
 namespace gnomon
 {
 
+/// How a frame shows the sky.
+struct SkyPlan
+{
+  Sky sky;
+  glm::vec3 light{ 0.0f }; ///< colour times intensity
+  int directions = 0;
+  int layer = 0;    ///< of its view
+  bool few = false; ///< views are of few directions and of neighbours (SkyImage::viewFew())
+  std::size_t batchesOfFrame = 0; ///< of directions that a frame adds (SkyDirections)
+};
+
 /// All that is decided of a frame before anything is drawn.
 struct FramePlan
 {
   std::vector<LightPlan> lights; ///< that cast, in the scene's order
-  int layers = 0;                ///< of their visibility
+  std::optional<SkyPlan> sky;    ///< none: VTK's ambient light
+  int layers = 0;                ///< of visibility
   int bits = 0;
   std::vector<SkippedLight> skipped;
   std::vector<std::string> misfits; ///< FrameReport::misfits
@@ -48,7 +60,7 @@ struct FramePlan
 FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history,
   const std::vector<Evidence>& evidence);
 
-/// Facts that decide if triangle numbers are drawn, on the deferred route.
+/// Facts that decide if shaders write triangle numbers.
 struct NumberingFacts
 {
   int restingFrames = 0; ///< in a row that kept their receivers

@@ -2,6 +2,9 @@
 
 #include "lights/LightManager.h"
 #include "plugin/plan/CostModel.h"
+#include "shadowtech/sky/Sky.h"
+
+#include <glm/glm.hpp>
 
 #include <optional>
 
@@ -17,6 +20,17 @@ enum class RouteWish
   Deferred
 };
 
+/// The pass's settings of the sky.
+struct SkyWish
+{
+  double intensity = 0.0; ///< 0: there is no sky
+  glm::vec3 colour{ 1.0f };
+  SkyModel model = SkyModel::Uniform;
+  glm::dvec3 upWorld{ 0.0, 0.0, 1.0 }; ///< of any length but 0
+  double distanceWorld = 0.0;          ///< from which on nothing hides it; 0: there is none
+  int directions = 256;
+};
+
 /// The pass's settings for a frame.
 struct FrameWishes
 {
@@ -27,6 +41,7 @@ struct FrameWishes
   bool isShared = false;     ///< true if several processes draw the picture
   int reductionFactor = 1;   ///< of the delegate's viewport, whose lower left part is the picture
   double memoryBudget = 0.0; ///< bytes of lights' maps and images of visibility; 0: none
+  SkyWish sky;
   bool smoothTerminators = true; ///< true if receivers may lie on the surface that normals imply
   ///@{
   /// For lights that leave their technique to the pass.

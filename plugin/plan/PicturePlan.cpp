@@ -48,6 +48,10 @@ std::string whyNotDeferred(
   {
     return "several processes draw the picture";
   }
+  if (wishes.sky.intensity > 0.0)
+  {
+    return "shading reads the view of the sky";
+  }
   if (lights.size() != 1)
   {
     return "the picture is drawn without one light's shadows, and " +
@@ -83,6 +87,10 @@ std::string whyNoInlineMaps(
   {
     return "the visibility is kept";
   }
+  if (wishes.sky.intensity > 0.0)
+  {
+    return "rays find the view of the sky";
+  }
   if (picture.severalViews)
   {
     return "several views are drawn and must look alike";
@@ -105,6 +113,7 @@ PicturePlan planPicture(
   const ScenePicture& picture = scene.picture;
   RouteNeeds needs;
   needs.keepVisibility = wishes.keepVisibility;
+  needs.seesSky = wishes.sky.intensity > 0.0 && !wishes.isShared;
   needs.lights = lights.size();
   for (const LightPlan& of : lights)
   {
@@ -126,7 +135,8 @@ PicturePlan planPicture(
 
   PicturePlan plan;
   plan.route = chooseRoute(wishes.route, needs);
-  plan.isAsTold = (wishes.route != RouteWish::Inline || needs.screenTechnique.empty()) &&
+  plan.isAsTold =
+    (wishes.route != RouteWish::Inline || (needs.screenTechnique.empty() && !needs.seesSky)) &&
     (wishes.route != RouteWish::Deferred || needs.whyNotDeferred.empty());
   if (scene.props.translucent)
   {

@@ -33,6 +33,10 @@ RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs)
   {
     return { Route::Image, "the visibility is kept" };
   }
+  if (needs.seesSky)
+  {
+    return { Route::Image, "rays find the view of the sky" };
+  }
   if (wished == RouteWish::Inline)
   {
     return { Route::Inline, "asked for" };

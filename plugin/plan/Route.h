@@ -34,6 +34,7 @@ struct RouteNeeds
 {
   std::string screenTechnique; ///< a technique that works on the screen; empty if there is none
   bool keepVisibility = false;
+  bool seesSky = false;   ///< shaders read the view of the sky
   std::size_t lights = 0; ///< that cast
   /// True if a headlight casts in a window with several samples per pixel. The inline route uses
   /// the centroid of the samples that a triangle covers, visible or not. A surface that hides the

@@ -42,10 +42,11 @@ folder(plugin/window lights shadowtech/base)
 folder(plugin/vtk_versions lights shadowtech/base plugin/window)
 folder(plugin/scene lights shadowtech/base plugin/ranks plugin/vtk_versions plugin/window)
 folder(plugin/data lights shadowtech/base shadowtech/sky shadowtech/tracing plugin/scene)
-folder(plugin/plan lights shadowtech shadowtech/base shadowtech/probing shadowtech/tracing)
-folder(plugin/frame ${shared} shadowtech plugin/plan plugin/ranks plugin/scene plugin/window)
+folder(plugin/plan lights shadowtech shadowtech/base shadowtech/probing shadowtech/sky
+  shadowtech/tracing)
+folder(plugin/frame ${shared} shadowtech shadowtech/sky plugin/plan plugin/ranks plugin/scene plugin/window)
 folder(plugin/pass lights shadowtech/base plugin/plan)
-folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/pass plugin/plan plugin/ranks
+folder(plugin ${shared} shadowtech shadowtech/sky plugin/data plugin/frame plugin/pass plugin/plan plugin/ranks
   plugin/scene plugin/vtk_versions plugin/window)
 folder(plugin/paraview/GnomonShadows/views lights plugin)
 

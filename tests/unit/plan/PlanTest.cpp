@@ -421,6 +421,54 @@ TEST(FramePlans, placeVisibility)
   EXPECT_EQ(many.layers, 6);
 }
 
+TEST(FramePlans, letTheSkyShine)
+{
+  FrameWishes wishes;
+  wishes.sky.intensity = 0.5;
+  wishes.sky.colour = { 1.0f, 0.5f, 0.0f };
+  wishes.sky.upWorld = { 0.0, 3.0, 0.0 };
+  wishes.sky.distanceWorld = 6.0;
+  Scene scene = sceneOf({});
+  scene.props.frame.exponent = 1;
+  const FramePlan alone = planFrame(scene, wishes, {}, {});
+  EXPECT_TRUE(alone.hasShadows);
+  EXPECT_EQ(alone.picture.route.route, Route::Image);
+  ASSERT_TRUE(alone.sky);
+  EXPECT_EQ(alone.layers, 1);
+  EXPECT_EQ(alone.sky->layer, 0);
+  EXPECT_EQ(alone.sky->light, glm::vec3(0.5f, 0.25f, 0.0f));
+  EXPECT_EQ(alone.sky->sky.up, glm::vec3(0.0f, 1.0f, 0.0f));
+  EXPECT_EQ(alone.sky->sky.farthest, 3.0f);
+  EXPECT_FALSE(alone.sky->few);
+  EXPECT_EQ(alone.sky->batchesOfFrame, SkyDirections::batches);
+  EXPECT_FALSE(alone.isApproximate);
+
+  // Beside lights its layer is the last, whatever route they would take.
+  for (const char* technique : { "nsm", "raytraced", "sampled" })
+  {
+    const FramePlan beside = planFrame(sceneOf({ technique }), wishes, {}, {});
+    EXPECT_FALSE(beside.needsDeferredFacts);
+    EXPECT_EQ(beside.picture.route.route, Route::Image) << technique;
+    EXPECT_EQ(beside.sky->layer, beside.layers - 1) << technique;
+  }
+  wishes.route = RouteWish::Inline;
+  EXPECT_FALSE(planFrame(sceneOf({ "nsm" }), wishes, {}, {}).picture.isAsTold);
+  wishes.route = RouteWish::Auto;
+
+  scene.picture.mayRefine = true;
+  EXPECT_EQ(planFrame(scene, wishes, {}, {}).sky->batchesOfFrame, 1u);
+  scene.picture.severalViews = true;
+  EXPECT_EQ(planFrame(scene, wishes, {}, {}).sky->batchesOfFrame, SkyDirections::batches);
+  scene.picture.moves = true;
+  EXPECT_TRUE(planFrame(scene, wishes, {}, {}).sky->few);
+  EXPECT_TRUE(planFrame(scene, wishes, {}, {}).isApproximate);
+
+  wishes.isShared = true;
+  const FramePlan shared = planFrame(sceneOf({ "raytraced" }), wishes, {}, {});
+  EXPECT_FALSE(shared.sky);
+  EXPECT_THAT(shared.notes, Contains(HasSubstr("the sky")));
+}
+
 TEST(FramePlans, haveNoShadowsWithoutLights)
 {
   FrameWishes wishes;

@@ -1,0 +1,241 @@
+// The light of a sky in pictures.
+
+#include "PassScene.h"
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// A scene whose lights reach nothing, so that the sky alone is seen.
+class SkyTest : public PassTest
+{
+protected:
+  SkyTest() { this->scene.pass->SetSkyDirections(64); }
+
+  vtkActor* addDarkFloor()
+  {
+    vtkActor* const floor = this->scene.addFloor(4.0);
+    this->scene.addSun({ 0.0, 0.0, 1.0 }); // from below
+    this->scene.lookDown(2.0);
+    return floor;
+  }
+  int middle() { return this->scene.redAt(this->scene.render(), 0.0, 0.0); }
+
+  PassScene scene{ 48, 48 };
+};
+
+TEST_F(SkyTest, OpenPlatesHaveTheirWholeColour)
+{
+  vtkActor* const floor = this->addDarkFloor();
+  floor->GetProperty()->SetDiffuseColor(1.0, 0.5, 0.25);
+  floor->GetProperty()->SetAmbientColor(1.0, 1.0, 1.0);
+  EXPECT_EQ(this->middle(), 0);
+  this->scene.pass->SetSkyIntensity(0.4);
+  this->scene.pass->SetSkyColor(1.0, 1.0, 0.5);
+  const Picture picture = this->scene.render();
+  EXPECT_EQ(this->scene.redAt(picture, 0.0, 0.0), 102); // 0.4 of 255
+  EXPECT_EQ(this->scene.redAt(picture, 1.5, -1.5), 102);
+  floor->GetProperty()->SetAmbient(0.2);
+  EXPECT_EQ(this->middle(), 153);
+  for (const int model : { vtkGnomonShadowPass::SKY_DOME, vtkGnomonShadowPass::SKY_OVERCAST })
+  {
+    this->scene.pass->SetSkyModel(model);
+    EXPECT_EQ(this->middle(), 153);
+    this->scene.pass->SetSkyUp(0.0, 0.0, -1.0); // the ground is above
+    EXPECT_EQ(this->middle(), 0);
+    this->scene.pass->SetSkyUp(0.0, 0.0, 1.0);
+  }
+}
+
+/// Physically based materials are shown after VTK's gamma.
+TEST_F(SkyTest, PhysicallyBasedMaterialsHaveTheirDiffuseColour)
+{
+  vtkActor* const floor = this->addDarkFloor();
+  floor->GetProperty()->SetInterpolationToPBR();
+  floor->GetProperty()->SetRoughness(1.0);
+  floor->GetProperty()->SetColor(0.5, 0.5, 0.5);
+  this->scene.pass->SetSkyIntensity(0.8);
+  EXPECT_NEAR(this->middle(), 255.0 * std::pow(0.4, 1.0 / 2.2), 1.0);
+  floor->GetProperty()->SetMetallic(1.0);
+  EXPECT_EQ(this->middle(), 0);
+}
+
+TEST_F(SkyTest, ClosedBoxesAreDarkInside)
+{
+  this->scene.addBox({ -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 })->GetProperty()->SetAmbient(0.5);
+  this->scene.addSun({ 0.0, 0.0, 1.0 });
+  this->scene.lookFrom({ 0.5, 0.4, 0.6 }, { -1.0, -0.5, -1.0 });
+  this->scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 10.0);
+  this->scene.pass->SetSkyIntensity(0.5);
+  for (const unsigned char value : this->scene.render().rgb)
+  {
+    EXPECT_EQ(value, 0);
+  }
+  this->scene.pass->SetSkyDistance(1e-3); // the room's walls are farther off
+  EXPECT_GT(this->scene.render().rgb[0], 100);
+}
+
+/// Beside a wall of height H, (1 + cos(atan(H / d))) / 2 of the sky is left at distance d.
+TEST_F(SkyTest, WallsDarkenTheGroundBesideThem)
+{
+  this->addDarkFloor();
+  this->scene.addBox({ -1000.0, 0.5, 0.0 }, { 1000.0, 0.6, 1.0 });
+  this->scene.pass->SetSkyDirections(1024);
+  this->scene.pass->SetSkyIntensity(1.0);
+  const Picture picture = this->scene.render();
+  for (int row = 0; this->scene.floorAt(20, row).y < 0.45; ++row)
+  {
+    const double distance = 0.5 - this->scene.floorAt(20, row).y;
+    const double expected = 0.5 * (1.0 + std::cos(std::atan2(1.0, distance)));
+    EXPECT_NEAR(picture.red(20, row), 255.0 * expected, 2.0) << distance;
+  }
+}
+
+/// Unlit surfaces, highlights and metals have the same bytes with a sky.
+TEST_F(SkyTest, OnlyDiffuseAndAmbientTermsChange)
+{
+  struct Kind
+  {
+    const char* name;
+    std::function<void(vtkActor*)> make;
+  };
+  const std::vector<Kind> kinds = {
+    { "unlit", [](vtkActor* actor) { actor->GetProperty()->LightingOff(); } },
+    { "highlights alone",
+      [](vtkActor* actor)
+      {
+        actor->GetProperty()->SetDiffuseColor(0.0, 0.0, 0.0);
+        actor->GetProperty()->SetSpecular(0.8);
+        actor->GetProperty()->SetSpecularPower(5.0);
+      } },
+    { "a metal",
+      [](vtkActor* actor)
+      {
+        actor->GetProperty()->SetInterpolationToPBR();
+        actor->GetProperty()->SetMetallic(1.0);
+        actor->GetProperty()->SetRoughness(0.4);
+      } }
+  };
+  for (const Kind& kind : kinds)
+  {
+    PassScene of(40, 40);
+    kind.make(of.addSphere({ 0.0, 0.0, 0.0 }, 1.0));
+    of.addSun({ -1.0, -0.5, -2.0 });
+    of.lookFrom({ 2.0, 1.0, 4.0 });
+    of.choose(tracedWay);
+    const Picture before = of.render();
+    of.pass->SetSkyIntensity(0.5);
+    EXPECT_EQ(of.render().rgb, before.rgb) << kind.name;
+  }
+}
+
+TEST_F(SkyTest, LightsKeepTheirShadows)
+{
+  this->scene.addThings();
+  this->scene.addSun({ -1.0, -0.4, -1.5 });
+  for (const Way& way : { tracedWay, Way{ "nsm", vtkGnomonShadowPass::ROUTE_AUTO },
+         Way{ "silhouette", vtkGnomonShadowPass::ROUTE_AUTO }, layersWay })
+  {
+    this->scene.choose(way);
+    this->scene.pass->KeepVisibilityOn();
+    this->scene.pass->SetSkyIntensity(0.0);
+    const std::vector<float> before = drawKept(this->scene).visibility.at(0);
+    this->scene.pass->SetSkyIntensity(0.5);
+    EXPECT_EQ(drawKept(this->scene).visibility.at(0), before) << way.technique;
+    EXPECT_EQ(this->scene.report().route, "image");
+  }
+}
+
+TEST_F(SkyTest, PropsThatShowNoShadowsHaveAllOfIt)
+{
+  vtkActor* const floor = this->addDarkFloor();
+  this->scene.addBox({ -4.0, -4.0, 0.5 }, { 4.0, 4.0, 0.6 });
+  this->scene.renderer->GetActiveCamera()->SetClippingRange(0.001, 100.0);
+  this->scene.lookFrom({ 0.0, 0.1, 0.3 }, { 0.0, 0.0, 0.0 });
+  this->scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 10.0);
+  this->scene.pass->SetSkyIntensity(0.4);
+  EXPECT_LT(this->scene.render().rgb[0], 20);
+  vtkGnomonPropKeys::SetReceives(floor, false);
+  EXPECT_EQ(this->scene.render().rgb[0], 102);
+}
+
+TEST_F(SkyTest, StaleViewsAreTracedAgain)
+{
+  this->addDarkFloor();
+  vtkActor* const roof = this->scene.addFloor(1.0, 0.5);
+  vtkGnomonPropKeys::SetReceives(roof, false);
+  this->scene.pass->SetSkyIntensity(0.5);
+  this->scene.render();
+  const auto rays = [this]
+  {
+    this->scene.render();
+    return this->scene.report().raysTraced;
+  };
+  EXPECT_EQ(rays(), 0);
+  this->scene.pass->SetSkyColor(0.5, 0.5, 1.0);
+  this->scene.pass->SetSkyIntensity(0.7);
+  EXPECT_EQ(rays(), 0) << "they decide nothing of what is hidden";
+  const std::vector<std::function<void()>> changes = {
+    [&] { roof->SetPosition(0.3, 0.0, 0.0); },
+    [&] { this->scene.renderer->GetActiveCamera()->Roll(10.0); },
+    [&] { this->scene.pass->SetSkyModel(vtkGnomonShadowPass::SKY_OVERCAST); },
+    [&] { this->scene.pass->SetSkyUp(0.0, 1.0, 1.0); },
+    [&] { this->scene.pass->SetSkyDistance(2.0); },
+    [&] { this->scene.pass->SetSkyDirections(16); },
+    [&] { roof->VisibilityOff(); },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i)
+  {
+    changes[i]();
+    EXPECT_GT(rays(), 1000) << i;
+    EXPECT_EQ(rays(), 0) << i;
+  }
+}
+
+TEST_F(SkyTest, MovingPicturesHaveFewDirections)
+{
+  this->scene.addThings();
+  this->scene.addSun({ -1.0, -0.4, -1.5 });
+  this->scene.choose(tracedWay);
+  this->scene.pass->SetSkyIntensity(0.5);
+  const Picture rests = this->scene.render();
+  EXPECT_EQ(this->scene.report().skyProgress, 1.0);
+  this->scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+  this->scene.renderer->GetActiveCamera()->Roll(1e-9); // the same picture
+  const Picture moves = this->scene.render();
+  EXPECT_EQ(this->scene.report().skyProgress, 0.0);
+  EXPECT_LT(this->scene.report().raysTraced, 3 * 48 * 48);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < rests.rgb.size(); ++i)
+  {
+    const double off = (double(rests.rgb[i]) - moves.rgb[i]) / 255.0;
+    squares += off * off;
+  }
+  EXPECT_LT(std::sqrt(squares / rests.rgb.size()), 0.03);
+  this->scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_OFF);
+  EXPECT_EQ(this->scene.render().rgb, rests.rgb);
+}
+
+TEST_F(SkyTest, EachMistakeIsAnErrorThatChangesNothing)
+{
+  vtkGnomonShadowPass* const pass = this->scene.pass;
+  const vtkMTimeType before = pass->GetMTime();
+  const std::vector<std::function<void()>> wrong = {
+    [&] { pass->SetSkyIntensity(-0.1); },
+    [&] { pass->SetSkyIntensity(std::nan("")); },
+    [&] { pass->SetSkyUp(0.0, 0.0, 0.0); },
+    [&] { pass->SetSkyUp(0.0, std::nan(""), 1.0); },
+    [&] { pass->SetSkyDistance(-1.0); },
+    [&] { pass->SetSkyDirections(100); },
+  };
+  for (const auto& set : wrong)
+  {
+    set();
+    EXPECT_THAT(this->takeErrors(), testing::HasSubstr("Sky"));
+  }
+  EXPECT_EQ(pass->GetMTime(), before);
+}
+
+} // namespace
+} // namespace gnomon::test
