@@ -25,26 +25,18 @@ vtkStandardNewMacro(vtkGnomonFlatteringLights);
 namespace
 {
 
-/// White surfaces that face both lights stay just below white.
+/// White matt surfaces reach at most |0.8 K + 0.4 F|: just white under a key light at 45 degrees.
 constexpr double keyIntensity = 0.8;
 constexpr double fillIntensity = 0.4;
 
 /// Make a light a directional scene light that shines on a box.
-/// @param towards the light, of any length, in the camera's view space
-void place(vtkLight* light, const glm::dvec3& towardsView, vtkCamera* camera, const double box[6])
+/// @param towards the light, unit length, in the world
+void place(vtkLight* light, const glm::dvec3& towards, vtkCamera* camera, const double box[6])
 {
-  const auto& rows = camera->GetViewTransformMatrix()->Element; // right, up and back
-  glm::dvec3 towards(0.0);
-  for (int row = 0; row < 3; ++row)
-  {
-    towards += towardsView[row] * glm::make_vec3(rows[row]);
-  }
-  light->SetLightTypeToSceneLight();
-  light->SetTransformMatrix(nullptr);
-  light->PositionalOff();
-  light->SetPosition(glm::value_ptr(towards));
-  light->SetFocalPoint(0.0, 0.0, 0.0);
-  vtkGnomonLightPlacement::ShineOnBox(light, box);
+  vtkGnomonLightPlacement::MakeKeyLight(light, camera, box);
+  const glm::dvec3 middle = glm::make_vec3(light->GetFocalPoint());
+  const double radius = glm::distance(middle, glm::make_vec3(light->GetPosition()));
+  light->SetPosition(glm::value_ptr(middle + radius * towards));
 }
 
 std::string percent(double share)
@@ -63,7 +55,7 @@ std::string noteOn(const gnomon::CoarsePicture& picture, const gnomon::CoarsePic
           " of what lies below or behind them "
           "is in shadow."
                          : "nothing lies below or behind them, so shade on the props counts.");
-  if (!gnomon::showsShadow(key.shares))
+  if (!key.shares.suffice())
   {
     note += " No direction tried both lights 50 % and has 5 % in shadow; this is the best found.";
   }
@@ -98,7 +90,6 @@ bool vtkGnomonFlatteringLights::Make(vtkRenderer* renderer, vtkLight* key, vtkLi
     vtkErrorMacro("Lights cannot be placed: the camera looks nowhere.");
     return false;
   }
-  gnomon::KeyDirection direction;
   try
   {
     gnomon::OccluderCollector collector;
@@ -106,30 +97,26 @@ bool vtkGnomonFlatteringLights::Make(vtkRenderer* renderer, vtkLight* key, vtkLi
     const gnomon::Occluders& occluders = collector.occluders();
     const gnomon::CoarsePicture picture(
       occluders, gnomon::shownView(renderer, occluders.frame).camera);
-    if (picture.isEmpty())
+    gnomon::CoarsePicture::Choice choice{ { 35.0, 40.0 }, {} }; // MakeKeyLight()'s
+    this->Note = "The camera sees no opaque surface: the key light is placed without a look.";
+    if (!picture.isEmpty())
     {
-      this->Note = "The camera sees no opaque surface: the key light is placed without a look.";
-      direction = { 35.0, 40.0 };
-    }
-    else
-    {
-      const gnomon::CoarsePicture::Choice choice = picture.chooseKey();
-      direction = choice.direction;
+      choice = picture.chooseKey();
       this->Note = noteOn(picture, choice);
-      this->LitShare = choice.shares.lit;
-      this->ShadowShare = choice.shares.inShadow;
     }
+    this->LitShare = choice.shares.lit;
+    this->ShadowShare = choice.shares.inShadow;
+    place(key, picture.towards(choice.direction), camera, box);
+    // A fill light is at the camera's height, on the side that the key light leaves dark.
+    const double fillLeft = choice.direction.left > 0.0 ? -25.0 : 25.0;
+    place(fill, picture.towards({ fillLeft, 0.0 }), camera, box);
   }
   catch (const std::exception& error)
   {
     vtkErrorMacro("Lights cannot be placed: " << error.what());
     return false;
   }
-  place(key, direction.towardsView(), camera, box);
   key->SetIntensity(keyIntensity);
-
-  const double side = direction.left > 0.0 ? -1.0 : 1.0;
-  place(fill, gnomon::KeyDirection{ 25.0 * side, 0.0 }.towardsView(), camera, box);
   fill->SetIntensity(fillIntensity);
   fill->SetDiffuseColor(key->GetDiffuseColor());
   fill->SetSpecularColor(0.0, 0.0, 0.0);

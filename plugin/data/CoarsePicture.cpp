@@ -2,8 +2,7 @@
 
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/PixelRays.h"
-#include "shadowtech/base/ShadowRay.h"
-#include "shadowtech/base/Solid.h"
+#include "shadowtech/tracing/SeenReceiver.h"
 
 #include <tbb/parallel_for.h>
 
@@ -27,7 +26,7 @@ constexpr double classic = 45.0;
 ///
 /// Three quarters of the subject lit model its form, as a sphere's under the classic light. Shadow
 /// on 8 % of the ground is seen at once. More of either is no gain, as it costs the other. Ground
-/// that is mostly in shadow is as poor as ground without. Squared, the cosine of the angle to the
+/// that is mostly dark is as poor as ground without shadow. Squared, the cosine of the angle to the
 /// classic light is how much of its light is left: far from it, surfaces turn dull and shadows
 /// long. A light from the right must be better by 5 %, as photographers start from the left.
 double balance(const LightShares& shares, const KeyDirection& direction)
@@ -35,7 +34,7 @@ double balance(const LightShares& shares, const KeyDirection& direction)
   const KeyDirection side{ std::copysign(classic, direction.left), classic };
   const double cosine = glm::dot(direction.towardsView(), side.towardsView());
   return std::min(1.0, shares.lit / 0.75) *
-    std::min({ 1.0, shares.inShadow / 0.08, (1.0 - shares.inShadow) / 0.5 }) * cosine * cosine *
+    std::min({ 1.0, shares.inShadow / 0.08, shares.litGround / 0.5 }) * cosine * cosine *
     (direction.left > 0.0 ? 1.0 : 0.95);
 }
 
@@ -55,6 +54,39 @@ std::vector<KeyDirection> directions()
   return all;
 }
 
+float heightAbove(const CoarsePicture::Point& plane, const CoarsePicture::Point& point)
+{
+  return glm::dot(plane.normal, point.position - plane.position);
+}
+
+/// True if a point lies on the plane through another, to within half the rays' spacing there.
+bool isOn(const CoarsePicture::Point& plane, const CoarsePicture::Point& point)
+{
+  return std::abs(heightAbove(plane, point)) <= 0.5f * point.spacing &&
+    glm::dot(plane.normal, point.normal) > 0.98f;
+}
+
+/// True if a good part of the picture lies on the plane through a point, and nearly all the rest in
+/// front of it.
+bool isGroundPlane(
+  const CoarsePicture::Point& plane, const std::vector<CoarsePicture::Point>& points)
+{
+  std::size_t on = 0;
+  std::size_t behind = 0;
+  for (const CoarsePicture::Point& point : points)
+  {
+    const bool isOnPlane = isOn(plane, point);
+    on += isOnPlane ? 1 : 0;
+    behind += !isOnPlane && heightAbove(plane, point) < -0.5f * point.spacing ? 1 : 0;
+  }
+  return 32 * on > points.size() && 20 * behind <= points.size() - on;
+}
+
+double share(std::size_t part, std::size_t all)
+{
+  return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : 0.0;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -67,24 +99,18 @@ glm::dvec3 KeyDirection::towardsView() const
 
 //------------------------------------------------------------------------------
 CoarsePicture::CoarsePicture(const Occluders& occluders, const CameraView& camera)
-  : centredFromView_(glm::transpose(glm::dmat3(camera.viewFromCentred)))
+  : worldFromView_(glm::transpose(glm::dmat3(camera.viewFromCentred)))
 {
   this->tracer_.update(occluders);
-  const bool allCast = std::all_of(occluders.surfaces.begin(), occluders.surfaces.end(),
-    [](const Surface& surface) { return surface.casts; });
-  if (allCast)
+  const auto casts = [](const Surface& surface) { return surface.casts; };
+  if (std::all_of(occluders.surfaces.begin(), occluders.surfaces.end(), casts))
   {
     this->look(occluders, camera, this->tracer_);
   }
   else // the camera sees surfaces that do not cast, too
   {
-    Occluders seen;
-    seen.positionsCentred.reserve(occluders.positionsCentred.size() + 1); // for Embree
-    seen.positionsCentred = occluders.positionsCentred;
-    seen.triangles = occluders.triangles;
-    seen.surfaces = occluders.surfaces;
-    seen.topologyVersion = occluders.topologyVersion;
-    seen.positionsVersion = occluders.positionsVersion;
+    Occluders seen = occluders;
+    seen.positionsCentred.reserve(seen.positionsCentred.size() + 1); // see Occluders
     for (Surface& surface : seen.surfaces)
     {
       surface.casts = true;
@@ -97,53 +123,34 @@ CoarsePicture::CoarsePicture(const Occluders& occluders, const CameraView& camer
 }
 
 //------------------------------------------------------------------------------
-/// Find the point that each ray of the camera meets.
+/// Find the points that the camera's rays meet.
 void CoarsePicture::look(
   const Occluders& occluders, const CameraView& camera, const EmbreeTracer& eye)
 {
   const PixelRays rays =
     pixelRays(camera.clipFromView, glm::inverse(camera.viewFromCentred), across, across);
   const glm::dvec2 side = camera.pixelSide({ across, across });
-  const glm::dvec3 eyeCentred = camera.eyeCentred();
-  // Lengths of the directions are distances across the view (PixelRays).
+  // In lengths of the direction, which are distances across the view (PixelRays).
   const auto nearest = static_cast<float>(camera.nearDistance());
   std::vector<std::optional<Point>> met(std::size_t(across) * across);
-  tbb::parallel_for(std::size_t(0), met.size(),
-    [&](std::size_t i)
+  const auto lookAt = [&](std::size_t i)
+  {
+    const glm::dvec3 origin = rays.origin(i % across, i / across);
+    const glm::dvec3 direction = rays.direction(i % across, i / across);
+    const std::optional<CasterHits::Hit> hit = eye.nearest(
+      glm::vec3(origin), glm::vec3(direction), nearest, std::numeric_limits<float>::infinity());
+    if (hit && occluders.surfaces[hit->surface].receives)
     {
-      const glm::dvec3 origin = rays.origin(i % across, i / across);
-      const glm::dvec3 direction = rays.direction(i % across, i / across);
-      const std::optional<CasterHits::Hit> hit = eye.nearest(
-        glm::vec3(origin), glm::vec3(direction), nearest, std::numeric_limits<float>::infinity());
-      if (!hit || !occluders.surfaces[hit->surface].receives)
+      const SeenReceiver seen = seenReceiver(*hit, origin, direction, camera.eyeCentred());
+      const auto spacing = static_cast<float>(side.x + side.y * hit->at);
+      const float offset = shadowRayOffset(seen.noise, spacing);
+      if (std::isfinite(offset)) // not of a triangle too small for a normal
       {
-        return;
+        met[i] = { seen.position, seen.normal, spacing, offset };
       }
-      Point point;
-      float noise = 0.0f;
-      if (hit->solid)
-      {
-        const SolidPoint seen = seenPoint(*hit->solid, origin, direction);
-        point.position = seen.position;
-        point.normal = seen.normal;
-        noise = noiseOf(*hit->solid, seen);
-      }
-      else
-      {
-        point.position = origin + static_cast<double>(hit->at) * direction;
-        point.normal = glm::normalize(hit->normalCentred);
-        point.normal *= glm::dot(point.normal, glm::vec3(direction)) > 0.0f ? -1.0f : 1.0f;
-        // Rounding of the ray and of its length is of the size of the storage noise.
-        noise = 4.0f *
-          storageNoise(point.normal, glm::abs(point.position) + glm::abs(glm::vec3(eyeCentred)));
-      }
-      point.footprint = static_cast<float>(side.x + side.y * hit->at);
-      point.offset = shadowRayOffset(noise, point.footprint);
-      if (std::isfinite(point.offset) && glm::dot(point.normal, point.normal) > 0.5f)
-      {
-        met[i] = point; // not of a triangle too small for a normal
-      }
-    });
+    }
+  };
+  tbb::parallel_for(std::size_t(0), met.size(), lookAt);
   for (const std::optional<Point>& point : met)
   {
     if (point)
@@ -154,48 +161,20 @@ void CoarsePicture::look(
 }
 
 //------------------------------------------------------------------------------
-/// True if a point lies on the plane through another, to within half the rays' spacing there.
-bool CoarsePicture::isOn(const Point& plane, const Point& point) const
-{
-  return std::abs(glm::dot(plane.normal, point.position - plane.position)) <=
-    0.5f * point.footprint &&
-    glm::dot(plane.normal, point.normal) > 0.98f;
-}
-
-//------------------------------------------------------------------------------
-/// True if a good part of the picture lies on the plane through a point, and nearly all the rest in
-/// front of it.
-bool CoarsePicture::isGroundPlane(const Point& plane) const
-{
-  std::size_t on = 0;
-  std::size_t behind = 0;
-  for (const Point& point : this->points_)
-  {
-    const bool isOn = this->isOn(plane, point);
-    on += isOn ? 1 : 0;
-    behind +=
-      !isOn && glm::dot(plane.normal, point.position - plane.position) < -0.5f * point.footprint
-      ? 1
-      : 0;
-  }
-  const std::size_t others = this->points_.size() - on;
-  return 12 * on > this->points_.size() && 20 * behind <= others;
-}
-
-//------------------------------------------------------------------------------
 /// Mark the ground, and forget what lies on it far from the subject.
 void CoarsePicture::findGround()
 {
-  constexpr std::size_t planes = 64;
-  const std::size_t step = std::max<std::size_t>(1, this->points_.size() / planes);
-  for (std::size_t i = step / 2; i < this->points_.size(); i += step)
+  constexpr int planes = 256; // tried at points spread evenly over the picture (Roberts 2018)
+  for (int i = 0; i < planes && !this->points_.empty(); ++i)
   {
-    const Point plane = this->points_[i];
-    if (!plane.isGround && this->isGroundPlane(plane))
+    const double at =
+      glm::fract(0.6180339887498949 * i) * static_cast<double>(this->points_.size());
+    const Point plane = this->points_[static_cast<std::size_t>(at)];
+    if (!plane.isGround && isGroundPlane(plane, this->points_))
     {
       for (Point& point : this->points_)
       {
-        point.isGround |= this->isOn(plane, point);
+        point.isGround |= isOn(plane, point);
       }
     }
   }
@@ -207,30 +186,30 @@ void CoarsePicture::findGround()
       subject.add(glm::dvec3(point.position));
     }
   }
-  const auto isNear = [&](const Point& point)
-  { return glm::distance(glm::dvec3(point.position), subject.centre()) < 1.5 * subject.radius(); };
-  const auto isNearGround = [&](const Point& point) { return point.isGround && isNear(point); };
-  this->groundCount_ = static_cast<std::size_t>(
-    std::count_if(this->points_.begin(), this->points_.end(), isNearGround));
+  const auto isFarGround = [&](const Point& point)
+  {
+    return point.isGround &&
+      glm::distance(glm::dvec3(point.position), subject.centre()) >= 1.5 * subject.radius();
+  };
   if (subject.empty()) // planes alone are the subject
   {
-    this->groundCount_ = 0;
     for (Point& point : this->points_)
     {
       point.isGround = false;
     }
   }
-  this->points_.erase(std::remove_if(this->points_.begin(), this->points_.end(),
-                        [&](const Point& point) { return point.isGround && !isNear(point); }),
-    this->points_.end());
+  this->points_.erase(
+    std::remove_if(this->points_.begin(), this->points_.end(), isFarGround), this->points_.end());
+  this->groundCount_ = static_cast<std::size_t>(std::count_if(
+    this->points_.begin(), this->points_.end(), [](const Point& point) { return point.isGround; }));
 }
 
 //------------------------------------------------------------------------------
 LightShares CoarsePicture::sharesOf(const KeyDirection& direction) const
 {
-  const glm::vec3 towards(this->centredFromView_ * direction.towardsView());
+  const glm::vec3 towards(this->towards(direction));
   std::array<std::vector<float>, 6> rays; // origins and directions, by axis
-  std::vector<bool> areGround;
+  std::vector<std::size_t> onGround;      // 1 or 0
   for (const Point& point : this->points_)
   {
     if (facesLight(point.normal, towards))
@@ -241,26 +220,21 @@ LightShares CoarsePicture::sharesOf(const KeyDirection& direction) const
         rays[static_cast<std::size_t>(axis)].push_back(origin[axis]);
         rays[static_cast<std::size_t>(axis + 3)].push_back(towards[axis]);
       }
-      areGround.push_back(point.isGround);
+      onGround.push_back(point.isGround ? 1 : 0);
     }
   }
-  std::vector<std::uint8_t> blocked(areGround.size());
+  std::vector<std::uint8_t> blocked(onGround.size());
   this->tracer_.areBlocked(blocked.size(), { rays[0].data(), rays[1].data(), rays[2].data() },
     { rays[3].data(), rays[4].data(), rays[5].data() }, shadowRayFarDirectional, blocked.data());
-  std::size_t lit = 0;
-  std::size_t inShadow = 0;
+  std::array<std::array<std::size_t, 2>, 2> counts{}; // by blocked and ground
   for (std::size_t i = 0; i < blocked.size(); ++i)
   {
-    lit += !areGround[i] && blocked[i] == 0 ? 1 : 0;
-    inShadow += areGround[i] && blocked[i] != 0 ? 1 : 0;
+    ++counts[blocked[i]][onGround[i]];
   }
-  const std::size_t subject = this->points_.size() - this->groundCount_;
-  LightShares shares;
-  shares.lit = subject > 0 ? static_cast<double>(lit) / static_cast<double>(subject) : 0.0;
-  shares.inShadow = this->groundCount_ > 0
-    ? static_cast<double>(inShadow) / static_cast<double>(this->groundCount_)
-    : 1.0 - shares.lit;
-  return shares;
+  const double lit = share(counts[0][0], this->points_.size() - this->groundCount_);
+  return !this->hasGround() ? LightShares{ lit, 1.0 - lit, lit }
+                            : LightShares{ lit, share(counts[1][1], this->groundCount_),
+                                share(counts[0][1], this->groundCount_) };
 }
 
 //------------------------------------------------------------------------------
@@ -270,9 +244,9 @@ CoarsePicture::Choice CoarsePicture::chooseKey() const
   std::vector<LightShares> shares(all.size());
   tbb::parallel_for(
     std::size_t(0), all.size(), [&](std::size_t i) { shares[i] = this->sharesOf(all[i]); });
-  // A light that shows shadow beats all that do not.
+  // A light that shows form and shadow beats all that do not.
   const auto rank = [&](std::size_t i)
-  { return std::pair(showsShadow(shares[i]), balance(shares[i], all[i])); };
+  { return std::pair(shares[i].suffice(), balance(shares[i], all[i])); };
   std::size_t best = 0;
   for (std::size_t i = 1; i < all.size(); ++i)
   {

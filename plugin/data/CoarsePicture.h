@@ -27,22 +27,18 @@ struct KeyDirection
 struct LightShares
 {
   double lit = 0.0;      ///< of the subject's visible area: it faces the light, nothing blocks it
-  double inShadow = 0.0; ///< of the ground near the subject; without ground, 1 - lit
+  double inShadow = 0.0; ///< of the ground: it faces the light, and the light is blocked
+  double litGround = 0.0;
+
+  /// True if the light models the subject, and its shadow is seen.
+  bool suffice() const { return this->lit >= 0.5 && this->inShadow >= 0.05; }
 };
-
-/// The least shares of a picture whose light models its subject and whose shadow is seen.
-constexpr LightShares leastShares{ 0.5, 0.05 };
-
-inline bool showsShadow(const LightShares& shares)
-{
-  return shares.lit >= leastShares.lit && shares.inShadow >= leastShares.inShadow;
-}
 
 /// A coarse picture of a scene, on which directions of a key light are tried.
 ///
 /// The *ground* is what lies below or behind: planes that the rest of the picture lies in front of.
-/// The *subject* is the rest. Only ground near the subject counts: within 1.5 radii of the
-/// box around what is seen of the subject.
+/// The *subject* is the rest. Only ground near the subject counts: within 1.5 radii of the box
+/// around what is seen of the subject. Without ground, shade on the subject is its shadow.
 class CoarsePicture
 {
 public:
@@ -56,7 +52,11 @@ public:
   /// True if the camera sees no surface that receives shadows.
   bool isEmpty() const { return this->points_.empty(); }
   bool hasGround() const { return this->groundCount_ > 0; }
-
+  /// Return the unit vector towards a light in the world.
+  glm::dvec3 towards(const KeyDirection& direction) const
+  {
+    return this->worldFromView_ * direction.towardsView();
+  }
   LightShares sharesOf(const KeyDirection& direction) const;
 
   struct Choice
@@ -67,22 +67,21 @@ public:
   /// Return the best of some dozen directions on the camera's side.
   Choice chooseKey() const;
 
-private:
   struct Point
   {
     glm::vec3 position;
     glm::vec3 normal;
-    float offset;
-    float footprint; ///< the distance to its neighbours, across the view
+    float spacing; ///< of the rays, across the view
+    float offset;  ///< of shadow rays
     bool isGround = false;
   };
+
+private:
   void look(const Occluders& occluders, const CameraView& camera, const EmbreeTracer& eye);
   void findGround();
-  bool isOn(const Point& plane, const Point& point) const;
-  bool isGroundPlane(const Point& plane) const;
 
   EmbreeTracer tracer_;
-  glm::dmat3 centredFromView_;
+  glm::dmat3 worldFromView_;
   std::vector<Point> points_; ///< the subject's and the ground's
   std::size_t groundCount_ = 0;
 };
