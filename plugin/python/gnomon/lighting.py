@@ -128,7 +128,7 @@ def _numbers_of(light):
 
 
 def _view_of(renderer):
-    """What the placing depends on: the camera and the box around visible props."""
+    """Return what the placing depends on: the camera and the box around visible props."""
     camera = renderer.GetActiveCamera()
     matrix = camera.GetViewTransformMatrix()
     return (
