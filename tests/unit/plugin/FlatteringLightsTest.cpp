@@ -467,6 +467,23 @@ TEST(FlatteringLights, seeGroundThatDoesNotCastAndParallelCameras)
   EXPECT_GE(scene.lights->GetShadowShare(), 0.05);
 }
 
+TEST(FlatteringLights, seeWallsAsGround)
+{
+  LitScene scene(ballOnGround());
+  for (const double x : { 0.0, -2.05 }) // a wall behind, and a narrow one beside
+  {
+    vtkNew<vtkCubeSource> wall;
+    wall->SetBounds(x - 2.0, x < 0.0 ? x : 2.0, x < 0.0 ? -2.0 : 2.0, 2.1, -0.5, 3.0);
+    scene.renderer->AddActor(subjectOf(wall).actor);
+  }
+  scene.look({ 0.2, -1.0, 0.4 });
+  scene.renderer->GetActiveCamera()->Zoom(1.6);
+  ASSERT_TRUE(scene.make());
+  EXPECT_THAT(scene.lights->GetNote(), HasSubstr("below or behind them is in shadow"));
+  EXPECT_GE(scene.lights->GetLitShare(), 0.7) << "with a wall as subject, few directions do both";
+  EXPECT_GE(scene.lights->GetShadowShare(), 0.05);
+}
+
 TEST(FlatteringLights, sayWhereNoDirectionDoesBoth)
 {
   LitScene scene(ballOnGround());
