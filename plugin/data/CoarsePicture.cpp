@@ -28,14 +28,14 @@ constexpr double classic = 45.0;
 /// on 8 % of the ground is seen at once. More of either is no gain, as it costs the other. Ground
 /// that is mostly dark is as poor as ground without shadow. Squared, the cosine of the angle to the
 /// classic light is how much of its light is left: far from it, surfaces turn dull and shadows
-/// long. A light from the right must be better by 5 %, as photographers start from the left.
+/// long. A light from the right must be better by 10 %, as photographers start from the left.
 double balance(const LightShares& shares, const KeyDirection& direction)
 {
   const KeyDirection side{ std::copysign(classic, direction.left), classic };
   const double cosine = glm::dot(direction.towardsView(), side.towardsView());
   return std::min(1.0, shares.lit / 0.75) *
     std::min({ 1.0, shares.inShadow / 0.08, shares.litGround / 0.5 }) * cosine * cosine *
-    (direction.left > 0.0 ? 1.0 : 0.95);
+    (direction.left > 0.0 ? 1.0 : 0.9);
 }
 
 /// Return the directions to try. On equal terms the first is chosen: the classic light, then higher
