@@ -16,7 +16,7 @@ vtk_module_wrap_python(
   DEPENDS VTK::RenderingOpenGL2)
 
 set(gnomon_python_folder "${PROJECT_SOURCE_DIR}/plugin/python/gnomon")
-foreach(source __init__.py data.py errors.py figure.py holders.py images.py why.py)
+foreach(source __init__.py data.py errors.py figure.py holders.py images.py lighting.py why.py)
   configure_file("${gnomon_python_folder}/${source}"
     "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}/gnomon/${source}" COPYONLY)
 endforeach()

@@ -4,6 +4,7 @@
 
 #include <vtkGnomonAreaLight.h>
 #include <vtkGnomonEGLRenderWindow.h>
+#include <vtkGnomonFlatteringLights.h>
 #include <vtkGnomonLightKeys.h>
 #include <vtkGnomonLightPlacement.h>
 #include <vtkGnomonLightSamplingPass.h>
@@ -54,9 +55,10 @@ vtkSmartPointer<vtkActor> addSurface(vtkRenderer* renderer, vtkAlgorithm* source
 void addKeyLight(vtkRenderer* renderer)
 {
   vtkNew<vtkLight> key;
-  vtkGnomonLightPlacement::MakeKeyLight(
-    key, renderer->GetActiveCamera(), renderer->ComputeVisiblePropBounds());
+  vtkNew<vtkLight> fill;
+  vtkNew<vtkGnomonFlatteringLights>()->Make(renderer, key, fill);
   renderer->AddLight(key);
+  renderer->AddLight(fill);
 }
 
 /// lights.md

@@ -132,7 +132,8 @@ void makeParallel(SceneCamera& camera)
     camera.parallelScale.value_or(length(camera.target - camera.position) * std::tan(halfAngle));
 }
 
-Scene loadWithOptions(const RenderOptions& options)
+/// @param aspect the picture's width divided by its height
+Scene loadWithOptions(const RenderOptions& options, double aspect)
 {
   Scene scene = loadScene(options.scene, options.ground);
   if (options.ambient)
@@ -142,6 +143,7 @@ Scene loadWithOptions(const RenderOptions& options)
   if (!options.lights.empty())
   {
     scene.lights.clear();
+    scene.hasDefaultLight = false;
     for (const std::string& spec : options.lights)
     {
       scene.lights.push_back(parseLight(spec));
@@ -155,6 +157,7 @@ Scene loadWithOptions(const RenderOptions& options)
   {
     makeParallel(scene.camera);
   }
+  placeDefaultLight(scene, aspect);
   for (SceneLight& light : scene.lights)
   {
     for (const auto& [name, value] : options.settings)
@@ -340,7 +343,7 @@ void render(const RenderOptions& options)
   check(options);
   const PictureSize size = parseSize(options.size);
   Progress progress("reading " + options.scene);
-  Scene scene = loadWithOptions(options);
+  Scene scene = loadWithOptions(options, size.aspect());
   const int samplesPerFrame = mostOf("progressive", scene);
   if (options.shadeSamples)
   {

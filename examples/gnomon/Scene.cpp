@@ -7,9 +7,12 @@
 #include "SceneFile.h"
 #include "SceneFraming.h"
 #include "Vec3.h"
+#include "VtkMessages.h"
 
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonFlatteringLights.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkActor.h>
@@ -19,6 +22,7 @@
 #include <vtkPolyDataMapper.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace gnomon::tool
@@ -44,6 +48,7 @@ Scene makeModelScene(const std::string& path, bool ground)
   if (scene.lights.empty())
   {
     scene.lights = { defaultLight() };
+    scene.hasDefaultLight = true;
     setAmbient(scene, defaultAmbient);
   }
   return scene;
@@ -189,6 +194,27 @@ void setCamera(vtkCamera* camera, const SceneCamera& source)
   camera->SetViewAngle(source.fovDegrees);
   camera->SetParallelProjection(source.parallelScale.has_value());
   camera->SetParallelScale(source.parallelScale.value_or(1.0));
+}
+
+//------------------------------------------------------------------------------
+void placeDefaultLight(Scene& scene, double aspect)
+{
+  if (!scene.hasDefaultLight)
+  {
+    return;
+  }
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, aspect);
+  vtkNew<vtkGnomonEGLRenderWindow> window; // has the picture's shape, and draws nothing
+  window->SetSize(static_cast<int>(std::lround(1000.0 * aspect)), 1000);
+  window->AddRenderer(renderer);
+  vtkNew<vtkLight> key;
+  vtkNew<vtkLight> fill;
+  const VtkMessages messages; // models that nothing can be seen of keep the default light
+  if (vtkNew<vtkGnomonFlatteringLights>()->Make(renderer, key, fill))
+  {
+    key->GetPosition(scene.lights.front().position.data());
+    key->GetFocalPoint(scene.lights.front().target.data());
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -100,6 +100,7 @@ struct Scene
   std::vector<SceneModel> models;
   std::vector<SceneProp> props;
   std::vector<SceneLight> lights;
+  bool hasDefaultLight = false; ///< a model's file has none; see placeDefaultLight()
   SceneCamera camera;
   Vec3 background{ { 1, 1, 1 } };
   /// Parts that reading left out or replaced, for users; each a sentence with the file's name.
@@ -133,6 +134,12 @@ SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
 void setLights(vtkRenderer* renderer, const std::vector<SceneLight>& lights);
 void setCamera(vtkCamera* camera, const SceneCamera& source);
 ///@}
+
+/// Place the light of a model without lights so that the camera sees its shadow
+/// (vtkGnomonFlatteringLights). The surfaces' ambient light stands for the fill light. Other
+/// scenes stay as they are.
+/// @param aspect the picture's width divided by its height
+void placeDefaultLight(Scene& scene, double aspect);
 
 /// Return a renderer with the scene's actors, props, lights, camera (clipping range set) and
 /// background. It shares surfaces with the scene and the scene's other renderers, and owns the

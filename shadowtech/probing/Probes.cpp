@@ -3,9 +3,8 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/PixelRays.h"
-#include "shadowtech/base/ShadowRay.h"
-#include "shadowtech/base/Solid.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
+#include "shadowtech/tracing/SeenReceiver.h"
 
 #include <tbb/parallel_for.h>
 
@@ -64,26 +63,11 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
     {
       return;
     }
-    glm::vec3 position(origin + static_cast<double>(hit->at) * direction);
-    glm::vec3 normal;
-    float noise = 0.0f;
-    if (hit->solid)
-    {
-      const SolidPoint point = seenPoint(*hit->solid, origin, direction);
-      position = point.position;
-      normal = point.normal;
-      noise = noiseOf(*hit->solid, point);
-    }
-    else
-    {
-      normal = glm::normalize(hit->normalCentred);
-      normal = glm::dot(normal, glm::vec3(direction)) > 0.0f ? -normal : normal;
-      // Rounding of the ray and of its length is of the size of the storage noise.
-      noise = 4.0f * storageNoise(normal, glm::abs(position) + glm::abs(glm::vec3(eyeCentred)));
-    }
-    const double depth = glm::dot(glm::dvec3(position) - eyeCentred, lookCentred);
-    this->receivers_.put(i, position, normal,
-      shadowRayOffset(noise, static_cast<float>(pixelSide.x + pixelSide.y * depth)), hit->surface);
+    const SeenReceiver seen = seenReceiver(*hit, origin, direction, eyeCentred);
+    const double depth = glm::dot(glm::dvec3(seen.position) - eyeCentred, lookCentred);
+    this->receivers_.put(i, seen.position, seen.normal,
+      shadowRayOffset(seen.noise, static_cast<float>(pixelSide.x + pixelSide.y * depth)),
+      hit->surface);
   };
   tbb::parallel_for(std::size_t(0), count, lookAt);
 }

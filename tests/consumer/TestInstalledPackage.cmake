@@ -29,6 +29,7 @@ set(expected
   gnomon/GnomonShadowTechModule.h
   gnomon/vtkGnomonAreaLight.h
   gnomon/vtkGnomonEGLRenderWindow.h
+  gnomon/vtkGnomonFlatteringLights.h
   gnomon/vtkGnomonFrameCounts.h
   gnomon/vtkGnomonFrameReport.h
   gnomon/vtkGnomonLightKeys.h

@@ -13,7 +13,7 @@ import numpy
 from vtkmodules.vtkCommonCore import vtkObject, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkFiltersSources import vtkPointSource, vtkSphereSource
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
-from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkLight, vtkLightKit, vtkRenderer
 from vtkmodules.vtkRenderingOpenGL2 import (
     vtkDepthOfFieldPass,
     vtkEDLShading,
@@ -27,6 +27,7 @@ from vtkmodules.vtkRenderingOpenGL2 import (
 
 import gnomon
 from gnomon.images import _pixels
+from gnomon.lighting import lights_of
 from scene import Scene, add
 
 
@@ -184,6 +185,98 @@ class Shadows(unittest.TestCase):
                 self.assertEqual(lights.GetNumberOfItems(), 1)
                 self.assertTrue(lights.GetItemAsObject(0).LightTypeIsHeadlight())
 
+    def test_an_untouched_light_kit_gives_way_and_comes_back(self):
+        scene = Scene(has_sun=False)
+        vtkLightKit().AddLightsToRenderer(scene.renderer)
+        kit = lights_of(scene.renderer)
+        self.assertEqual(len(kit), 5)
+        with self.assertWarnsRegex(UserWarning, "kit gave way"):
+            shadows = gnomon.add_shadows(scene.renderer)
+        scene.window.Render()
+        casts = [light["casts"] for light in gnomon.report(shadows)["lights"]]
+        self.assertEqual(casts.count(True), 1)
+        self.assertEqual(len(lights_of(scene.renderer)), 2)
+        gnomon.remove_shadows(scene.renderer)
+        self.assertEqual(lights_of(scene.renderer), kit)
+
+    def test_lights_of_programs_are_never_touched(self):
+        def dim(lights):
+            lights[1].SetIntensity(0.5)
+
+        def turn(lights):
+            lights[2].SetPosition(1, 0, 0)
+
+        def cast(lights):
+            gnomon.vtkGnomonLightKeys.SetCasts(lights[0], False)
+
+        def add_one(_lights):
+            scene.renderer.AddLight(vtkLight())
+
+        def keep(_lights):
+            pass
+
+        for change, settings in (
+            (dim, {}), (turn, {}), (cast, {}), (add_one, {}), (keep, {"light": None})
+        ):
+            with self.subTest(change=change.__name__), warnings.catch_warnings():
+                warnings.simplefilter("error")
+                scene = Scene(has_sun=False)
+                vtkLightKit().AddLightsToRenderer(scene.renderer)
+                change(lights_of(scene.renderer))
+                before = lights_of(scene.renderer)
+                state = [str(light) for light in before]
+                gnomon.add_shadows(scene.renderer, **settings)
+                self.assertEqual(lights_of(scene.renderer), before)
+                gnomon.remove_shadows(scene.renderer)
+                self.assertEqual([str(light) for light in lights_of(scene.renderer)], state)
+        scene = Scene(has_sun=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            gnomon.add_shadows(scene.renderer, light=None)
+        self.assertEqual(lights_of(scene.renderer), [])
+        with self.assertRaisesRegex(ValueError, "light: found 'sun'"):
+            gnomon.add_shadows(scene.renderer, light="sun")
+
+    def test_lights_are_placed_for_the_first_picture(self):
+        scene = Scene(has_sun=False)
+        with self.assertWarns(UserWarning):
+            gnomon.add_shadows(scene.renderer)
+        key = lights_of(scene.renderer)[0]
+        first = key.GetPosition()
+        scene.renderer.GetActiveCamera().Azimuth(120)
+        scene.window.Render()
+        second = key.GetPosition()
+        self.assertNotEqual(first, second)
+        scene.renderer.GetActiveCamera().Azimuth(120)
+        scene.window.Render()
+        self.assertEqual(key.GetPosition(), second)
+
+    def test_a_light_that_a_program_moved_stays(self):
+        scene = Scene(has_sun=False)
+        with self.assertWarns(UserWarning):
+            gnomon.add_shadows(scene.renderer)
+        key = lights_of(scene.renderer)[0]
+        key.SetPosition(1, 2, 3)
+        scene.renderer.GetActiveCamera().Azimuth(120)
+        scene.window.Render()
+        self.assertEqual(key.GetPosition(), (1, 2, 3))
+
+    def test_the_first_picture_shows_its_shadow(self):
+        for view in ((0, -5, 6), (0, -5, 1), (4, 4, 3), (0.1, 0, 8)):
+            with self.subTest(view=view):
+                scene = Scene(has_sun=False)
+                scene.renderer.GetActiveCamera().SetPosition(view)
+                scene.renderer.ResetCameraClippingRange()
+                with self.assertWarns(UserWarning):
+                    shadows = gnomon.add_shadows(scene.renderer)
+                shadows.KeepVisibilityOn()
+                scene.window.Render()
+                arrays = gnomon.visibility(shadows)
+                on_floor = (arrays["prop"] == 0) & (arrays["light 0"] == 0)
+                on_ball = (arrays["prop"] == 1)
+                self.assertGreater(on_floor.sum(), 20)
+                self.assertGreater(arrays["light 0"][on_ball].mean(), 0.5)
+
     def test_a_headlight_stays_away_from_lights_that_came_meanwhile(self):
         def switch_key_off(renderer):
             renderer.GetLights().GetItemAsObject(0).SwitchOff()
@@ -196,8 +289,9 @@ class Shadows(unittest.TestCase):
             renderer.AddLight(vtkLight())
 
         def add_dark_light(renderer):
-            renderer.AddLight(vtkLight())
-            renderer.GetLights().GetItemAsObject(1).SwitchOff()
+            dark = vtkLight()
+            dark.SwitchOff()
+            renderer.AddLight(dark)
 
         for change, comes_back, others in (
             (lambda _: None, True, 0),

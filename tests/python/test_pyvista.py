@@ -9,6 +9,7 @@ import warnings
 from unittest import mock
 
 import gnomon
+from gnomon.lighting import lights_of
 
 try:
     import numpy
@@ -108,14 +109,26 @@ class PyVista(unittest.TestCase):
         self.assertLess(distances.max(), 0.1)
         plotter.close()
 
-    def test_the_default_lights_cast(self):
+    def test_the_default_lights_give_way_and_come_back(self):
+        plotter = pyvista.Plotter(off_screen=True, window_size=(200, 100))
+        add_scene(plotter, has_sun=False)
+        before = lights_of(plotter.renderer)
+        with self.assertWarnsRegex(UserWarning, "kit gave way"):
+            shadows = gnomon.add_shadows(plotter)
+        picture_of(plotter)
+        self.assertEqual(sum(light["casts"] for light in gnomon.report(shadows)["lights"]), 1)
+        gnomon.remove_shadows(plotter)
+        self.assertEqual(lights_of(plotter.renderer), before)
+        plotter.close()
+
+    def test_the_default_lights_stay_and_cast_on_request(self):
         plotter = pyvista.Plotter(off_screen=True, window_size=(200, 100))
         add_scene(plotter, has_sun=False)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            shadows = gnomon.add_shadows(plotter)
+            shadows = gnomon.add_shadows(plotter, light=None)
         picture_of(plotter)
-        self.assertGreater(sum(light["casts"] for light in gnomon.report(shadows)["lights"]), 0)
+        self.assertGreater(sum(light["casts"] for light in gnomon.report(shadows)["lights"]), 1)
         plotter.close()
 
     def test_pictures_go_to_files_and_are_compared(self):

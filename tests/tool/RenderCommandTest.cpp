@@ -108,6 +108,34 @@ TEST_F(RenderCommand, ShowsAModelOnAGroundUnderAKeyLightAndALittleAmbient)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(RenderCommand, PlacesTheKeyLightOfModelsForTheCamera)
+{
+  // From each side, half of the model's visible pixels are lit.
+  for (const char* const position : { "3,5,7", "-3,5,7", "3,5,-7", "-7,5,-3" })
+  {
+    const ChannelImage image = this->visibilityOf(
+      this->model, std::string("--camera position=") + position + ";target=0,1,0");
+    int lit = 0;
+    int onModel = 0;
+    int inShadow = 0;
+    for (std::size_t i = 0; i < image.channels.at("coverage").size(); ++i)
+    {
+      const bool isLit = image.channels.at("visibility.0")[i] > 0.0f;
+      const bool isModel = image.channels.at("position.Y")[i] > 0.0f;
+      if (image.channels.at("coverage")[i] == 1.0f)
+      {
+        onModel += isModel;
+        lit += isModel && isLit;
+        inShadow += !isModel && !isLit;
+      }
+    }
+    EXPECT_GT(onModel, 100) << position;
+    EXPECT_GE(2 * lit, onModel) << position;
+    EXPECT_GT(inShadow, 10) << position;
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(RenderCommand, GroundIsThereIfAskedFor)
 {
   EXPECT_TRUE(showsBackgroundBelow(this->pictureOf(this->model, "--no-ground")));

@@ -8,7 +8,8 @@
 
 The classes are VTK's own wrappers of the C++ ones, whose docstrings they have:
 vtkGnomonShadowPass, vtkGnomonShadowSettings, vtkGnomonLightKeys, vtkGnomonPropKeys,
-vtkGnomonAreaLight, vtkGnomonLightPlacement, vtkGnomonLightSamplingPass, vtkGnomonEGLRenderWindow;
+vtkGnomonAreaLight, vtkGnomonLightPlacement, vtkGnomonFlatteringLights, vtkGnomonLightSamplingPass,
+vtkGnomonEGLRenderWindow;
 for shadow as data vtkGnomonVisibilityFilter and vtkGnomonSun.
 """
 
@@ -20,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401: the wrapped classes' superclasses
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from .GnomonLights import (
     vtkGnomonAreaLight,
@@ -31,6 +32,7 @@ from .GnomonLights import (
 )
 from .GnomonPlugin import (
     vtkGnomonEGLRenderWindow,
+    vtkGnomonFlatteringLights,
     vtkGnomonLightSamplingPass,
     vtkGnomonPropKeys,
     vtkGnomonShadowPass,
@@ -39,6 +41,7 @@ from .GnomonPlugin import (
 from .errors import raising, warn_of
 from .holders import taking_holders, unwrap
 from .images import assert_images_equal
+from .lighting import replace_default_lights
 from .why import reasons
 
 if TYPE_CHECKING:
@@ -72,6 +75,7 @@ __all__ = [
     "why",
     "vtkGnomonAreaLight",
     "vtkGnomonEGLRenderWindow",
+    "vtkGnomonFlatteringLights",
     "vtkGnomonLightKeys",
     "vtkGnomonLightPlacement",
     "vtkGnomonLightSamplingPass",
@@ -103,6 +107,7 @@ if not TYPE_CHECKING:  # for which every name would exist, and classes made by a
 def add_shadows(
     target: vtkRenderer | _HasRenderer,
     technique: str | None = None,
+    light: str | None = "auto",
     **settings: str | float | bool,
 ) -> vtkGnomonShadowPass:
     """Have a renderer show shadows.
@@ -113,6 +118,8 @@ def add_shadows(
         A plotter of PyVista or vedo (its active subplot), a figure or scene of Mayavi, tvtk's.
     technique : str, optional
         A name of vtkGnomonShadowPass.GetTechniqueName(), or "auto", the default.
+    light : str, optional
+        "auto", the default, exchanges default lights; None leaves all lights as they are.
     **settings
         What lights fall back on: any setting of vtkGnomonLightKeys, as `light_radius=0.5`.
 
@@ -123,10 +130,11 @@ def add_shadows(
 
     Notes
     -----
-    A headlight that is the only light shows no shadow. A key light beside the camera takes its
-    place, and a warning says so; it stays where it is when the camera moves. In a renderer that
-    shows nothing yet, it is placed when the first picture is drawn. `remove_shadows` takes all of
-    that back.
+    Default lights are VTK's headlight, if no other light shines, and an untouched vtkLightKit, as
+    PyVista's. They show no shadow, or too many. A key light and a fill light
+    (vtkGnomonFlatteringLights) take their place, and a warning says so. They are placed for the
+    first picture, and stay where they are when the camera moves. `remove_shadows` takes all of that
+    back.
 
     The renderer's own pass gives way, too. A warning names it and its delegates.
 
@@ -138,6 +146,8 @@ def add_shadows(
         For a setting that does not exist, or a value that it does not take. Nothing changes then.
     """
     renderer = _renderer_of(target)
+    if light not in ("auto", None):
+        raise ValueError(f"light: found {light!r}, expected 'auto' or None")
     shadows = vtkGnomonShadowPass()
     if technique is not None:
         _set(shadows, "technique", technique)
@@ -152,7 +162,8 @@ def add_shadows(
         if renderer.GetRenderWindow() is not None:  # it may never draw again
             replaced.ReleaseGraphicsResources(renderer.GetRenderWindow())
     observers = [renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))]
-    _before[address] = (shadows, replaced, _replace_headlight(renderer, observers), observers)
+    lights = replace_default_lights(renderer) if light == "auto" else None
+    _before[address] = (shadows, replaced, lights, observers)
     warn_of(shadows)
     renderer.SetPass(shadows)
     return shadows
@@ -161,7 +172,7 @@ def add_shadows(
 def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
     """Give a renderer back the pass and the lights that it had before `add_shadows`.
 
-    A headlight comes back if no light but the key light in its place gives light.
+    Default lights come back if none but the lights in their place gives light.
 
     Parameters
     ----------
@@ -178,18 +189,12 @@ def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
     if _address_of(renderer) not in _before:
         return
     shadows, render_pass, lights, observers = _before.pop(_address_of(renderer))
-    for observer in observers:
+    for observer in observers + (lights.observers if lights else []):
         renderer.RemoveObserver(observer)
     if renderer.GetPass() is shadows:
         renderer.SetPass(render_pass)
-    if lights is not None:
-        key, headlight, creates = lights
-        present = _lights_of(renderer)
-        renderer.RemoveLight(key)
-        is_alone = key in present and not any(map(_gives_light, _lights_of(renderer)))
-        if headlight is not None and is_alone:
-            renderer.AddLight(headlight)
-        renderer.SetAutomaticLightCreation(creates or renderer.GetAutomaticLightCreation())
+    if lights:
+        lights.give_back(renderer)
 
 
 def report(shadows: vtkGnomonShadowPass) -> dict[str, Any]:
@@ -288,60 +293,3 @@ def _set(shadows, name, value):
 
 def _address_of(renderer):
     return renderer.GetAddressAsString("vtkRenderer")
-
-
-def _lights_of(renderer):
-    lights = renderer.GetLights()
-    return [lights.GetItemAsObject(i) for i in range(lights.GetNumberOfItems())]
-
-
-def _gives_light(light):
-    return light.GetSwitch() and light.GetIntensity() != 0 and any(light.GetDiffuseColor())
-
-
-def _replace_headlight(renderer, observers):
-    """Exchange a lone headlight for a key light.
-
-    Returns the key light, the headlight (None where there was none yet), and whether the renderer
-    creates lights; None if nothing is exchanged.
-    """
-    all_lights = _lights_of(renderer)
-    lit = [light for light in all_lights if _gives_light(light)]
-    creates = renderer.GetAutomaticLightCreation()
-    casts = vtkGnomonLightKeys.CASTS()
-    if len(lit) > 1 or (all_lights and not lit) or (not all_lights and not creates):
-        return None
-    if lit and (
-        not vtkGnomonLightPlacement.IsHeadlight(lit[0]) or lit[0].GetInformation().Has(casts)
-    ):
-        return None
-    warnings.warn(
-        "The only light was a headlight, which shows no shadow: a key light took its place.",
-        stacklevel=3,
-    )
-    headlight = lit[0] if lit else None
-    if headlight is not None:
-        renderer.RemoveLight(headlight)
-    key = vtkLight()
-    renderer.AddLight(key)
-    renderer.AutomaticLightCreationOff()
-    if not _place(key, renderer):
-
-        def place_later(caller, _event):
-            if _place(key, caller):
-                caller.RemoveObserver(observer)
-
-        observer = renderer.AddObserver("StartEvent", place_later)
-        observers.append(observer)
-    return key, headlight, creates
-
-
-def _place(key, renderer):
-    """Place a key light for what is visible; False if nothing is, or a single point."""
-    bounds = renderer.ComputeVisiblePropBounds()
-    if not any(bounds[axis] < bounds[axis + 1] for axis in (0, 2, 4)):
-        return False
-    if not renderer.IsActiveCameraCreated():
-        renderer.ResetCamera()
-    vtkGnomonLightPlacement.MakeKeyLight(key, renderer.GetActiveCamera(), bounds)
-    return True

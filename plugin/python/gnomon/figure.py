@@ -77,7 +77,8 @@ def draw(
     window = vtkGnomonEGLRenderWindow()
     window.SetSize(*size)
     window.AddRenderer(renderer)
-    shadows = add_shadows(renderer, None if technique is None else str(technique), **settings)
+    name = None if technique is None else str(technique)
+    shadows = add_shadows(renderer, name, None, **settings)
     with raising(window, shadows):
         picture = _pixels(window)
     _write(picture, str(path))

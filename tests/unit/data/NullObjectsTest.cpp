@@ -5,6 +5,7 @@
 #include "lights/vtkGnomonLightPlacement.h"
 #include "lights/vtkGnomonSun.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonFlatteringLights.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "plugin/vtkGnomonVisibilityFilter.h"
@@ -15,6 +16,7 @@
 #include <vtkFloatArray.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
+#include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <array>
@@ -41,6 +43,8 @@ TEST(NullObjects, areOneErrorOfEachMethod)
   vtkNew<vtkGnomonSun> sun;
   vtkNew<vtkGnomonVisibilityFilter> filter;
   vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkNew<vtkGnomonFlatteringLights> flattering;
+  vtkNew<vtkRenderer> renderer;
   const std::array<double, 6> box{ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
   std::array<double, 3> out{ 7.0, 7.0, 7.0 };
   vtkFloatArray* const floats = nullptr;
@@ -72,6 +76,9 @@ TEST(NullObjects, areOneErrorOfEachMethod)
     { "cannot be placed", [&] { Placement::ShineOnPoints(light, nullptr); } },
     { "a camera", [&] { Placement::MakeKeyLight(nullptr, camera, box.data()); } },
     { "a camera", [&] { Placement::MakeKeyLight(light, nullptr, box.data()); } },
+    { "a renderer and two", [&] { EXPECT_FALSE(flattering->Make(nullptr, light, light)); } },
+    { "a renderer and two", [&] { EXPECT_FALSE(flattering->Make(renderer, nullptr, light)); } },
+    { "a renderer and two", [&] { EXPECT_FALSE(flattering->Make(renderer, light, nullptr)); } },
     { "a light", [] { Placement::SetPitchAndYaw(nullptr, 10.0, 20.0); } },
     { "a light",
       []

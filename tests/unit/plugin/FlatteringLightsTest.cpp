@@ -1,0 +1,545 @@
+// Key and fill lights that are placed by a look at the scene. Shares are counted once more by VTK's
+// own cell locator, on other rays.
+
+#include "VtkMessages.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonFlatteringLights.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkActor.h>
+#include <vtkAppendPolyData.h>
+#include <vtkCamera.h>
+#include <vtkConeSource.h>
+#include <vtkContourFilter.h>
+#include <vtkCubeSource.h>
+#include <vtkGenericCell.h>
+#include <vtkImageData.h>
+#include <vtkLight.h>
+#include <vtkMolecule.h>
+#include <vtkMoleculeMapper.h>
+#include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkPeriodicTable.h>
+#include <vtkPlaneSource.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolygon.h>
+#include <vtkProperty.h>
+#include <vtkRTAnalyticSource.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkSphereSource.h>
+#include <vtkStaticCellLocator.h>
+#include <vtkTransform.h>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+using testing::HasSubstr;
+
+/// A surface, and the prop that shows it.
+struct Subject
+{
+  vtkSmartPointer<vtkPolyData> surface; ///< in world coordinates
+  vtkSmartPointer<vtkActor> actor;
+};
+
+vtkSmartPointer<vtkActor> actorOf(vtkPolyData* surface)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(surface);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  return actor;
+}
+
+Subject subjectOf(vtkPolyDataAlgorithm* source)
+{
+  source->Update();
+  return { source->GetOutput(), actorOf(source->GetOutput()) };
+}
+
+Subject cone()
+{
+  vtkNew<vtkConeSource> source;
+  source->SetResolution(40);
+  source->SetDirection(0.0, 0.0, 1.0);
+  return subjectOf(source);
+}
+
+Subject sphere()
+{
+  vtkNew<vtkSphereSource> source;
+  source->SetThetaResolution(48);
+  source->SetPhiResolution(48);
+  return subjectOf(source);
+}
+
+Subject bunny()
+{
+  const char* const file = "/usr/share/glmark2/models/bunny.obj";
+  if (!std::filesystem::exists(file))
+  {
+    return {};
+  }
+  vtkNew<vtkOBJReader> reader;
+  reader->SetFileName(file);
+  reader->Update();
+  const vtkSmartPointer<vtkPolyData> surface = reader->GetOutput();
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i) // y is up in the file
+  {
+    const glm::dvec3 point = glm::make_vec3(surface->GetPoint(i));
+    surface->GetPoints()->SetPoint(i, point.x, -point.z, point.y);
+  }
+  return { surface, actorOf(surface) };
+}
+
+/// Balls in a helix, which a molecule mapper shows as impostors.
+Subject molecule()
+{
+  vtkNew<vtkMolecule> molecule;
+  vtkNew<vtkPeriodicTable> table;
+  vtkNew<vtkAppendPolyData> balls;
+  for (int i = 0; i < 16; ++i)
+  {
+    const glm::dvec3 centre(3.0 * std::cos(0.6 * i), 3.0 * std::sin(0.6 * i), 0.5 * i);
+    const unsigned short element = i % 3 == 0 ? 8 : 6;
+    molecule->AppendAtom(element, centre.x, centre.y, centre.z);
+    vtkNew<vtkSphereSource> ball;
+    ball->SetCenter(centre.x, centre.y, centre.z);
+    ball->SetRadius(table->GetVDWRadius(element));
+    ball->SetThetaResolution(24);
+    ball->SetPhiResolution(24);
+    balls->AddInputConnection(ball->GetOutputPort());
+  }
+  balls->Update();
+  vtkNew<vtkMoleculeMapper> mapper;
+  mapper->SetInputData(molecule);
+  mapper->UseVDWSpheresSettings();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  return { balls->GetOutput(), actor };
+}
+
+Subject terrain()
+{
+  vtkNew<vtkPlaneSource> source;
+  source->SetResolution(120, 120);
+  source->Update();
+  const vtkSmartPointer<vtkPolyData> surface = source->GetOutput();
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 point = glm::make_vec3(surface->GetPoint(i));
+    point.z = 0.07 * std::sin(9.0 * point.x + 1.0) * std::cos(7.0 * point.y) +
+      0.03 * std::sin(23.0 * point.x) * std::sin(19.0 * point.y + 2.0);
+    surface->GetPoints()->SetPoint(i, glm::value_ptr(point));
+  }
+  return { surface, actorOf(surface) };
+}
+
+/// The surface of a value of VTK's test image, with pits and detached parts as of a scan.
+Subject scan()
+{
+  vtkNew<vtkRTAnalyticSource> image;
+  image->SetWholeExtent(-16, 16, -16, 16, -16, 16);
+  vtkNew<vtkContourFilter> contour;
+  contour->SetInputConnection(image->GetOutputPort());
+  contour->SetValue(0, 150.0);
+  return subjectOf(contour);
+}
+
+struct Case
+{
+  const char* name;
+  std::function<Subject()> make;
+  glm::dvec3 from; ///< the camera's direction, +z up
+  bool hasGround;
+};
+std::ostream& operator<<(std::ostream& stream, const Case& of)
+{
+  return stream << of.name;
+}
+
+/// A case in a renderer without a window.
+struct LitScene
+{
+  explicit LitScene(const Case& of)
+    : subject(of.make())
+  {
+    if (!this->subject.surface)
+    {
+      return;
+    }
+    this->renderer->AddActor(this->subject.actor);
+    this->look(of.from);
+    if (of.hasGround)
+    {
+      this->addGround();
+    }
+  }
+
+  void look(const glm::dvec3& from) const
+  {
+    vtkCamera* const camera = this->renderer->GetActiveCamera();
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetPosition(from.x, from.y, from.z);
+    camera->SetViewUp(
+      0.0, std::abs(from.z) > 0.99 ? 1.0 : 0.0, std::abs(from.z) > 0.99 ? 0.0 : 1.0);
+    this->renderer->ResetCamera();
+    camera->Zoom(0.8);
+  }
+
+  void addGround()
+  {
+    const double* const box = this->subject.surface->GetBounds();
+    const double side = 1.5 * std::max(box[1] - box[0], box[3] - box[2]);
+    const double z = box[4] - 1e-3 * side;
+    vtkNew<vtkPlaneSource> source;
+    source->SetOrigin(box[0] - side, box[2] - side, z);
+    source->SetPoint1(box[1] + side, box[2] - side, z);
+    source->SetPoint2(box[0] - side, box[3] + side, z);
+    this->ground = subjectOf(source);
+    this->renderer->AddActor(this->ground.actor);
+    this->renderer->ResetCameraClippingRange();
+  }
+
+  bool make() { return this->lights->Make(this->renderer, this->key, this->fill); }
+  /// Return the unit vector towards a light.
+  static glm::dvec3 towards(vtkLight* light)
+  {
+    return glm::normalize(
+      glm::make_vec3(light->GetPosition()) - glm::make_vec3(light->GetFocalPoint()));
+  }
+  /// Return the same for the key light in the camera's view space.
+  glm::dvec3 towardsKeyView() const
+  {
+    const glm::dvec3 world = towards(this->key);
+    double view[4] = { world.x, world.y, world.z, 0.0 };
+    this->renderer->GetActiveCamera()->GetViewTransformMatrix()->MultiplyPoint(view, view);
+    return glm::make_vec3(view);
+  }
+
+  Subject subject;
+  Subject ground;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkLight> key;
+  vtkNew<vtkLight> fill;
+  vtkNew<vtkGnomonFlatteringLights> lights;
+};
+
+/// Finds hits of rays by VTK.
+class Locator
+{
+public:
+  explicit Locator(vtkPolyData* surface)
+    : surface_(surface)
+  {
+    if (surface)
+    {
+      this->locator_->SetDataSet(surface);
+      this->locator_->BuildLocator();
+    }
+  }
+
+  struct Hit
+  {
+    double at;
+    glm::dvec3 position;
+    glm::dvec3 normal;
+  };
+  /// Return the first hit between two points; `at` counts in their distance.
+  std::optional<Hit> hit(glm::dvec3 from, glm::dvec3 to) const
+  {
+    Hit hit{};
+    double across[3];
+    int part = 0;
+    vtkIdType cell = -1;
+    vtkNew<vtkGenericCell> scratch;
+    if (!this->surface_ ||
+      !this->locator_->IntersectWithLine(
+        &from.x, &to.x, 0.0, hit.at, &hit.position.x, across, part, cell, scratch))
+    {
+      return std::nullopt;
+    }
+    vtkPolygon::ComputeNormal(scratch->GetPoints(), &hit.normal.x);
+    hit.normal *= glm::dot(hit.normal, to - from) > 0.0 ? -1.0 : 1.0;
+    return hit;
+  }
+
+private:
+  vtkPolyData* surface_;
+  vtkNew<vtkStaticCellLocator> locator_;
+};
+
+struct Shares
+{
+  double lit;
+  double inShadow;
+};
+
+/// Count both shares on the rays of another grid.
+Shares count(const LitScene& scene)
+{
+  constexpr int across = 71;
+  const Locator subject(scene.subject.surface);
+  const Locator ground(scene.ground.surface);
+  vtkCamera* const camera = scene.renderer->GetActiveCamera();
+  const glm::dvec3 eye = glm::make_vec3(camera->GetPosition());
+  const glm::dvec3 forward = glm::make_vec3(camera->GetDirectionOfProjection());
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::make_vec3(camera->GetViewUp())));
+  const glm::dvec3 up = glm::cross(right, forward);
+  const double half = std::tan(glm::radians(0.5 * camera->GetViewAngle()));
+  const double reach = 10.0 * camera->GetDistance();
+  std::vector<Locator::Hit> onSubject;
+  std::vector<Locator::Hit> onGround;
+  glm::dvec3 lower(std::numeric_limits<double>::infinity());
+  glm::dvec3 upper(-lower);
+  for (int i = 0; i < across * across; ++i)
+  {
+    const double x = (2.0 * (i % across) + 1.0) / across - 1.0;
+    const double y = (2.0 * (i / across) + 1.0) / across - 1.0;
+    const glm::dvec3 end = eye + reach * (forward + half * (x * right + y * up));
+    const auto first = subject.hit(eye, end);
+    const auto second = ground.hit(eye, end);
+    if (first && (!second || first->at < second->at))
+    {
+      onSubject.push_back(*first);
+      lower = glm::min(lower, first->position);
+      upper = glm::max(upper, first->position);
+    }
+    else if (second)
+    {
+      onGround.push_back(*second);
+    }
+  }
+  const glm::dvec3 towards = LitScene::towards(scene.key);
+  const auto isBlocked = [&](const Locator::Hit& point)
+  {
+    const glm::dvec3 start = point.position + 1e-4 * camera->GetDistance() * point.normal;
+    return subject.hit(start, start + reach * towards) ||
+      ground.hit(start, start + reach * towards);
+  };
+  double lit = 0.0;
+  for (const Locator::Hit& point : onSubject)
+  {
+    lit += glm::dot(point.normal, towards) > 0.0 && !isBlocked(point) ? 1.0 : 0.0;
+  }
+  double near = 0.0;
+  double dark = 0.0;
+  for (const Locator::Hit& point : onGround)
+  {
+    if (glm::distance(point.position, 0.5 * (lower + upper)) < 0.75 * glm::distance(lower, upper))
+    {
+      near += 1.0;
+      dark += glm::dot(point.normal, towards) > 0.0 && isBlocked(point) ? 1.0 : 0.0;
+    }
+  }
+  lit /= static_cast<double>(onSubject.size());
+  return { lit, near > 0.0 ? dark / near : 1.0 - lit };
+}
+
+class FlatteringLightsOf : public testing::TestWithParam<Case>
+{
+};
+
+TEST_P(FlatteringLightsOf, sceneShowItAndItsShadow)
+{
+  LitScene scene(GetParam());
+  if (!scene.subject.surface)
+  {
+    GTEST_SKIP() << "there is no model";
+  }
+  ASSERT_TRUE(scene.make());
+  const Shares shares = count(scene);
+  RecordProperty("lit", std::to_string(shares.lit));
+  RecordProperty("in_shadow", std::to_string(shares.inShadow));
+  EXPECT_GE(shares.lit, 0.5) << scene.lights->GetNote();
+  EXPECT_GE(shares.inShadow, 0.05) << scene.lights->GetNote();
+  EXPECT_NEAR(scene.lights->GetLitShare(), shares.lit, 0.04);
+  // How much ground counts follows from the outermost rays that meet the subject.
+  EXPECT_NEAR(scene.lights->GetShadowShare(), shares.inShadow, 0.07);
+  EXPECT_THAT(scene.lights->GetNote(), testing::Not(HasSubstr("No direction")));
+  EXPECT_EQ(
+    scene.lights->GetNote().find("nothing lies below") == std::string::npos, GetParam().hasGround);
+
+  const glm::dvec3 key = scene.towardsKeyView();
+  const double above = glm::degrees(std::asin(key.y));
+  const double aside = glm::degrees(std::atan2(std::abs(key.x), key.z));
+  EXPECT_THAT(above, testing::AllOf(testing::Ge(24.99), testing::Le(65.01)));
+  EXPECT_THAT(aside, testing::AllOf(testing::Ge(19.99), testing::Le(70.01)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, FlatteringLightsOf,
+  testing::Values(Case{ "Cone", cone, { 0.3, -1.0, 0.4 }, false },
+    Case{ "ConeOnGround", cone, { 0.3, -1.0, 0.4 }, true },
+    Case{ "ConeFromAbove", cone, { 0.0, 0.0, 1.0 }, true },
+    Case{ "Sphere", sphere, { 0.0, -1.0, 0.0 }, false },
+    Case{ "SphereOnGround", sphere, { 0.0, -1.0, 0.5 }, true },
+    Case{ "SphereFromAbove", sphere, { 0.0, 0.0, 1.0 }, true },
+    Case{ "Bunny", bunny, { 0.3, -1.0, 0.2 }, false },
+    Case{ "BunnyOnGround", bunny, { 0.3, -1.0, 0.5 }, true },
+    Case{ "Molecule", molecule, { 0.5, -1.0, 0.3 }, false },
+    Case{ "MoleculeOnGround", molecule, { 0.5, -1.0, 0.5 }, true },
+    Case{ "Terrain", terrain, { 0.3, -1.0, 0.9 }, false },
+    Case{ "TerrainFromAbove", terrain, { 0.0, 0.0, 1.0 }, false },
+    Case{ "Scan", scan, { 1.0, -1.0, 0.8 }, false },
+    Case{ "ScanOnGround", scan, { 0.5, -1.0, 0.6 }, true }),
+  [](const auto& of) { return std::string(of.param.name); });
+
+Case ballOnGround()
+{
+  return { "", sphere, { 0.0, -1.0, 0.5 }, true };
+}
+
+TEST(FlatteringLights, areTwoSceneLightsOfWhichTheKeyCasts)
+{
+  LitScene scene(ballOnGround());
+  vtkNew<vtkTransform> moved;
+  scene.key->SetTransformMatrix(moved->GetMatrix());
+  scene.key->PositionalOn();
+  scene.key->SetLightTypeToHeadlight();
+  scene.key->SetDiffuseColor(1.0, 0.9, 0.8);
+  ASSERT_TRUE(scene.make());
+  for (vtkLight* const light : { scene.key.Get(), scene.fill.Get() })
+  {
+    EXPECT_TRUE(light->LightTypeIsSceneLight());
+    EXPECT_FALSE(light->GetPositional());
+    EXPECT_EQ(light->GetTransformMatrix(), nullptr);
+    EXPECT_THAT(std::vector(light->GetDiffuseColor(), light->GetDiffuseColor() + 3),
+      testing::ElementsAre(1.0, 0.9, 0.8));
+  }
+  EXPECT_TRUE(vtkGnomonLightKeys::GetCasts(scene.key));
+  EXPECT_FALSE(vtkGnomonLightKeys::GetCasts(scene.fill));
+  EXPECT_LT(scene.fill->GetIntensity(), 0.6 * scene.key->GetIntensity());
+  EXPECT_LT(scene.towardsKeyView().x, 0.0) << "left, if both sides are alike";
+  EXPECT_GT(LitScene::towards(scene.fill).x, 0.0);
+}
+
+TEST(FlatteringLights, areTheSameForTheSameRendererAndForMovedScenes)
+{
+  LitScene scene(ballOnGround());
+  ASSERT_TRUE(scene.make());
+  const glm::dvec3 first = LitScene::towards(scene.key);
+  ASSERT_TRUE(scene.make());
+  EXPECT_EQ(LitScene::towards(scene.key), first);
+  for (const double scale : { 1e-6, 1e6 })
+  {
+    LitScene other(ballOnGround());
+    for (vtkActor* const actor : { other.subject.actor.Get(), other.ground.actor.Get() })
+    {
+      actor->SetScale(scale);
+      actor->SetPosition(5.0 * scale, -7.0 * scale, 3.0 * scale);
+    }
+    other.look({ 0.0, -1.0, 0.5 });
+    LitScene same(ballOnGround());
+    same.look({ 0.0, -1.0, 0.5 });
+    ASSERT_TRUE(other.make() && same.make());
+    EXPECT_LT(glm::distance(LitScene::towards(other.key), LitScene::towards(same.key)), 1e-9);
+  }
+}
+
+TEST(FlatteringLights, seeGroundThatDoesNotCastAndParallelCameras)
+{
+  LitScene scene(ballOnGround());
+  vtkGnomonPropKeys::SetCasts(scene.ground.actor, false);
+  scene.renderer->GetActiveCamera()->ParallelProjectionOn();
+  ASSERT_TRUE(scene.make());
+  EXPECT_THAT(scene.lights->GetNote(), HasSubstr("below or behind them is in shadow"));
+  EXPECT_GE(scene.lights->GetShadowShare(), 0.05);
+}
+
+TEST(FlatteringLights, seeWallsAsGround)
+{
+  LitScene scene(ballOnGround());
+  for (const double x : { 0.0, -2.05 }) // a wall behind, and a narrow one beside
+  {
+    vtkNew<vtkCubeSource> wall;
+    wall->SetBounds(x - 2.0, x < 0.0 ? x : 2.0, x < 0.0 ? -2.0 : 2.0, 2.1, -0.5, 3.0);
+    scene.renderer->AddActor(subjectOf(wall).actor);
+  }
+  scene.look({ 0.2, -1.0, 0.4 });
+  scene.renderer->GetActiveCamera()->Zoom(1.6);
+  ASSERT_TRUE(scene.make());
+  EXPECT_THAT(scene.lights->GetNote(), HasSubstr("below or behind them is in shadow"));
+  EXPECT_GE(scene.lights->GetLitShare(), 0.7) << "with a wall as subject, few directions do both";
+  EXPECT_GE(scene.lights->GetShadowShare(), 0.05);
+}
+
+TEST(FlatteringLights, sayWhereNoDirectionDoesBoth)
+{
+  LitScene scene(ballOnGround());
+  vtkNew<vtkCubeSource> room;
+  room->SetXLength(100.0);
+  room->SetYLength(100.0);
+  room->SetZLength(100.0);
+  scene.renderer->AddActor(subjectOf(room).actor);
+  ASSERT_TRUE(scene.make());
+  EXPECT_THAT(scene.lights->GetNote(), HasSubstr("No direction"));
+  EXPECT_EQ(scene.lights->GetLitShare(), 0.0);
+  EXPECT_NEAR(glm::length(scene.towardsKeyView()), 1.0, 1e-9);
+}
+
+TEST(FlatteringLights, forNoSurfaceInViewAreTheKeyLight)
+{
+  LitScene away(ballOnGround());
+  away.renderer->GetActiveCamera()->SetFocalPoint(0.0, -100.0, 100.0);
+  LitScene lines(ballOnGround());
+  lines.ground.actor->VisibilityOff();
+  lines.subject.actor->GetProperty()->SetRepresentationToWireframe();
+  for (LitScene* const scene : { &away, &lines })
+  {
+    ASSERT_TRUE(scene->make());
+    EXPECT_THAT(scene->lights->GetNote(), HasSubstr("sees no opaque surface"));
+    EXPECT_NEAR(glm::degrees(std::asin(scene->towardsKeyView().y)), 40.0, 1e-6);
+  }
+}
+
+TEST(FlatteringLights, ofPlanesAloneArePlaced)
+{
+  LitScene scene(ballOnGround());
+  scene.subject.actor->VisibilityOff();
+  ASSERT_TRUE(scene.make());
+  EXPECT_NEAR(scene.lights->GetLitShare(), 1.0, 1e-9);
+  EXPECT_THAT(scene.lights->GetNote(), HasSubstr("No direction"));
+}
+
+TEST(FlatteringLights, stayWhereTheyAreOnErrors)
+{
+  LitScene nothing(ballOnGround());
+  nothing.renderer->RemoveAllViewProps();
+  LitScene nowhere(ballOnGround());
+  nowhere.renderer->GetActiveCamera()->SetPosition(
+    std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
+  for (LitScene* const scene : { &nothing, &nowhere })
+  {
+    const tool::VtkMessages messages;
+    scene->key->SetPosition(1.0, 2.0, 3.0);
+    EXPECT_FALSE(scene->make());
+    EXPECT_EQ(messages.errors().size(), 1u);
+    EXPECT_EQ(glm::make_vec3(scene->key->GetPosition()), glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(scene->lights->GetNote(), "");
+    EXPECT_TRUE(vtkGnomonLightKeys::GetCasts(scene->fill));
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
