@@ -80,15 +80,11 @@ const Button buttons[] = { { "Left", vtkCommand::LeftButtonPressEvent,
 struct Shadows
 {
   const char* name;
-  std::map<const char*, const char*> settings;
+  const char* settings;
 };
-const Shadows allShadows[] = { { "Auto", { { "technique", "auto" } } },
-  { "Area", { { "technique", "auto" }, { "light_radius", "2" } } },
-  { "Silhouette", { { "technique", "silhouette" } } },
-  { "MovingSamples",
-    { { "technique", "penumbra" }, { "light_radius", "2" }, { "moving_samples", "4" } } },
-  { "Progressive",
-    { { "technique", "sampled" }, { "light_radius", "2" }, { "progressive", "4" } } } };
+const Shadows allShadows[] = { { "Auto", "auto" }, { "Area", "auto light_radius=2" },
+  { "Silhouette", "silhouette" }, { "MovingSamples", "penumbra light_radius=2 moving_samples=4" },
+  { "Progressive", "sampled light_radius=2 progressive=4" } };
 
 /// A box over a floor in a window with an interactor, and the timers of its event loop.
 class DrivenScene : public PassScene
@@ -244,10 +240,7 @@ void waitForTimers(DrivenScene& scene)
 Picture fresh(DrivenScene& scene, const Shadows& shadows)
 {
   vtkNew<vtkGnomonShadowPass> pass;
-  for (const auto& [name, value] : shadows.settings)
-  {
-    pass->SetSetting(name, value);
-  }
+  choose(pass, shadows.settings);
   pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_OFF);
   scene.renderer->SetPass(pass);
   Picture picture = scene.render();
@@ -259,21 +252,13 @@ Picture fresh(DrivenScene& scene, const Shadows& shadows)
   return picture;
 }
 
-class Drag
-  : public PassTest
-  , public testing::WithParamInterface<std::tuple<Style, Button, Shadows, Loop>>
-{
-};
+using Drag = PassTestOf<std::tuple<Style, Button, Shadows, Loop>>;
 
 TEST_P(Drag, goesWherePlainVtkGoesAndFinishes)
 {
   const auto& [style, button, shadows, loop] = GetParam();
   DrivenScene scene(loop, style);
-  for (const auto& [name, value] : shadows.settings)
-  {
-    scene.pass->SetSetting(name, value);
-  }
-  scene.useGnomon();
+  scene.choose(shadows.settings);
   DrivenScene plain(loop, style);
   plain.usePlain();
   for (DrivenScene* const each : { &scene, &plain })

@@ -36,14 +36,9 @@ protected:
   /// Return the wrong pixels of a frame with kept visibility.
   static std::size_t wrong(PassScene& scene, const char* technique, const VisibilityImages& truth)
   {
-    scene.pass->SetTechnique(technique);
-    return compareVisibility(drawKept(scene), truth).wrong;
+    return compareVisibility(drawKept(scene, technique), truth).wrong;
   }
-  static VisibilityImages truthOf(PassScene& scene)
-  {
-    scene.pass->SetTechnique("raytraced");
-    return drawKept(scene);
-  }
+  static VisibilityImages truthOf(PassScene& scene) { return drawKept(scene, "raytraced"); }
 };
 
 /// One light of each kind over the scene of fill().
@@ -90,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, FittingOfKinds,
       [](PassScene& scene) {
         return scene.addSpot({ -4.0, -1.6, 6.0 }, glm::dvec3(0.0), allDirections);
       } }),
-  [](const testing::TestParamInfo<Kind>& kind) { return std::string(kind.param.name); });
+  byName);
 
 } // namespace
 
@@ -207,8 +202,7 @@ TEST_F(Fitting, bringsEveryEstimatorNearerToTheTruth)
   const auto error = [&](const char* technique, const char* fit)
   {
     this->fit(scene, fit, "off");
-    scene.pass->SetTechnique(technique);
-    const VisibilityImages& kept = drawKept(scene);
+    const VisibilityImages& kept = drawKept(scene, technique);
     double sum = 0.0;
     for (std::size_t i = 0; i < kept.coverage.size(); ++i)
     {

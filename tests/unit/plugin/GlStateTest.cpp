@@ -3,6 +3,7 @@
 
 #include "LiveObjects.h"
 #include "PassScene.h"
+#include "Variant.h"
 
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "shadowtech/base/Gl.h"
@@ -152,16 +153,12 @@ vtkStandardNewMacro(ProbePass);
 
 void fill(PassScene& scene)
 {
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSphereOverFloor();
   scene.addSun({ 1.0, 0.3, -1.5 });
   scene.addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
 }
 
-class GlStateOfWay
-  : public PassTest
-  , public testing::WithParamInterface<Way>
+class GlStateOfWay : public PassTestOf<Way>
 {
 protected:
   void choose(PassScene& scene) const { scene.choose(GetParam()); }
@@ -205,16 +202,16 @@ std::ostream& operator<<(std::ostream& stream, const Drawing& drawing)
 
 constexpr const char* routeNames[] = { "Auto", "Inline", "Image", "Deferred" };
 
-Drawing byTechnique(const char* technique, int route, const char* setting = nullptr,
-  const char* value = nullptr, bool textured = false)
+Drawing byTechnique(
+  const char* technique, int route, const char* setting = "", bool textured = false)
 {
-  std::string name = std::string(technique) + routeNames[route] +
-    (setting ? std::string("_") + setting + "_" + value : "") + (textured ? "Textured" : "");
-  return { std::move(name),
+  return {
+    Variant{ technique + std::string(routeNames[route]) + (*setting ? " " : "") + setting }.name() +
+      (textured ? "Textured" : ""),
     [=](PassScene& scene) -> vtkSmartPointer<vtkRenderPass>
     {
       scene.choose({ technique, route });
-      setting ? scene.set(setting, value) : void();
+      scene.choose(setting);
       if (textured)
       {
         vtkNew<vtkGnomonAreaLight> lamp;
@@ -227,7 +224,8 @@ Drawing byTechnique(const char* technique, int route, const char* setting = null
         lightOf(scene.renderer, 1)->SwitchOff();
       }
       return scene.pass.Get();
-    } };
+    }
+  };
 }
 
 /// A picture from each point of a light.
@@ -254,16 +252,15 @@ std::vector<Drawing> drawings()
   constexpr int within = vtkGnomonShadowPass::ROUTE_INLINE;
   constexpr int image = vtkGnomonShadowPass::ROUTE_IMAGE;
   constexpr int deferred = vtkGnomonShadowPass::ROUTE_DEFERRED;
-  std::vector<Drawing> all = { byTechnique("raytraced", deferred, "edge_samples", "1"),
-    byTechnique("raytraced", deferred, "edge_samples", "16"),
-    byTechnique("msm", within, "blur", "box"), byTechnique("msm", within, "blur", "sat"),
-    byTechnique("msm", within, "mip_maps", "on") };
+  std::vector<Drawing> all = { byTechnique("raytraced", deferred, "edge_samples=1"),
+    byTechnique("raytraced", deferred, "edge_samples=16"), byTechnique("msm", within, "blur=box"),
+    byTechnique("msm", within, "blur=sat"), byTechnique("msm", within, "mip_maps=on") };
   for (const char* technique : { "nsm", "pcf", "raytraced", "planar", "montecarlo" })
   {
     const Way way{ technique, image };
     all.insert(all.end(),
       { byTechnique(technique, image), fromPoints(way, 0, 0), fromPoints(way, 2, 4),
-        byTechnique(technique, image, nullptr, nullptr, true) });
+        byTechnique(technique, image, "", true) });
   }
   for (const char* technique : { "nsm", "pcf" })
   {
@@ -271,14 +268,10 @@ std::vector<Drawing> drawings()
     all.insert(
       all.end(), { byTechnique(technique, within), fromPoints(way, 0, 0), fromPoints(way, 2, 4) });
   }
-  all.push_back(byTechnique("sampled", image, nullptr, nullptr, true));
+  all.push_back(byTechnique("sampled", image, "", true));
   return all;
 }
-class GlStateOfDrawing
-  : public PassTest
-  , public testing::WithParamInterface<Drawing>
-{
-};
+using GlStateOfDrawing = PassTestOf<Drawing>;
 INSTANTIATE_TEST_SUITE_P(All, GlStateOfDrawing, testing::ValuesIn(drawings()), byName);
 } // namespace
 
@@ -380,17 +373,13 @@ TEST_P(GlStateOfWay, objectsStayTheSameInNumber)
   EXPECT_EQ(countLiveObjects(scene.window), live) << "after 20 sizes";
   for (int time = 0; time < 20; ++time)
   {
-    scene.usePlain();
-    scene.render();
-    scene.useGnomon();
+    scene.renderPlain();
     scene.render();
   }
   const LiveObjects toggled = countLiveObjects(scene.window);
   EXPECT_TRUE(toggled.sameButPrograms(live)) << toggled << " after the pass was off and on";
   // Plain VTK's own programs have been added to those with the hook; no more follow.
-  scene.usePlain();
-  scene.render();
-  scene.useGnomon();
+  scene.renderPlain();
   scene.render();
   EXPECT_EQ(countLiveObjects(scene.window), toggled);
 }
@@ -487,9 +476,7 @@ TEST_P(GlStateOfWay, withoutFreeTextureUnitsTheSceneIsDrawnWithoutShadows)
   {
     scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE); // the deferred route needs no unit
   }
-  scene.usePlain();
-  const Picture plain = scene.render();
-  scene.useGnomon();
+  const Picture plain = scene.renderPlain();
 
   vtkTextureUnitManager* manager = scene.window->GetState()->GetTextureUnitManager();
   std::vector<int> taken;

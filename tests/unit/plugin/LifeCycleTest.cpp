@@ -36,11 +36,9 @@ double residentMegabytes()
 
 void fillWithSunAndSpot(PassScene& scene)
 {
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSphereOverFloor();
   scene.addSun({ 1.0, 0.3, -1.5 });
   scene.addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
   scene.pass->SetMapSize(128);
 }
 
@@ -97,9 +95,7 @@ void expectNoMoreThanPlainVtk(const LeftBehind& left, const LeftBehind& plain)
   EXPECT_LT(left.growthMegabytes - plain.growthMegabytes, mostGrowthMegabytes);
 }
 
-class LifeCycle
-  : public PassTest
-  , public testing::WithParamInterface<Way>
+class LifeCycle : public PassTestOf<Way>
 {
 protected:
   LifeCycle()

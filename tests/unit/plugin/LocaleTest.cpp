@@ -17,9 +17,7 @@ struct Commas : std::numpunct<char>
   std::string do_grouping() const override { return "\3"; }
 };
 
-class UnderALocaleWithCommas
-  : public PassTest
-  , public testing::WithParamInterface<Variant>
+class UnderALocaleWithCommas : public PassTestOf<Variant>
 {
 protected:
   UnderALocaleWithCommas()

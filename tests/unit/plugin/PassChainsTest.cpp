@@ -172,10 +172,7 @@ TEST_P(PassChains, WithoutShadowsTheyDrawTheSame)
 {
   const Chain& chain = chains()[std::get<0>(GetParam())];
   this->scene.choose(std::get<1>(GetParam()));
-  vtkNew<vtkPlaneSource> pane;
-  pane->SetOrigin(-3.0, -3.0, 5.0);
-  pane->SetPoint1(2.0, -3.0, 5.0);
-  pane->SetPoint2(-3.0, 2.0, 5.0);
+  const auto pane = planeOf({ -3.0, -3.0, 5.0 }, { 2.0, -3.0, 5.0 }, { -3.0, 2.0, 5.0 });
   vtkActor* actor = this->scene.add(pane);
   actor->GetProperty()->SetOpacity(0.5);
   actor->GetProperty()->SetColor(1.0, 0.0, 0.0);
@@ -200,8 +197,7 @@ TEST_F(ChainedScene, SupersamplingInsideIsForFunctionsOfThePoint)
     EXPECT_EQ(this->check(this->scene.render()).wrong(), 0u);
     EXPECT_EQ(this->takeErrors(), "");
 
-    this->scene.choose(way);
-    const FloorCheck unshadowed = this->check(this->scene.render());
+    const FloorCheck unshadowed = this->check(this->scene.render(way));
     EXPECT_THAT(this->takeErrors(),
       testing::AllOf(testing::HasSubstr("vtkSSAAPass"), testing::HasSubstr("resolution")));
     EXPECT_GT(unshadowed.falseLight, 500u);

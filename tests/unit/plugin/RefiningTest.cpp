@@ -35,9 +35,7 @@ const Refiner refiners[] = { { "sampled", "sampled", "progressive", true },
   { "raytraced", "raytraced", "moving_samples", false },
   { "penumbra", "penumbra", "moving_samples", false }, { "lightSampling", "nsm", nullptr, true } };
 
-class Refining
-  : public PassTest
-  , public testing::WithParamInterface<Refiner>
+class Refining : public PassTestOf<Refiner>
 {
 protected:
   Refining()
@@ -154,8 +152,7 @@ TEST_P(Refining, restartsOnceWhenSomethingChanges)
   bar->SetLookupTable(table);
   this->scene.renderer->AddViewProp(bar);
   const auto colour = makeImage(1, 1, [](int, int) { return glm::dvec3(0.5); });
-  vtkNew<vtkTexture> sky;
-  sky->SetInputData(colour);
+  const auto sky = textureOf(colour);
   vtkNew<vtkGnomonShadowSettings> settings;
   const Change changes[] = {
     { "camera",
@@ -311,9 +308,7 @@ struct Progressive : PassTest
   Progressive()
   {
     this->scene.addThings();
-    this->scene.pass->SetTechnique("sampled");
-    this->scene.set("light_samples", 32);
-    this->scene.set("progressive", 16);
+    this->scene.choose("sampled light_samples=32 progressive=16");
   }
   PassScene scene{ 140, 100 };
   vtkLight* light = addDisk(this->scene, { -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 0.5, 50.0);
@@ -356,9 +351,7 @@ TEST_F(PassTest, jitteredSamplesAreRefinedBySquares)
   PassScene scene(140, 100);
   scene.addThings();
   addDisk(scene, { -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 0.5, 50.0);
-  scene.pass->SetTechnique("raytraced");
-  scene.set("light_sampling", "jittered");
-  scene.set("moving_samples", 5);
+  scene.choose("raytraced light_sampling=jittered moving_samples=5");
   scene.window->Render();
   EXPECT_THAT(this->takeErrors(), testing::HasSubstr("'moving_samples' 5 is no square"));
   scene.set("moving_samples", 9);

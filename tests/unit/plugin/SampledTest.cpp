@@ -19,8 +19,7 @@ struct Sampled : PassTest
     this->light->SetFocalPoint(0.0, 0.0, 0.0);
     this->light->SetConeAngle(50.0);
     this->scene.renderer->AddLight(this->light);
-    this->scene.pass->SetTechnique("sampled");
-    this->scene.set("light_samples", 32);
+    this->scene.choose("sampled light_samples=32");
   }
   PassScene scene{ 140, 100 };
   vtkNew<vtkGnomonAreaLight> light;

@@ -297,15 +297,15 @@ private:
 
 void setTechnique(SolidsScene& scene, const char* technique)
 {
-  scene.pass->SetTechnique(technique);
-  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  scene.choose({ technique, vtkGnomonShadowPass::ROUTE_IMAGE });
 }
 
 /// Compare the frame after each change with that of a pass without earlier frames.
-void expectFresh(PassScene& scene)
+std::vector<float> expectFresh(PassScene& scene)
 {
   const std::vector<float> seen = drawKept(scene).visibility[0];
   EXPECT_EQ(scene.drawAnew().visibility[0], seen);
+  return seen;
 }
 
 using SolidsTest = PassTest;
@@ -351,9 +351,7 @@ TEST_F(SolidsTest, agreeWithClosedForms)
           ++certain;
           dark += expected.visibility == 0.0f ? 1 : 0;
           wrong += kept.visibility[0][i] != expected.visibility ? 1 : 0;
-          ASSERT_GT(glm::dot(expected.normal,
-                      glm::dvec3(kept.normalX[i], kept.normalY[i], kept.normalZ[i])),
-            0.999);
+          ASSERT_GT(glm::dot(expected.normal, normalOf(kept, i)), 0.999);
         }
       }
       EXPECT_GT(certain, 40000u);
@@ -457,9 +455,7 @@ TEST_F(SolidsTest, movingPicturesAreProbedOnSolids)
   {
     SolidsScene scene(8, 10);
     scene.addSun({ 0.5, 0.3, -1.0 });
-    vtkActorCollection* const actors = scene.renderer->GetActors();
-    actors->InitTraversal();
-    actors->GetNextActor()->SetVisibility(hasFloor);
+    scene.floor()->SetVisibility(hasFloor);
     scene.pass->SetTechnique("auto");
     scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
     scene.render();
@@ -482,9 +478,8 @@ TEST_F(SolidsTest, changesAreSeen)
   const auto expectChange = [&](const char* what)
   {
     SCOPED_TRACE(what);
-    const std::vector<float> after = drawKept(scene).visibility[0];
+    const std::vector<float> after = expectFresh(scene);
     EXPECT_NE(after, before);
-    EXPECT_EQ(scene.drawAnew().visibility[0], after);
     before = after;
   };
   scene.radii->SetValue(3, 1.5f);
@@ -521,9 +516,7 @@ TEST_F(SolidsTest, atomsAndBondsCast)
   vtkNew<vtkOpenGLMoleculeMapper> mapper;
   mapper->SetInputData(molecule);
   mapper->UseBallAndStickSettings();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  scene.renderer->AddActor(actor);
+  scene.add(mapper);
   // From the side, so the molecule hides none of its shadow.
   scene.lookFrom({ 0.0, -9.0, 2.0 }, { 0.0, 0.0, -2.0 });
   scene.pass->SetTechnique("raytraced");
@@ -622,16 +615,12 @@ struct FloorDifference
 
 FloorDifference differenceOnFloor(const VisibilityImages& a, const VisibilityImages& b)
 {
-  FloorDifference result;
-  for (std::size_t i = 0; i < a.coverage.size(); ++i)
-  {
-    if (positionOf(a, i).z < 0.1 && positionOf(b, i).z < 0.1)
-    {
-      result.dark += a.visibility[0][i] == 0.0f ? 1 : 0;
-      result.different += a.visibility[0][i] != b.visibility[0][i] ? 1 : 0;
-    }
-  }
-  return result;
+  const auto isFloor = [&](std::size_t i)
+  { return positionOf(a, i).z < 0.1 && positionOf(b, i).z < 0.1; };
+  const std::vector<float>& inA = a.visibility[0];
+  const std::vector<float>& inB = b.visibility[0];
+  return { countPixels(a, [&](std::size_t i) { return isFloor(i) && inA[i] == 0.0f; }),
+    countPixels(a, [&](std::size_t i) { return isFloor(i) && inA[i] != inB[i]; }) };
 }
 
 /// Draw the same points as spheres of these radii.
@@ -686,14 +675,10 @@ TEST_F(SolidsTest, pixelSizedSolidsOfBlocksAreThoseOfTheirData)
   scene.showPoints();
   scene.showTubes();
   const std::vector<float> truth = drawKept(scene).visibility[0];
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, scene.data);
-  vtkNew<vtkPolyData> empty;
-  blocks->SetBlock(1, empty);
   vtkNew<gnomon::SharedBlocksMapper> mapper;
   vtkNew<vtkCompositeDataDisplayAttributes> attributes;
   mapper->SetCompositeDataDisplayAttributes(attributes);
-  mapper->SetInputDataObject(blocks);
+  mapper->SetInputDataObject(blocksOf({ scene.data, vtkNew<vtkPolyData>() }));
   scene.actor->SetMapper(mapper);
   EXPECT_LE(countDifferences(drawKept(scene).visibility[0], truth), 5u); // outlines
   expectAllServed(scene, 120);
@@ -708,22 +693,24 @@ TEST_F(SolidsTest, linesAsTubesCastAsTubes)
   scene.lookDown(5.0);
   const VisibilityImages& kept = drawKept(scene);
   expectAllServed(scene, 60);
-  std::size_t dark = 0;
-  std::size_t wrong = 0;
   const double radius = scene.radiusAt(glm::dvec3(0.0), scene.lineWidth);
   EXPECT_NEAR(radius, 8.0 * 5.0 / 300.0, 1e-9);
-  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  /// Return the distance from the ring that shades a pixel, in radii; none near the shadow's edge.
+  const auto off = [&](std::size_t i)
   {
-    const glm::dvec3 at = positionOf(kept, i);
     // A tube is about as wide along the light, which is nearly upright, as across.
+    const glm::dvec3 at = positionOf(kept, i);
     const glm::dvec2 lifted = glm::dvec2(at) - glm::dvec2(0.4, 0.2) * RingScene::height;
-    const double off = std::abs(glm::length(lifted) - 3.0);
-    if (at.z < 0.1 && (off < 0.9 * radius || off > 1.25 * radius))
+    const double radii = std::abs(glm::length(lifted) - 3.0) / radius;
+    return at.z < 0.1 && (radii < 0.9 || radii > 1.25) ? radii : std::nan("");
+  };
+  const std::size_t dark = countPixels(kept, [&](std::size_t i) { return off(i) < 1.0; });
+  const std::size_t wrong = countPixels(kept,
+    [&](std::size_t i)
     {
-      dark += off < radius ? 1 : 0;
-      wrong += kept.visibility[0][i] != (off < radius ? 0.0f : 1.0f) ? 1 : 0;
-    }
-  }
+      return off(i) < 1.0 ? kept.visibility[0][i] != 0.0f
+                          : off(i) > 1.0 && kept.visibility[0][i] != 1.0f;
+    });
   EXPECT_GT(dark, 2000u);
   EXPECT_EQ(wrong, 0u);
 }
@@ -738,16 +725,12 @@ TEST_F(SolidsTest, pixelSizedSolidsHaveNoSpecks)
     for (const char* technique : { "raytraced", "nsm", "silhouette" })
     {
       SCOPED_TRACE(testing::Message() << tubes << technique);
-      scene.pass->SetTechnique(technique);
-      const VisibilityImages& kept = drawKept(scene);
-      std::size_t facing = 0;
-      std::size_t dark = 0;
-      for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-      {
-        const bool faces = positionOf(kept, i).z > 0.5 && cosineTowards(kept, i, scene.sun) > 0.02;
-        facing += faces ? 1 : 0;
-        dark += faces && kept.visibility[0][i] < 0.5f ? 1 : 0;
-      }
+      const VisibilityImages& kept = drawKept(scene, technique);
+      const auto faces = [&](std::size_t i)
+      { return positionOf(kept, i).z > 0.5 && cosineTowards(kept, i, scene.sun) > 0.02; };
+      const auto isDark = [&](std::size_t i) { return faces(i) && kept.visibility[0][i] < 0.5f; };
+      const std::size_t facing = countPixels(kept, faces);
+      const std::size_t dark = countPixels(kept, isDark);
       EXPECT_GT(facing, 1000u);
       // Neighbouring spheres shadow each other. At bends, a map cannot tell a tube from the next.
       const bool none = tubes && technique != std::string("nsm");

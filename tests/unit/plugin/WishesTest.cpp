@@ -201,18 +201,14 @@ TEST_F(Wishes, ambientOcclusionStaysOn)
   const auto wrong = [&]
   {
     const Picture picture = scene.render();
-    std::size_t count = 0;
-    for (int y = 0; y < picture.height; ++y)
-    {
-      for (int x = 0; x < picture.width; ++x)
+    return countPixels(picture,
+      [&](int x, int y)
       {
         const glm::dvec2 floor = scene.floorAt(x, y);
         const bool isUmbra = floor.x > 1.2 && floor.x < 2.8 && std::abs(floor.y) < 0.8;
         const int off = std::abs(picture.red(x, y) - occluded.red(x, y));
-        count += (isUmbra && picture.red(x, y) > 64) || (floor.x < -1.1 && off > 4) ? 1 : 0;
-      }
-    }
-    return count;
+        return (isUmbra && picture.red(x, y) > 64) || (floor.x < -1.1 && off > 4);
+      });
   };
   judge(scene, wrong);
 }
@@ -225,9 +221,7 @@ TEST_F(Wishes, gridReceives)
     ->SetResolution(100, 100);
   scene.floor->GetProperty()->EdgeVisibilityOn();
   scene.floor->GetProperty()->SetEdgeColor(1.0, 0.0, 0.0);
-  scene.usePlain();
-  const Picture plain = scene.render();
-  scene.useGnomon();
+  const Picture plain = scene.renderPlain();
   const ExactFloor exact = [&](const glm::dvec2& floor)
   {
     const glm::dvec2 cell = glm::abs(floor / 2.0 - glm::round(floor / 2.0)) * 2.0;
@@ -237,15 +231,9 @@ TEST_F(Wishes, gridReceives)
   const auto wrong = [&]
   {
     const Picture picture = scene.render();
-    std::size_t count = checkFloor(scene, picture, exact, 0.3).wrong();
-    for (int y = 0; y < picture.height; ++y) // including the lines, on the sun's side
-    {
-      for (int x = 0; x < 60; ++x)
-      {
-        count += std::abs(picture.red(x, y) - plain.red(x, y)) > 2 ? 1 : 0;
-      }
-    }
-    return count;
+    const auto differs = [&](int x, int y) // including the lines, on the sun's side
+    { return x < 60 && std::abs(picture.red(x, y) - plain.red(x, y)) > 2; };
+    return checkFloor(scene, picture, exact, 0.3).wrong() + countPixels(picture, differs);
   };
   judge(scene, wrong, 2048);
 }
@@ -254,8 +242,7 @@ TEST_F(Wishes, gridReceives)
 TEST_F(Wishes, coordinatesOfTheShadow)
 {
   BoxScene scene(hangingBox, 10.0, 10.0);
-  scene.pass->SetTechnique("raytraced");
-  const VisibilityImages& kept = drawKept(scene);
+  const VisibilityImages& kept = drawKept(scene, "raytraced");
   std::size_t dark = 0;
   for (std::size_t i = 0; i < kept.coverage.size(); ++i)
   {
