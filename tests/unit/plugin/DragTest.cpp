@@ -87,17 +87,13 @@ const Shadows allShadows[] = { { "Auto", "auto" }, { "Area", "auto light_radius=
   { "Progressive", "sampled light_radius=2 progressive=4" } };
 
 /// A box over a floor in a window with an interactor, and the timers of its event loop.
-class DrivenScene : public PassScene
+class DrivenScene : public BoxScene
 {
 public:
   DrivenScene(Loop loop, const Style& style)
-    : PassScene(80, 60)
+    : BoxScene(80, 60)
     , loop_(loop)
   {
-    this->floor = this->addFloor(20.0);
-    this->box = this->addBox(hangingBox.lower, hangingBox.upper);
-    this->addSun(slantingSun);
-    this->lookFrom({ 4.0, -9.0, 7.0 });
     this->window->SetOffScreenRendering(0);
     this->interactor->SetRenderWindow(this->window);
     this->style.TakeReference(style.make());
@@ -164,7 +160,7 @@ public:
     place.insert(place.end(), camera->GetViewUp(), camera->GetViewUp() + 3);
     place.push_back(camera->GetParallelScale());
     place.push_back(camera->GetViewAngle());
-    for (vtkActor* const prop : { this->floor, this->box })
+    for (vtkActor* const prop : { this->floor(), this->renderer->GetActors()->GetLastActor() })
     {
       const double* const matrix = prop->GetMatrix()->GetData();
       place.insert(place.end(), matrix, matrix + 16);
@@ -174,8 +170,6 @@ public:
 
   vtkNew<vtkGenericRenderWindowInteractor> interactor;
   vtkSmartPointer<vtkInteractorObserver> style;
-  vtkActor* floor;
-  vtkActor* box;
 
 private:
   struct Timer

@@ -151,38 +151,40 @@ public:
 };
 vtkStandardNewMacro(ProbePass);
 
-void fill(PassScene& scene)
-{
-  scene.addSphereOverFloor();
-  scene.addSun({ 1.0, 0.3, -1.5 });
-  scene.addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
-}
-
-class GlStateOfWay : public PassTestOf<Way>
-{
-protected:
-  void choose(PassScene& scene) const { scene.choose(GetParam()); }
-};
+using GlStateOfWay = PassTestOf<Way>;
 
 INSTANTIATE_TEST_SUITE_P(Ways, GlStateOfWay, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, GlStateOfWay, testing::Values(planarWay), nameOf);
 INSTANTIATE_TEST_SUITE_P(ThroughLayers, GlStateOfWay, testing::Values(layersWay), nameOf);
 INSTANTIATE_TEST_SUITE_P(OnImage, GlStateOfWay, testing::Values(tracedWay), nameOf);
 
-/// Return the number of texture units that VTK's manager can still give.
-int freeTextureUnits(vtkOpenGLRenderWindow* window)
+/// Takes all texture units that VTK's manager can still give, and gives them back.
+struct TakenUnits
 {
-  vtkTextureUnitManager* manager = window->GetState()->GetTextureUnitManager();
+  explicit TakenUnits(vtkOpenGLRenderWindow* window)
+    : manager(window->GetState()->GetTextureUnitManager())
+  {
+    for (int unit = this->manager->Allocate(); unit >= 0; unit = this->manager->Allocate())
+    {
+      this->units.push_back(unit);
+    }
+  }
+  ~TakenUnits() { this->giveBack(this->units.size()); }
+  void giveBack(std::size_t count)
+  {
+    for (; count > 0; --count, this->units.pop_back())
+    {
+      this->manager->Free(this->units.back());
+    }
+  }
+
+  vtkTextureUnitManager* manager;
   std::vector<int> units;
-  for (int unit = manager->Allocate(); unit >= 0; unit = manager->Allocate())
-  {
-    units.push_back(unit);
-  }
-  for (const int unit : units)
-  {
-    manager->Free(unit);
-  }
-  return static_cast<int>(units.size());
+};
+
+std::size_t freeTextureUnits(vtkOpenGLRenderWindow* window)
+{
+  return TakenUnits(window).units.size();
 }
 
 /// A pass that draws a scene in its way.
@@ -277,12 +279,10 @@ INSTANTIATE_TEST_SUITE_P(All, GlStateOfDrawing, testing::ValuesIn(drawings()), b
 
 TEST_P(GlStateOfDrawing, isChangedOnlyWherePlainVtkChangesIt)
 {
-  PassScene plain(200, 150);
-  fill(plain);
+  SunAndSpotScene plain(200, 150);
   vtkNew<ProbePass> plainProbe;
   plain.renderer->SetPass(plainProbe);
-  PassScene scene(200, 150);
-  fill(scene);
+  SunAndSpotScene scene(200, 150);
   vtkNew<ProbePass> probe;
   probe->Inner = GetParam().choose(scene);
   scene.renderer->SetPass(probe);
@@ -312,9 +312,8 @@ TEST_P(GlStateOfDrawing, isChangedOnlyWherePlainVtkChangesIt)
 
 TEST_P(GlStateOfWay, isWhatVtkRemembers)
 {
-  PassScene scene(200, 150);
-  fill(scene);
-  this->choose(scene);
+  SunAndSpotScene scene(200, 150);
+  scene.choose(GetParam());
   scene.render();
   scene.render();
   vtkOpenGLState* state = scene.window->GetState();
@@ -335,14 +334,12 @@ TEST_P(GlStateOfWay, isWhatVtkRemembers)
 
 TEST_P(GlStateOfWay, allTextureUnitsAreGivenBack)
 {
-  PassScene plain(200, 150);
-  fill(plain);
+  SunAndSpotScene plain(200, 150);
   plain.usePlain();
   plain.render();
-  const int free = freeTextureUnits(plain.window);
-  PassScene scene(200, 150);
-  fill(scene);
-  this->choose(scene);
+  const std::size_t free = freeTextureUnits(plain.window);
+  SunAndSpotScene scene(200, 150);
+  scene.choose(GetParam());
   for (int frame = 0; frame < 3; ++frame)
   {
     scene.render();
@@ -352,9 +349,8 @@ TEST_P(GlStateOfWay, allTextureUnitsAreGivenBack)
 
 TEST_P(GlStateOfWay, objectsStayTheSameInNumber)
 {
-  PassScene scene(120, 90);
-  fill(scene);
-  this->choose(scene);
+  SunAndSpotScene scene(120, 90);
+  scene.choose(GetParam());
   scene.render();
   scene.render();
   const LiveObjects live = countLiveObjects(scene.window);
@@ -386,13 +382,12 @@ TEST_P(GlStateOfWay, objectsStayTheSameInNumber)
 
 TEST_P(GlStateOfWay, releaseGivesEverythingBack)
 {
-  PassScene scene(120, 90);
-  fill(scene);
+  SunAndSpotScene scene(120, 90);
   scene.usePlain();
   scene.render();
   const LiveObjects plain = countLiveObjects(scene.window);
   scene.useGnomon();
-  this->choose(scene);
+  scene.choose(GetParam());
   const Picture picture = scene.render();
   EXPECT_FALSE(countLiveObjects(scene.window).sameButPrograms(plain));
   scene.pass->ReleaseGraphicsResources(scene.window);
@@ -405,8 +400,7 @@ TEST_P(GlStateOfWay, releaseGivesEverythingBack)
 
 TEST_P(GlStateOfWay, passMayDieBeforeItsWindow)
 {
-  PassScene scene(120, 90);
-  fill(scene);
+  SunAndSpotScene scene(120, 90);
   scene.usePlain();
   scene.render();
   const LiveObjects plain = countLiveObjects(scene.window);
@@ -425,8 +419,7 @@ TEST_P(GlStateOfWay, passMayDieBeforeItsWindow)
 TEST_P(GlStateOfWay, passMayDieWhileAnotherWindowIsDrawn)
 {
   PassScene a(120, 90);
-  PassScene b(120, 90);
-  fill(b);
+  SunAndSpotScene b(120, 90);
   b.usePlain();
   const Picture plain = b.render();
   // Both windows draw the same actor; its mapper refers to the pass until drawn without it.
@@ -454,13 +447,11 @@ TEST_P(GlStateOfWay, passMayOutliveItsWindow)
   gnomon::test::choose(pass, GetParam());
   Picture first;
   {
-    PassScene scene(120, 90);
-    fill(scene);
+    SunAndSpotScene scene(120, 90);
     scene.renderer->SetPass(pass);
     first = scene.render();
   }
-  PassScene second(120, 90);
-  fill(second);
+  SunAndSpotScene second(120, 90);
   second.renderer->SetPass(pass);
   EXPECT_EQ(differingPixels(first, second.render()), 0u);
   EXPECT_EQ(pass->GetReport().surfacesExtracted, 2);
@@ -468,9 +459,8 @@ TEST_P(GlStateOfWay, passMayOutliveItsWindow)
 
 TEST_P(GlStateOfWay, withoutFreeTextureUnitsTheSceneIsDrawnWithoutShadows)
 {
-  PassScene scene(120, 90);
-  fill(scene);
-  this->choose(scene);
+  SunAndSpotScene scene(120, 90);
+  scene.choose(GetParam());
   const bool fetches = GetParam().route != vtkGnomonShadowPass::ROUTE_INLINE;
   if (fetches)
   {
@@ -478,26 +468,13 @@ TEST_P(GlStateOfWay, withoutFreeTextureUnitsTheSceneIsDrawnWithoutShadows)
   }
   const Picture plain = scene.renderPlain();
 
-  vtkTextureUnitManager* manager = scene.window->GetState()->GetTextureUnitManager();
-  std::vector<int> taken;
-  for (int unit = manager->Allocate(); unit >= 0; unit = manager->Allocate())
+  const std::size_t free = freeTextureUnits(scene.window);
   {
-    taken.push_back(unit);
+    TakenUnits taken(scene.window);
+    taken.giveBack(fetches ? 0 : 1); // not enough for two maps; a layer texture needs one
+    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("no texture unit is left"));
   }
-  manager->Free(taken.back()); // one unit is not enough for two maps
-  taken.pop_back();
-  if (fetches)
-  {
-    EXPECT_EQ(
-      manager->Allocate(), static_cast<int>(taken.size())); // and one layer texture needs one
-    taken.push_back(static_cast<int>(taken.size()));
-  }
-  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-  EXPECT_THAT(this->takeErrors(), HasSubstr("no texture unit is left"));
-  for (const int unit : taken)
-  {
-    manager->Free(unit);
-  }
-  EXPECT_EQ(freeTextureUnits(scene.window), static_cast<int>(taken.size()) + (fetches ? 0 : 1));
+  EXPECT_EQ(freeTextureUnits(scene.window), free);
   EXPECT_GT(differingPixels(plain, scene.render()), 100u) << "no shadow in the next frame";
 }

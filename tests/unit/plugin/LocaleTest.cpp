@@ -32,11 +32,7 @@ private:
 
 TEST_P(UnderALocaleWithCommas, shadersCompile)
 {
-  PassScene scene(32, 24);
-  scene.addFloor(20.0);
-  scene.addBox(hangingBox.lower, hangingBox.upper);
-  scene.lookFrom({ 4.0, -9.0, 7.0 });
-  scene.addSun(slantingSun);
+  BoxScene scene(32, 24);
   scene.addSpot({ 3.0, 2.0, 9.0 }, { 0.0, 0.0, 0.0 }, 30.0);
   if (GetParam().takesCubes())
   {

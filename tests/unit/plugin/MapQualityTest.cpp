@@ -1,4 +1,4 @@
-// The quality of shadow maps with default settings: shadows begin at their casters, filters reach as
+// Quality of shadow maps with default settings: shadows begin at their casters, filters reach as
 // far as their kernels, and no setting breaks a map.
 
 #include "PassScene.h"

@@ -107,13 +107,7 @@ const std::vector<Chain>& chains()
 class ChainedScene : public PassTest
 {
 protected:
-  ChainedScene()
-  {
-    this->scene.addFloor(10.0);
-    this->scene.addBox(hangingBox.lower, hangingBox.upper);
-    this->scene.addSun(slantingSun);
-    this->scene.lookDown(10.0);
-  }
+  ChainedScene() { this->scene.lookDown(10.0); }
 
   void useChain(const Chain& chain)
   {
@@ -126,11 +120,10 @@ protected:
   FloorCheck check(const Picture& picture) const
   {
     // Three texels, and what filters over pixels reach.
-    return checkFloor(this->scene, picture, floorUnderSun(hangingBox, 10.0),
-      3.0 * 24.0 / 1024.0 + 3.0 * 20.0 / 300.0);
+    return this->scene.check(picture, 3.0 * 24.0 / 1024.0 + 3.0 * 20.0 / 300.0);
   }
 
-  PassScene scene{ 300, 300 };
+  BoxScene scene{ 300, 300, hangingBox, 10.0 };
 
 private:
   Pass top_;
@@ -172,8 +165,8 @@ TEST_P(PassChains, WithoutShadowsTheyDrawTheSame)
 {
   const Chain& chain = chains()[std::get<0>(GetParam())];
   this->scene.choose(std::get<1>(GetParam()));
-  const auto pane = planeOf({ -3.0, -3.0, 5.0 }, { 2.0, -3.0, 5.0 }, { -3.0, 2.0, 5.0 });
-  vtkActor* actor = this->scene.add(pane);
+  vtkActor* actor =
+    this->scene.add(planeOf({ -3.0, -3.0, 5.0 }, { 2.0, -3.0, 5.0 }, { -3.0, 2.0, 5.0 }));
   actor->GetProperty()->SetOpacity(0.5);
   actor->GetProperty()->SetColor(1.0, 0.0, 0.0);
   lightOf(this->scene.renderer)->SetShadowAttenuation(0.0f);

@@ -240,6 +240,30 @@ ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direct
   };
 }
 
+BoxScene::BoxScene(int width, int height, const Box& of, double halfSide)
+  : PassScene(width, height)
+  , box(of)
+  , extent(halfSide)
+{
+  this->addFloor(halfSide);
+  this->addBox(of.lower, of.upper);
+  this->sun = this->addSun(slantingSun);
+  this->lookFrom({ 4.0, -9.0, 7.0 });
+}
+
+FloorCheck BoxScene::check(const Picture& picture, double band) const
+{
+  return checkFloor(*this, picture, floorUnderSun(this->box, this->extent), band);
+}
+
+SunAndSpotScene::SunAndSpotScene(int width, int height)
+  : PassScene(width, height)
+{
+  this->addSphereOverFloor();
+  this->addSun({ 1.0, 0.3, -1.5 });
+  this->addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
+}
+
 ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& directions)
 {
   return [=](const glm::dvec2& floor)

@@ -206,6 +206,24 @@ bool isUnder(const glm::dvec2& floor, const Box& box);
 ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction = slantingSun,
   double value = slantingSunValue);
 
+/// A box over a floor of half side `extent`, under the slanting sun.
+struct BoxScene : PassScene
+{
+  BoxScene(int width, int height, const Box& box = hangingBox, double extent = 20.0);
+  /// Compare a picture of the floor with the exact answer.
+  FloorCheck check(const Picture& picture, double band) const;
+
+  Box box;
+  double extent;
+  vtkLight* sun;
+};
+
+/// A sphere over a floor, under a sun and a spot light.
+struct SunAndSpotScene : PassScene
+{
+  SunAndSpotScene(int width, int height);
+};
+
 /// Return the exact answer under several suns of half intensity; negative on the box itself.
 ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& directions);
 

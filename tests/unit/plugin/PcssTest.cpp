@@ -40,8 +40,7 @@ void lookFromBelow(PassScene& scene, double halfHeight, double x, double height)
 /// The truth by rays to 256 points.
 std::vector<float> truthOf(PassScene& scene)
 {
-  scene.choose("raytraced light_samples=256");
-  return scene.visibilityBy("raytraced");
+  return scene.visibilityBy("raytraced light_samples=256");
 }
 
 /// Count the pixels for which a predicate of two images holds.

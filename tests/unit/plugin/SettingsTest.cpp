@@ -242,9 +242,6 @@ class OldOpenGL : public PassTest
 protected:
   OldOpenGL()
   {
-    this->scene.addFloor(10.0);
-    this->box = this->scene.addBox(hangingBox.lower, hangingBox.upper);
-    this->sun = this->scene.addSun(slantingSun);
     this->scene.lookDown(5.0, 1.0);
     this->scene.window->SetContextVersion(3, 2);
     this->scene.usePlain();
@@ -266,14 +263,13 @@ protected:
   void expectShadow(const char* technique, const char* taken)
   {
     SCOPED_TRACE(technique);
-    const ExactFloor exact = floorUnderSun(hangingBox, 10.0);
     this->scene.pass->SetTechnique(technique);
     for (const int route : { vtkGnomonShadowPass::ROUTE_IMAGE, vtkGnomonShadowPass::ROUTE_AUTO })
     {
       this->scene.pass->SetRoute(route);
       for (int frame = 0; frame < 3; ++frame)
       {
-        const FloorCheck check = checkFloor(this->scene, this->scene.render(), exact, 0.1);
+        const FloorCheck check = this->scene.check(this->scene.render(), 0.1);
         EXPECT_GT(check.counted, 10000u);
         EXPECT_EQ(check.wrong(), 0u);
         EXPECT_EQ(this->scene.report().lights.at(0).technique, taken);
@@ -281,9 +277,7 @@ protected:
     }
   }
 
-  PassScene scene{ 200, 150 };
-  vtkActor* box;
-  vtkLight* sun;
+  BoxScene scene{ 200, 150, hangingBox, 10.0 };
   std::pair<int, int> version;
 };
 
@@ -305,7 +299,7 @@ TEST_F(OldOpenGL, showsWhatTheCpuTraces)
     this->expectShadow("silhouette", "silhouette");
     EXPECT_EQ(this->takeErrors(), "") << bake;
   }
-  set(this->sun, "light_radius", "1");
+  set(this->scene.sun, "light_radius", "1");
   this->scene.render("edge_samples=1 penumbra");
   EXPECT_EQ(this->takeErrors(), "") << "an area light";
   EXPECT_EQ(this->scene.report().lights.at(0).lightSamples, 64);
@@ -325,7 +319,7 @@ TEST_F(OldOpenGL, hasRaysInPlaceOfWhatItCannotDraw)
 TEST_F(OldOpenGL, hasNoMapsForTranslucentReceivers)
 {
   this->scene.pass->SetTechnique("raytraced");
-  this->box->GetProperty()->SetOpacity(0.5);
+  this->scene.renderer->GetActors()->GetLastActor()->GetProperty()->SetOpacity(0.5);
   this->scene.render();
   EXPECT_THAT(this->scene.report().notes, testing::Contains(HasSubstr("take OpenGL 4.3")));
   EXPECT_EQ(this->takeErrors(), "");
@@ -336,7 +330,7 @@ TEST_F(OldOpenGL, isOneClearErrorOfLightSampling)
   this->scene.usePlain();
   const Picture plain = this->scene.render();
   vtkNew<vtkGnomonLightSamplingPass> sampling;
-  set(this->sun, "light_radius", "2");
+  set(this->scene.sun, "light_radius", "2");
   this->scene.renderer->SetPass(sampling);
   EXPECT_EQ(differingPixels(plain, this->scene.render()), 0u);
   EXPECT_EQ(differingPixels(plain, this->scene.render()), 0u);
