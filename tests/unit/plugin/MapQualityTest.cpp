@@ -119,7 +119,7 @@ constexpr double thinnerThanATexel = 0.001; // the wall casts with the face that
 
 TEST_P(HardMaps, shadowsTouchTheirCasters)
 {
-  WallScene scene(0.2);
+  WallScene scene(thinnerThanATexel);
   GetParam().choose(scene);
   for (const int mapSize : { 256, 1024 })
   {
