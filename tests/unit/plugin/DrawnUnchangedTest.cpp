@@ -32,8 +32,7 @@ protected:
     this->scene.renderer->GetActiveCamera()->SetClippingRange(1.0, 20.0);
     this->scene.renderer->SetBackground(0.1, 0.1, 0.3);
     this->scene.choose(GetParam());
-    this->scene.usePlain();
-    this->without = this->scene.render();
+    this->without = this->scene.renderPlain();
   }
 
   /// Return the pixels that differ from plain VTK's picture with a prop, which is seen.

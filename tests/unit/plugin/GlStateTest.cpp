@@ -11,7 +11,6 @@
 #include <vtkOpenGLState.h>
 #include <vtkRenderPass.h>
 #include <vtkRenderState.h>
-#include <vtkTextureUnitManager.h>
 
 #include <set>
 
@@ -157,30 +156,6 @@ INSTANTIATE_TEST_SUITE_P(Ways, GlStateOfWay, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, GlStateOfWay, testing::Values(planarWay), nameOf);
 INSTANTIATE_TEST_SUITE_P(ThroughLayers, GlStateOfWay, testing::Values(layersWay), nameOf);
 INSTANTIATE_TEST_SUITE_P(OnImage, GlStateOfWay, testing::Values(tracedWay), nameOf);
-
-/// Takes all texture units that VTK's manager can still give, and gives them back.
-struct TakenUnits
-{
-  explicit TakenUnits(vtkOpenGLRenderWindow* window)
-    : manager(window->GetState()->GetTextureUnitManager())
-  {
-    for (int unit = this->manager->Allocate(); unit >= 0; unit = this->manager->Allocate())
-    {
-      this->units.push_back(unit);
-    }
-  }
-  ~TakenUnits() { this->giveBack(this->units.size()); }
-  void giveBack(std::size_t count)
-  {
-    for (; count > 0; --count, this->units.pop_back())
-    {
-      this->manager->Free(this->units.back());
-    }
-  }
-
-  vtkTextureUnitManager* manager;
-  std::vector<int> units;
-};
 
 std::size_t freeTextureUnits(vtkOpenGLRenderWindow* window)
 {

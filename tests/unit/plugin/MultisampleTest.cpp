@@ -260,8 +260,7 @@ TEST_P(Multisample, surfacesHaveNoSpecks)
   EXPECT_EQ(scene->report().route, "inline");
   EXPECT_GT(scene->window->GetMultiSamples(), 1);
   EXPECT_THAT(scene->report().notes, testing::IsEmpty());
-  scene->usePlain();
-  const Specks specks = countSpecks(shadowed, scene->render(), truth);
+  const Specks specks = countSpecks(shadowed, scene->renderPlain(), truth);
   EXPECT_GT(specks.lit, 50000u);
   EXPECT_EQ(specks.dark, 0u);
   EXPECT_GT(specks.shade, 5000u);
@@ -283,10 +282,8 @@ TEST_F(PassTest, outlinesAreLitAsTheirSurfaces)
   scene->window->SetMultiSamples(samples);
   const Picture lit = scene->render();
   EXPECT_EQ(scene->report().route, "image");
-  scene->usePlain();
-  EXPECT_EQ(differingPixels(lit, scene->render(), 1), 0u);
+  EXPECT_EQ(differingPixels(lit, scene->renderPlain(), 1), 0u);
 
-  scene->useGnomon();
   scene->addBox({ -20.0, -9.1, -20.0 }, { 20.0, -9.0, 20.0 }); // behind the camera
   const Picture shaded = scene->render();
   EXPECT_EQ(std::count_if(shaded.rgb.begin(), shaded.rgb.end(), [](int v) { return v > 1; }), 0);
@@ -349,13 +346,7 @@ TEST_F(PassTest, headlightsLeaveLitWhatIsSeenInSeveralSamples)
   vtkGnomonLightKeys::SetCasts(headlight, true);
   scene.renderer->AddLight(headlight);
   const auto changedByShadows = [&](const char* technique)
-  {
-    scene.pass->SetTechnique(technique);
-    scene.useGnomon();
-    const Picture shadowed = scene.render();
-    scene.usePlain();
-    return differingPixels(shadowed, scene.render());
-  };
+  { return differingPixels(scene.render(technique), scene.renderPlain()); };
   EXPECT_LT(changedByShadows("nsm"), 5u);
   EXPECT_EQ(scene.report().route, "inline");
   scene.window->SetMultiSamples(8);

@@ -103,8 +103,7 @@ protected:
   {
     this->sun->SetShadowAttenuation(0.0f);
     const Picture idle = this->scene.render();
-    this->scene.usePlain();
-    EXPECT_EQ(differingPixels(idle, this->scene.render()), 0u);
+    EXPECT_EQ(differingPixels(idle, this->scene.renderPlain()), 0u);
   }
 
   PassScene scene{ 200, 150 };
@@ -328,10 +327,8 @@ TEST_P(Neighbours, depthPeelingIsHonoured)
 
 TEST_P(Neighbours, renderedPropsAreCounted)
 {
-  this->scene.usePlain();
-  this->scene.render();
+  this->scene.renderPlain();
   const int plain = this->scene.renderer->GetNumberOfPropsRendered();
-  this->scene.useGnomon();
   this->scene.render();
   EXPECT_EQ(this->scene.renderer->GetNumberOfPropsRendered(), plain);
   EXPECT_EQ(this->scene.pass->GetNumberOfRenderedProps(), plain);

@@ -2,12 +2,11 @@
 // sizes.
 
 #include "BuiltinPass.h"
+#include "LiveObjects.h"
 #include "PassScene.h"
 #include "Variant.h"
 
 #include <vtkCollectionRange.h>
-#include <vtkOpenGLState.h>
-#include <vtkTextureUnitManager.h>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -162,28 +161,14 @@ TEST_F(PassTest, lightsByTheDozenShowAllTheirShadows)
     scene.addSun({ std::cos(angle), std::sin(angle), -1.5 })->SetIntensity(1.5 / count);
   }
   scene.window->Initialize();
-  vtkTextureUnitManager* units = scene.window->GetState()->GetTextureUnitManager();
-  std::vector<int> taken;
-  for (int unit = units->Allocate(); unit >= 0; unit = units->Allocate())
-  {
-    taken.push_back(unit);
-  }
-  for (int i = 0; i < count / 2; ++i)
-  {
-    units->Free(taken.back());
-    taken.pop_back();
-  }
+  TakenUnits taken(scene.window);
+  taken.giveBack(count / 2);
   const Picture mapped = scene.render();
   EXPECT_EQ(scene.report().route, "image");
   EXPECT_THAT(scene.report().notes, testing::Contains(testing::HasSubstr("translucent surfaces")));
   const Picture traced = scene.render("raytraced");
   EXPECT_LE(differingPixels(mapped, traced, 8), 20u);
-  scene.usePlain();
-  EXPECT_GT(differingPixels(scene.render(), traced, 8), 100u);
-  for (const int unit : taken)
-  {
-    units->Free(unit);
-  }
+  EXPECT_GT(differingPixels(scene.renderPlain(), traced, 8), 100u);
 }
 
 /// More lights than an image has bits. Each light's hard shadow shows with that light's brightness.

@@ -139,8 +139,7 @@ TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyed)
   EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
   this->scene.renderer->UseShadowsOff();
   EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
-  this->scene.usePlain();
-  EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
+  EXPECT_EQ(differingPixels(unshadowed, this->scene.renderPlain()), 0u);
   EXPECT_GT(differingPixels(shadowed, unshadowed), 300u);
 }
 
