@@ -29,9 +29,7 @@ struct OfMoments
   double least;
 };
 
-class LitScenes
-  : public PassTest
-  , public testing::WithParamInterface<Variant>
+class LitScenes : public PassTestOf<Variant>
 {
 protected:
   static void choose(PassScene& scene) { GetParam().choose(scene); }
@@ -271,18 +269,9 @@ TEST_BY_VARIANTS(LitScenes, ConvexSphere, hasPlainKernel)
 
 TEST_BY_VARIANTS(LitScenes, SingleTriangle, isForAll)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(-1.0, -1.0, 0.0);
-  points->InsertNextPoint(1.0, -1.0, 0.0);
-  points->InsertNextPoint(0.0, 1.0, 0.0);
-  vtkNew<vtkCellArray> cells;
-  const vtkIdType corners[3] = { 0, 1, 2 };
-  cells->InsertNextCell(3, corners);
-  vtkNew<vtkPolyData> triangle;
-  triangle->SetPoints(points);
-  triangle->SetPolys(cells);
   PassScene scene(200, 150);
-  scene.add(triangle);
+  scene.add(
+    meshOf({ { -1.0, -1.0, 0.0 }, { 1.0, -1.0, 0.0 }, { 0.0, 1.0, 0.0 } }, { { 0, 1, 2 } }).Get());
   vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
   this->choose(scene);
   scene.lookFrom({ 0.0, -4.0, 4.0 });
@@ -366,23 +355,14 @@ TEST_BY_VARIANTS(LitScenes, ValleyAcrossTheView, isForCorners)
 {
   for (const double valley : { -90.0, -60.0, 0.0 })
   {
-    vtkNew<vtkPoints> points;
-    vtkNew<vtkCellArray> strips;
-    strips->InsertNextCell(6);
-    for (const glm::dvec2& place :
-      { glm::dvec2(-100.0, 0.0), { valley, 0.0 }, { 100.0, 0.3 * (100.0 - valley) } })
-    {
-      for (const double x : { -100.0, 100.0 })
-      {
-        strips->InsertCellPoint(points->InsertNextPoint(x, place.x, place.y));
-      }
-    }
-    vtkNew<vtkPolyData> land;
-    land->SetPoints(points);
-    land->SetStrips(strips);
+    const double top = 0.3 * (100.0 - valley);
+    const auto land =
+      meshOf({ { -100.0, -100.0, 0.0 }, { 100.0, -100.0, 0.0 }, { -100.0, valley, 0.0 },
+               { 100.0, valley, 0.0 }, { -100.0, 100.0, top }, { 100.0, 100.0, top } },
+        { { 0, 1, 3, 2 }, { 2, 3, 5, 4 } });
     PassScene scene(150, 150);
     this->choose(scene);
-    scene.add(land);
+    scene.add(land.Get());
     vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
     scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 10.0 });
     for (const int mapSize : GetParam().mapSizes({ 64, 256 }))

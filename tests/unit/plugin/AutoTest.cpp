@@ -55,17 +55,13 @@ vtkStandardNewMacro(PatientInteractor);
 /// A box over a floor under a sun that uses the pass's technique.
 class Auto
   : public PassTest
-  , public PassScene
+  , public BoxScene
 {
 protected:
   Auto()
-    : PassScene(160, 120)
+    : BoxScene(160, 120)
   {
     this->pass->SetTechnique("auto");
-    this->addFloor(20.0);
-    this->addBox(hangingBox.lower, hangingBox.upper);
-    this->sun = this->addSun(slantingSun);
-    this->lookFrom({ 4.0, -9.0, 7.0 });
   }
 
   /// Draw a frame in motion, from another place than the last one.
@@ -96,8 +92,6 @@ protected:
     this->pass->SetTechnique("auto");
     return picture;
   }
-
-  vtkLight* sun = nullptr;
 };
 
 } // namespace

@@ -161,9 +161,7 @@ const MapWay mapWays[] = {
   { "nsm", vtkGnomonShadowPass::ROUTE_INLINE, "frame", 0.01 },
 };
 
-class Cameras
-  : public PassTest
-  , public testing::WithParamInterface<CameraKind>
+class Cameras : public PassTestOf<CameraKind>
 {
 protected:
   Cameras()
@@ -185,30 +183,26 @@ protected:
   PassScene scene{ 160, 120 };
 };
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Cameras, testing::ValuesIn(cameraKinds),
-  [](const testing::TestParamInfo<CameraKind>& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(Kinds, Cameras, testing::ValuesIn(cameraKinds), byName);
 
 TEST_P(Cameras, lampsShineOnSlopes)
 {
   this->scene.addBox({ -2.25, -2.25, 0.95 }, { -0.75, -0.75, 1.05 })->RotateY(40.0);
   this->scene.renderer->RemoveAllLights();
   this->scene.addSpot({ -3.0, -2.0, 5.0 }, glm::dvec3(0.0), allDirections);
-  this->scene.choose(tracedWay);
-  const Picture exact = this->scene.render();
+  const Picture exact = this->scene.render(tracedWay);
   for (const Way& way : { Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
          Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },
          Way{ "vsm", vtkGnomonShadowPass::ROUTE_INLINE } })
   {
     SCOPED_TRACE(way);
-    this->scene.choose(way);
-    EXPECT_LE(differingPixels(this->scene.render(), exact, 30), 100u);
+    EXPECT_LE(differingPixels(this->scene.render(way), exact, 30), 100u);
   }
 }
 
 TEST_P(Cameras, mapsAgreeWithRays)
 {
-  this->scene.choose(tracedWay);
-  const Picture exact = this->scene.render();
+  const Picture exact = this->scene.render(tracedWay);
   const VisibilityImages& kept = drawKept(this->scene);
   std::size_t lit = 0;
   std::size_t dark = 0;

@@ -1,4 +1,5 @@
 #include "ChangingProps.h"
+#include "Shapes.h"
 
 #include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtk_versions/SharedBlocksMapper.h"
@@ -49,22 +50,10 @@ namespace
 
 constexpr double half = 2.0; ///< of a grid's side
 
-vtkSmartPointer<vtkPlaneSource> gridSource(double halfSide = half, int cells = 12)
-{
-  auto source = vtkSmartPointer<vtkPlaneSource>::New();
-  source->SetOrigin(-halfSide, -halfSide, 0.0);
-  source->SetPoint1(halfSide, -halfSide, 0.0);
-  source->SetPoint2(-halfSide, halfSide, 0.0);
-  source->SetResolution(cells, cells);
-  return source;
-}
-
 /// A grid whose points have a number each.
 vtkSmartPointer<vtkPolyData> grid(double halfSide = half, int cells = 12)
 {
-  const auto source = gridSource(halfSide, cells);
-  source->Update();
-  vtkSmartPointer<vtkPolyData> data = source->GetOutput();
+  const vtkSmartPointer<vtkPolyData> data = outputOf(squareOf(halfSide, 0.0, cells));
   vtkNew<vtkFloatArray> numbers;
   numbers->SetName("numbers");
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
@@ -78,13 +67,9 @@ vtkSmartPointer<vtkPolyData> grid(double halfSide = half, int cells = 12)
 vtkSmartPointer<vtkImageData> picture()
 {
   constexpr int side = 8;
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(side, side, 1);
+  const auto image = makeVeil(side, side, [](int, int) { return 255; });
   image->SetOrigin(-half, -half, 0.0);
   image->SetSpacing(2.0 * half / (side - 1), 2.0 * half / (side - 1), 1.0);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  std::fill_n(
-    static_cast<unsigned char*>(image->GetScalarPointer()), 4 * side * side, std::uint8_t(255));
   return image;
 }
 
@@ -142,10 +127,8 @@ ChangingProp makeWireframe(vtkRenderer*)
 
 ChangingProp makePipeline(vtkRenderer*)
 {
-  const auto source = gridSource();
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(source->GetOutputPort());
-  ChangingProp prop = propOf(vtkSmartPointer<vtkActor>::New(), mapper);
+  const auto source = squareOf(half, 0.0, 12);
+  ChangingProp prop = propOf(vtkSmartPointer<vtkActor>::New(), mapperOf(source));
   prop.source = source;
   return prop;
 }
@@ -175,20 +158,18 @@ template <typename Mapper>
 ChangingProp makeBlocks(vtkRenderer*)
 {
   const vtkSmartPointer<vtkPolyData> data = grid();
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, data);
+  const auto blocks = blocksOf({ data });
   vtkNew<Mapper> mapper;
   mapper->SetInputDataObject(blocks);
   ChangingProp prop = propOf(vtkSmartPointer<vtkActor>::New(), mapper);
   prop.data = data;
-  prop.changePart = [blocks = vtkSmartPointer<vtkMultiBlockDataSet>(blocks)]
-  { blocks->SetBlock(0, grid(0.5 * half)); };
+  prop.changePart = [blocks] { blocks->SetBlock(0, grid(0.5 * half)); };
   return prop;
 }
 
 ChangingProp makeGlyphs(vtkRenderer*)
 {
-  const auto source = gridSource(0.3 * half, 3);
+  const auto source = squareOf(0.3 * half, 0.0, 3);
   const vtkSmartPointer<vtkPolyData> data = grid(0.7 * half, 2);
   vtkNew<vtkGlyph3DMapper> mapper;
   mapper->SetInputData(data);
@@ -231,9 +212,7 @@ ChangingProp makeFence(vtkRenderer*)
   prop.actor->GetProperty()->SetRepresentationToSurface();
   prop.data->GetPointData()->SetScalars(nullptr);
   prop.image = picture();
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(prop.image);
-  prop.actor->SetTexture(texture);
+  prop.actor->SetTexture(textureOf(prop.image));
   prop.actor->ForceOpaqueOn();
   return prop;
 }
@@ -292,16 +271,13 @@ ChangingProp makeLevels(vtkRenderer*)
 {
   ChangingProp prop;
   prop.data = grid();
-  vtkNew<vtkPolyDataMapper> fine;
-  fine->SetInputData(prop.data);
-  vtkNew<vtkPolyDataMapper> coarse;
-  coarse->SetInputData(grid(half, 3));
+  const auto fine = mapperOf(prop.data);
   vtkNew<vtkProperty> look;
   look->SetRepresentationToWireframe();
   look->SetLineWidth(3.0);
   vtkNew<vtkLODProp3D> levels;
   levels->AutomaticLODSelectionOff();
-  const int other = levels->AddLOD(coarse, look, 0.0);
+  const int other = levels->AddLOD(mapperOf(grid(half, 3)), look, 0.0);
   levels->SetSelectedLODID(levels->AddLOD(fine, look, 0.0));
   prop.leaf = levels;
   prop.mapper = fine;
@@ -311,11 +287,6 @@ ChangingProp makeLevels(vtkRenderer*)
     levels->SetSelectedLODID(other);
   };
   return finished(std::move(prop));
-}
-
-ChangingProp makeLodActor(vtkRenderer*)
-{
-  return ofData<vtkPolyDataMapper>(vtkSmartPointer<vtkLODActor>::New());
 }
 
 ChangingProp makeQuadricActor(vtkRenderer* renderer)
@@ -350,33 +321,30 @@ ChangingProp makeNest(vtkRenderer* renderer)
   return prop;
 }
 
-ChangingProp makePropAssembly(vtkRenderer* renderer)
+ChangingProp inAssembly(ChangingProp prop)
 {
-  ChangingProp prop = makeWireframe(renderer);
-  vtkNew<vtkPropAssembly> assembly;
-  assembly->AddPart(prop.leaf);
-  prop.prop = assembly;
-  prop.changePart = [assembly = assembly.Get(), renderer]
-  { assembly->AddPart(makeSlice<vtkImageSliceMapper>(renderer).leaf); };
-  return prop;
-}
-
-ChangingProp makeFollowerAssembly(vtkRenderer* renderer)
-{
-  ChangingProp prop = makePropFollower(renderer);
   vtkNew<vtkPropAssembly> assembly;
   assembly->AddPart(prop.prop);
   prop.prop = assembly;
   return prop;
 }
 
+ChangingProp makePropAssembly(vtkRenderer* renderer)
+{
+  ChangingProp prop = inAssembly(makeWireframe(renderer));
+  prop.changePart = [assembly = vtkPropAssembly::SafeDownCast(prop.prop), renderer]
+  { assembly->AddPart(makeSlice<vtkImageSliceMapper>(renderer).leaf); };
+  return prop;
+}
+
+ChangingProp makeFollowerAssembly(vtkRenderer* renderer)
+{
+  return inAssembly(makePropFollower(renderer));
+}
+
 ChangingProp makeSliceAssembly(vtkRenderer* renderer)
 {
-  ChangingProp prop = makeSlice<vtkImageSliceMapper>(renderer);
-  vtkNew<vtkPropAssembly> assembly;
-  assembly->AddPart(prop.leaf);
-  prop.prop = assembly;
-  return prop;
+  return inAssembly(makeSlice<vtkImageSliceMapper>(renderer));
 }
 
 ChangingProp makeText(vtkRenderer*)
@@ -414,9 +382,17 @@ public:
 };
 vtkStandardNewMacro(RestlessActor);
 
-ChangingProp makeRestless(vtkRenderer*)
+/// @tparam Actor of a polydata
+template <typename Actor>
+ChangingProp makeActor(vtkRenderer*)
 {
-  return ofData<vtkPolyDataMapper>(vtkSmartPointer<RestlessActor>::New());
+  return ofData<vtkPolyDataMapper>(vtkSmartPointer<Actor>::New());
+}
+
+vtkLookupTable* tableOf(const ChangingProp& prop)
+{
+  auto* const mapper = vtkMapper::SafeDownCast(prop.mapper);
+  return mapper ? vtkLookupTable::SafeDownCast(mapper->GetLookupTable()) : nullptr;
 }
 
 } // namespace
@@ -429,12 +405,12 @@ const std::vector<PropKind>& changingProps()
     { "slice", makeSlice<vtkImageSliceMapper> }, { "levels", makeLevels },
     { "prop follower", makePropFollower }, { "blocks", makeBlocks<SharedBlocksMapper> },
     { "pipeline", makePipeline }, { "fence", makeFence }, { "nested assembly", makeNest },
-    { "axes", makeAxes }, { "restless", makeRestless }, { "lines", makeLines },
+    { "axes", makeAxes }, { "restless", makeActor<RestlessActor> }, { "lines", makeLines },
     { "points", makePoints }, { "data set", makeDataSet },
     { "parts", makeBlocks<vtkCompositePolyDataMapper> }, { "glyphs", makeGlyphs },
     { "splats", makeSplats }, { "surface", makeSurface },
     { "resliced", makeSlice<vtkImageResliceMapper>, false }, { "stack", makeStack },
-    { "follower", makeFollower }, { "level actor", makeLodActor, false },
+    { "follower", makeFollower }, { "level actor", makeActor<vtkLODActor>, false },
     { "quadric actor", makeQuadricActor, false }, { "assembly", makeAssembly },
     { "slice assembly", makeSliceAssembly }, { "follower assembly", makeFollowerAssembly, false },
     { "text", makeText } };
@@ -444,147 +420,60 @@ const std::vector<PropKind>& changingProps()
 //------------------------------------------------------------------------------
 const std::vector<PropChange>& propChanges()
 {
+  const auto any = [](const ChangingProp&) { return true; };
   static const std::vector<PropChange> changes = {
-    { "plane in place",
+    { "plane in place", &ChangingProp::mapper,
       [](const ChangingProp& prop)
-      {
-        if (prop.mapper)
-        {
-          prop.mapper->GetClippingPlanes()->GetItem(0)->SetOrigin(0.2, 0.0, 0.0);
-        }
-        return prop.mapper != nullptr;
+      { prop.mapper->GetClippingPlanes()->GetItem(0)->SetOrigin(0.2, 0.0, 0.0); } },
+    { "points in place", &ChangingProp::data,
+      [](const ChangingProp& prop) {
+        movePoints(prop.data, [](const glm::dvec3& at) { return at * glm::dvec3(1.0, 0.7, 1.0); });
       } },
-    { "points in place",
+    { "source", &ChangingProp::source,
+      [](const ChangingProp& prop)
+      { prop.source->SetPoint2(prop.source->GetPoint2()[0], 0.0, 0.0); } },
+    { "pixels in place", &ChangingProp::image,
       [](const ChangingProp& prop)
       {
-        if (prop.data)
-        {
-          vtkPoints* const points = prop.data->GetPoints();
-          for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-          {
-            double* const point = points->GetPoint(i);
-            points->SetPoint(i, point[0], 0.7 * point[1], point[2]);
-          }
-          points->Modified();
-        }
-        return prop.data != nullptr;
+        auto* const bytes = static_cast<unsigned char*>(prop.image->GetScalarPointer());
+        std::fill_n(bytes, 4 * prop.image->GetNumberOfPoints() / 2, std::uint8_t(0));
+        prop.image->GetPointData()->GetScalars()->Modified();
       } },
-    { "source",
+    { "place", any, [](const ChangingProp& prop) { prop.leaf->AddPosition(0.3, 0.2, 0.0); } },
+    { "matrix in place", any,
+      [](const ChangingProp& prop) { prop.leaf->GetUserMatrix()->SetElement(1, 3, 0.4); } },
+    { "scale", any, [](const ChangingProp& prop) { prop.leaf->SetScale(0.8, 1.1, 1.0); } },
+    { "thickness", &ChangingProp::actor,
       [](const ChangingProp& prop)
       {
-        if (prop.source)
-        {
-          prop.source->SetPoint2(prop.source->GetPoint2()[0], 0.0, 0.0);
-        }
-        return prop.source != nullptr;
+        prop.actor->GetProperty()->SetLineWidth(1.0);
+        prop.actor->GetProperty()->SetPointSize(2.0);
       } },
-    { "pixels in place",
+    { "second plane", &ChangingProp::mapper,
       [](const ChangingProp& prop)
       {
-        if (prop.image)
-        {
-          auto* const bytes = static_cast<unsigned char*>(prop.image->GetScalarPointer());
-          std::fill_n(bytes, 4 * prop.image->GetNumberOfPoints() / 2, std::uint8_t(0));
-          prop.image->GetPointData()->GetScalars()->Modified();
-        }
-        return prop.image != nullptr;
+        vtkNew<vtkPlane> plane;
+        plane->SetOrigin(0.0, 0.5, 0.0);
+        plane->SetNormal(0.0, -1.0, 0.0);
+        prop.mapper->AddClippingPlane(plane);
       } },
-    { "place",
+    { "table", tableOf,
       [](const ChangingProp& prop)
       {
-        prop.leaf->AddPosition(0.3, 0.2, 0.0);
-        return true;
-      } },
-    { "matrix in place",
-      [](const ChangingProp& prop)
-      {
-        prop.leaf->GetUserMatrix()->SetElement(1, 3, 0.4);
-        return true;
-      } },
-    { "scale",
-      [](const ChangingProp& prop)
-      {
-        prop.leaf->SetScale(0.8, 1.1, 1.0);
-        return true;
-      } },
-    { "thickness",
-      [](const ChangingProp& prop)
-      {
-        if (prop.actor)
-        {
-          prop.actor->GetProperty()->SetLineWidth(1.0);
-          prop.actor->GetProperty()->SetPointSize(2.0);
-        }
-        return prop.actor != nullptr;
-      } },
-    { "second plane",
-      [](const ChangingProp& prop)
-      {
-        if (prop.mapper)
-        {
-          vtkNew<vtkPlane> plane;
-          plane->SetOrigin(0.0, 0.5, 0.0);
-          plane->SetNormal(0.0, -1.0, 0.0);
-          prop.mapper->AddClippingPlane(plane);
-        }
-        return prop.mapper != nullptr;
-      } },
-    { "table",
-      [](const ChangingProp& prop)
-      {
-        auto* const mapper = vtkMapper::SafeDownCast(prop.mapper);
-        auto* const table =
-          mapper ? vtkLookupTable::SafeDownCast(mapper->GetLookupTable()) : nullptr;
-        if (table)
-        {
-          table->SetHueRange(0.3, 0.5);
-          table->Build();
-        }
-        return table != nullptr;
+        tableOf(prop)->SetHueRange(0.3, 0.5);
+        tableOf(prop)->Build();
       } },
     { "representation",
       [](const ChangingProp& prop)
-      {
-        const bool any = prop.actor && prop.actor->GetProperty()->GetRepresentation() != VTK_POINTS;
-        if (any)
-        {
-          prop.actor->GetProperty()->SetRepresentationToPoints();
-        }
-        return any;
-      } },
-    { "receiving",
-      [](const ChangingProp& prop)
-      {
-        vtkGnomonPropKeys::SetReceives(prop.prop, false);
-        return true;
-      } },
-    { "invisible leaf",
-      [](const ChangingProp& prop)
-      {
-        prop.leaf->VisibilityOff();
-        return true;
-      } },
-    { "visible leaf",
-      [](const ChangingProp& prop)
-      {
-        prop.leaf->VisibilityOn();
-        return true;
-      } },
-    { "own part",
-      [](const ChangingProp& prop)
-      {
-        if (prop.changePart)
-        {
-          prop.changePart();
-        }
-        return prop.changePart != nullptr;
-      } },
-    { "invisible",
-      [](const ChangingProp& prop)
-      {
-        prop.prop->VisibilityOff();
-        return true;
-      } },
+      { return prop.actor && prop.actor->GetProperty()->GetRepresentation() != VTK_POINTS; },
+      [](const ChangingProp& prop) { prop.actor->GetProperty()->SetRepresentationToPoints(); } },
+    { "receiving", any,
+      [](const ChangingProp& prop) { vtkGnomonPropKeys::SetReceives(prop.prop, false); } },
+    { "invisible leaf", any, [](const ChangingProp& prop) { prop.leaf->VisibilityOff(); } },
+    { "visible leaf", any, [](const ChangingProp& prop) { prop.leaf->VisibilityOn(); } },
+    { "own part", [](const ChangingProp& prop) { return prop.changePart != nullptr; },
+      [](const ChangingProp& prop) { prop.changePart(); } },
+    { "invisible", any, [](const ChangingProp& prop) { prop.prop->VisibilityOff(); } },
   };
   return changes;
 }

@@ -47,8 +47,16 @@ const std::vector<PropKind>& changingProps();
 struct PropChange
 {
   const char* name;
+  std::function<bool(const ChangingProp& prop)> isFor;
+  void (*change)(const ChangingProp& prop);
+
   /// @return false if the prop has nothing to change
-  bool (*apply)(const ChangingProp& prop);
+  bool apply(const ChangingProp& prop) const
+  {
+    const bool is = this->isFor(prop);
+    is ? this->change(prop) : void();
+    return is;
+  }
 };
 const std::vector<PropChange>& propChanges();
 

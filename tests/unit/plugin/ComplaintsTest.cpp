@@ -38,9 +38,7 @@ void shadeFiner(PassScene& scene)
   scene.pass->SetDelegatePass(finer);
 }
 
-class ComplaintsOf
-  : public PassTest
-  , public testing::WithParamInterface<Misuse>
+class ComplaintsOf : public PassTestOf<Misuse>
 {
 protected:
   /// Draws frames and returns what is said of them.
@@ -76,12 +74,7 @@ INSTANTIATE_TEST_SUITE_P(All, ComplaintsOf,
       },
       [](PassScene& scene) { scene.pass->SetTechnique("raytraced"); },
       "deferred route was asked for" },
-    Misuse{ "setting",
-      [](PassScene& scene)
-      {
-        scene.pass->SetTechnique("nsm");
-        scene.pass->SetSetting("kernel_size", "3");
-      },
+    Misuse{ "setting", [](PassScene& scene) { scene.choose("nsm kernel_size=3"); },
       [](PassScene& scene) { scene.pass->SetTechnique("pcf"); }, "kernel_size" },
     Misuse{ "headlight",
       [](PassScene& scene) { lightOf(scene.renderer)->SetLightTypeToHeadlight(); },

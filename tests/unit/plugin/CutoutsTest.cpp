@@ -32,19 +32,6 @@ struct Sampling
   bool interpolated = false;
 };
 
-/// All samplings.
-std::vector<Sampling> samplings()
-{
-  std::vector<Sampling> all;
-  for (const int wrap : { vtkTexture::ClampToEdge, vtkTexture::Repeat, vtkTexture::MirroredRepeat,
-         vtkTexture::ClampToBorder })
-  {
-    all.push_back({ wrap, false });
-    all.push_back({ wrap, true });
-  }
-  return all;
-}
-
 /// Return the mask of a pattern. CutoutMaskTest.cpp compares masks with OpenGL's specification.
 gnomon::CutoutMask maskOf(const Pattern& pattern, const Sampling& sampling = {})
 {
@@ -68,25 +55,14 @@ gnomon::CutoutMask maskOf(const Pattern& pattern, const Sampling& sampling = {})
 
 vtkSmartPointer<vtkImageData> imageOf(const Pattern& pattern)
 {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(
-    static_cast<int>(pattern.front().size()), static_cast<int>(pattern.size()), 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* texel = static_cast<unsigned char*>(image->GetScalarPointer());
-  for (const std::uint8_t alpha : maskOf(pattern).texels)
-  {
-    for (const unsigned char channel : { 255, 255, 255, int(alpha) })
-    {
-      *texel++ = channel;
-    }
-  }
-  return image;
+  const auto at = [&](int value) { return static_cast<std::size_t>(value); };
+  return makeVeil(static_cast<int>(pattern.front().size()), static_cast<int>(pattern.size()),
+    [&](int x, int y) { return pattern[at(y)][at(x)] == '#' ? 255 : 0; });
 }
 
 vtkSmartPointer<vtkTexture> makeTexture(const Pattern& pattern, const Sampling& sampling = {})
 {
-  auto texture = vtkSmartPointer<vtkTexture>::New();
-  texture->SetInputData(imageOf(pattern));
+  auto texture = textureOf(imageOf(pattern));
   texture->SetWrap(sampling.wrap);
   texture->SetInterpolate(sampling.interpolated);
   return texture;
@@ -97,21 +73,15 @@ vtkSmartPointer<vtkTexture> makeTexture(const Pattern& pattern, const Sampling& 
 vtkSmartPointer<vtkPolyData> makeSquare(const glm::dvec2& first = glm::dvec2(0.0),
   const glm::dvec2& last = glm::dvec2(1.0), const char* array = nullptr)
 {
-  vtkNew<vtkPoints> points;
+  const auto square =
+    meshOf({ { -2.0, -2.0, 5.0 }, { 2.0, -2.0, 5.0 }, { 2.0, 2.0, 5.0 }, { -2.0, 2.0, 5.0 } },
+      { { 0, 1, 2, 3 } });
   vtkNew<vtkFloatArray> coordinates;
   coordinates->SetNumberOfComponents(2);
-  for (const glm::dvec2& corner :
-    { glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1) })
+  for (const glm::dvec2& c : { first, { last.x, first.y }, last, { first.x, last.y } })
   {
-    points->InsertNextPoint(4.0 * corner.x - 2.0, 4.0 * corner.y - 2.0, 5.0);
-    const glm::dvec2 c = first + corner * (last - first);
     coordinates->InsertNextTuple2(c.x, c.y);
   }
-  vtkNew<vtkCellArray> polygons;
-  polygons->InsertNextCell({ 0, 1, 2, 3 });
-  auto square = vtkSmartPointer<vtkPolyData>::New();
-  square->SetPoints(points);
-  square->SetPolys(polygons);
   if (array)
   {
     coordinates->SetName(array);
@@ -152,9 +122,7 @@ using PlaceOnSquare = std::function<glm::dvec2(const glm::dvec2&)>;
 
 /// A square with holes above a floor, under a sun at 45 degrees that moves its shadow by 5 along x,
 /// out from under the square. The camera sees the shadow from straight above.
-class Cutouts
-  : public PassTest
-  , public testing::WithParamInterface<Way>
+class Cutouts : public PassTestOf<Way>
 {
 protected:
   Cutouts()
@@ -223,8 +191,11 @@ TEST_P(Cutouts, goByTheTexturesWrapping)
 {
   const glm::dvec2 first(-1.3, -0.8);
   const glm::dvec2 last(1.9, 2.1);
-  for (const Sampling& sampling : samplings())
+  for (int i = 0; i < 8; ++i)
   {
+    const int wraps[] = { vtkTexture::ClampToEdge, vtkTexture::Repeat, vtkTexture::MirroredRepeat,
+      vtkTexture::ClampToBorder };
+    const Sampling sampling{ wraps[i / 2], i % 2 == 1 };
     vtkActor* square = this->addSquare(makeTexture(letter, sampling), first, last);
     square->ForceOpaqueOn();
     this->expectPattern(letter, sampling, std::to_string(sampling.wrap).c_str(),
@@ -428,23 +399,15 @@ TEST_P(Cutouts, ofCompositeBlocksGlyphsAndStrips)
   const auto data = makeSquare();
   const auto texture = makeTexture(letter);
 
-  vtkNew<vtkMultiBlockDataSet> tree;
-  tree->SetBlock(0, data);
   vtkNew<gnomon::SharedBlocksMapper> composite;
-  composite->SetInputDataObject(tree);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(composite);
+  composite->SetInputDataObject(blocksOf({ data }));
+  const auto actor = actorOf(composite);
   actor->SetTexture(texture);
   this->scene.renderer->AddActor(actor);
   this->expectPattern(letter, {}, "composite");
 
-  vtkNew<vtkPoints> places;
-  places->InsertNextPoint(-1.0, 0.0, 2.5);
-  places->InsertNextPoint(1.0, 0.0, 2.5);
-  vtkNew<vtkPolyData> points;
-  points->SetPoints(places);
   vtkNew<vtkGlyph3DMapper> glyphs;
-  glyphs->SetInputData(points);
+  glyphs->SetInputData(meshOf({ { -1.0, 0.0, 2.5 }, { 1.0, 0.0, 2.5 } }, {}));
   glyphs->SetSourceData(data);
   glyphs->SetScaleFactor(0.5);
   actor->SetMapper(glyphs);
@@ -458,9 +421,7 @@ TEST_P(Cutouts, ofCompositeBlocksGlyphsAndStrips)
   this->scene.renderer->RemoveActor(actor);
 
   data->SetPolys(nullptr);
-  vtkNew<vtkCellArray> strip;
-  strip->InsertNextCell({ 0, 1, 3, 2 });
-  data->SetStrips(strip);
+  data->SetStrips(meshOf({}, { { 0, 1, 3, 2 } })->GetPolys());
   this->scene.add(data)->SetTexture(texture);
   this->expectPattern(letter, {}, "strip");
 }
@@ -489,20 +450,17 @@ TEST_P(Cutouts, underASpotAndALamp)
       return under ? -1.0 : on && mask.isDrawn(share) ? 0.0 : 120.0;
     };
     const ExactFloor clear = awayFromEdges(exact, 2.0 * band());
-    int counted[2] = { 0, 0 }; // lit and dark ones
-    int wrong = 0;
-    for (int y = 0; y < picture.height; ++y)
+    const auto valueAt = [&](int x, int y) { return clear(this->scene.floorAt(x, y)); };
+    const std::size_t dark =
+      countPixels(picture, [&](int x, int y) { return valueAt(x, y) == 0.0; });
+    const std::size_t lit = countPixels(picture, [&](int x, int y) { return valueAt(x, y) > 0.0; });
+    const auto isWrong = [&](int x, int y)
     {
-      for (int x = 0; x < picture.width; ++x)
-      {
-        const double value = clear(this->scene.floorAt(x, y));
-        const bool isDark = value == 0.0;
-        counted[isDark] += value >= 0.0 ? 1 : 0;
-        wrong += value >= 0.0 && (picture.red(x, y) == 0) != isDark ? 1 : 0;
-      }
-    }
-    EXPECT_EQ(wrong, 0) << cone << ": of " << counted[0];
-    EXPECT_GT(20 * counted[1], counted[0]) << cone;
+      const double value = valueAt(x, y);
+      return value >= 0.0 && (picture.red(x, y) == 0) != (value == 0.0);
+    };
+    EXPECT_EQ(countPixels(picture, isWrong), 0u) << cone << ": of " << lit;
+    EXPECT_GT(20 * dark, lit) << cone;
     this->scene.renderer->RemoveLight(light);
   }
 }

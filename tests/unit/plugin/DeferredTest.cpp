@@ -1,9 +1,8 @@
 // The deferred route draws the picture once, lit and in shadow, and visibility selects. It must
 // equal the image route's picture to the byte.
 
+#include "BuiltinPass.h"
 #include "PassScene.h"
-
-#include "Scene.h"
 
 #include "shadowtech/base/Gl.h"
 
@@ -31,16 +30,12 @@ using testing::HasSubstr;
 namespace
 {
 
-class DeferredScenes
-  : public PassTest
-  , public testing::WithParamInterface<const char*>
-{
-};
+using DeferredScenes = PassTestOf<const char*>;
 
 // Scenes with holes in textures, open sheets, a point light, and impostors of spheres and sticks.
 INSTANTIATE_TEST_SUITE_P(Scenes, DeferredScenes,
   testing::Values("bunny", "screens", "posts", "cups", "room", "terrain", "molecule", "primitives"),
-  [](const testing::TestParamInfo<const char*>& scene) { return std::string(scene.param); });
+  byText);
 
 /// A mapper of a class that Gnomon does not know, as one that draws in its own way.
 class UnusualMapper : public vtkOpenGLPolyDataMapper
@@ -57,10 +52,8 @@ class Deferred : public PassTest
 protected:
   Deferred()
   {
-    this->floor = this->scene.addFloor(4.0);
-    this->sphere = this->scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    this->sphere = this->scene.addSphereOverFloor();
     this->sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
-    this->scene.lookFrom({ 0.0, -9.0, 7.0 });
     this->scene.pass->SetTechnique("raytraced");
   }
 
@@ -95,7 +88,6 @@ protected:
   }
 
   PassScene scene{ 203, 157 }; ///< not a multiple of the tiles
-  vtkActor* floor;
   vtkActor* sphere;
   vtkLight* sun;
 };
@@ -104,33 +96,26 @@ protected:
 
 TEST_P(DeferredScenes, showTheBytesOfTheImageRoute)
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene(GetParam()), 1.0);
-  vtkNew<vtkGnomonShadowPass> pass;
-  window->SetSize(400, 300);
-  window->AddRenderer(renderer);
-  renderer->SetPass(pass);
+  const BuiltinPass scene(GetParam(), 400, 300);
+  scene.pass->KeepVisibilityOff();
+  scene.pass->SmoothTerminatorsOn();
   const auto draw = [&](int route)
   {
-    pass->SetRoute(route);
-    window->Render();
-    return readPicture(window);
+    scene.pass->SetRoute(route);
+    return scene.render();
   };
   std::size_t dark = 0;
   for (const char* technique : { "raytraced", "silhouette" })
   {
-    pass->SetTechnique(technique);
+    scene.choose(technique);
     for (int view = 0; view < 3; ++view)
     {
-      renderer->GetActiveCamera()->Azimuth(7.0);
+      scene.renderer->GetActiveCamera()->Azimuth(7.0);
       const Picture deferred = draw(vtkGnomonShadowPass::ROUTE_AUTO);
-      EXPECT_EQ(pass->GetReport().route, "deferred") << pass->GetReport().routeReason;
+      EXPECT_EQ(scene.report().route, "deferred") << scene.report().routeReason;
       EXPECT_EQ(differingPixels(draw(vtkGnomonShadowPass::ROUTE_IMAGE), deferred), 0u)
         << technique << ", view " << view;
-      renderer->SetPass(nullptr);
-      window->Render();
-      dark += differingPixels(readPicture(window), deferred, 32);
-      renderer->SetPass(pass);
+      dark += differingPixels(scene.renderPlain(), deferred, 32);
     }
   }
   EXPECT_GT(dark, 500u) << "no shadow";
@@ -214,11 +199,7 @@ TEST_F(Deferred, DrawsOnceAndComputesWhatChanged)
 /// VTK rebuilds shaders after the picture has rested for a while, and when it moves again.
 TEST_F(Deferred, ShowsTheSameAtRest)
 {
-  vtkNew<vtkSphereSource> fine;
-  fine->SetThetaResolution(60);
-  fine->SetPhiResolution(60);
-  fine->SetCenter(2.0, 0.0, 0.8);
-  this->scene.add(fine);
+  this->scene.add(ballOf({ 2.0, 0.0, 0.8 }, 0.5, 60, 60));
   this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
   const Picture first = this->scene.render();
   int compiles = 0;
@@ -281,8 +262,7 @@ TEST_F(Deferred, OtherFramesTakeTheImageRouteAndSayWhy)
 
   this->scene.pass->SetSetting("light_radius", "0.1");
   expectReason("between light and shadow");
-  this->scene.pass->SetSetting("light_radius", "0");
-  this->scene.pass->SetTechnique("nsm");
+  this->scene.choose("light_radius=0 nsm");
   this->draw(vtkGnomonShadowPass::ROUTE_DEFERRED);
   EXPECT_THAT(this->takeErrors(), HasSubstr("between light and shadow"));
   EXPECT_EQ(this->autoRoute(), "inline");
@@ -311,10 +291,8 @@ TEST_F(Deferred, AllOfVtksShadingIsLitTwice)
 
   // VTK multiplies by the texture after lighting.
   vtkActor* textured = this->scene.addFloor(1.5, 0.5);
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(
-    makeImage(8, 8, [](int x, int y) { return glm::dvec3(0.1 * x, 0.1 * y, (x + y) % 2); }));
-  textured->SetTexture(texture);
+  textured->SetTexture(textureOf(
+    makeImage(8, 8, [](int x, int y) { return glm::dvec3(0.1 * x, 0.1 * y, (x + y) % 2); })));
   textured->GetProperty()->SetAmbient(0.4);
   this->expectTheSame("with a texture");
 }
@@ -369,14 +347,10 @@ TEST_F(Deferred, PropsThatPassesDoNotReachAreAsVtkDrawsThem)
   this->scene.renderer->AddViewProp(stack);
   this->expectTheSame("a stack of images");
 
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetRadius(0.3);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(sphere->GetOutputPort());
   vtkNew<vtkAxisActor> axis;
   vtkNew<vtkAxisFollower> follower;
   follower->SetAxis(axis);
-  follower->SetMapper(mapper);
+  follower->SetMapper(mapperOf(ballOf(glm::dvec3(0.0), 0.3)));
   follower->SetPosition(1.0, 0.2, 0.4);
   follower->SetCamera(this->scene.renderer->GetActiveCamera());
   this->scene.renderer->AddActor(follower);
@@ -398,22 +372,13 @@ TEST_F(Deferred, OpaquePropsThatBlendAreOverBoth)
 {
   this->scene.renderer->GradientBackgroundOn();
   this->scene.renderer->SetBackground2(0.2, 0.4, 0.9);
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(4, 4, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* texels = static_cast<unsigned char*>(image->GetScalarPointer());
-  for (int i = 0; i < 16; ++i, texels += 4)
-  {
-    texels[0] = texels[1] = texels[2] = 255;
-    texels[3] = static_cast<unsigned char>(60 + 12 * i);
-  }
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(image);
+  const auto texture =
+    textureOf(makeVeil(4, 4, [](int x, int y) { return 60 + 12 * (x + 4 * y); }));
   vtkActor* veil = this->scene.addFloor(2.5, 0.6);
   veil->SetTexture(texture);
   veil->ForceOpaqueOn();
   veil->GetProperty()->SetAmbient(0.2);
-  this->floor->VisibilityOff(); // the background is then behind the shadow
+  this->scene.floor()->VisibilityOff(); // the background is then behind the shadow
   this->scene.window->SetSize(200, 200);
   this->expectTheSame("a veil");
 }

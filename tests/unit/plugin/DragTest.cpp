@@ -80,28 +80,20 @@ const Button buttons[] = { { "Left", vtkCommand::LeftButtonPressEvent,
 struct Shadows
 {
   const char* name;
-  std::map<const char*, const char*> settings;
+  const char* settings;
 };
-const Shadows allShadows[] = { { "Auto", { { "technique", "auto" } } },
-  { "Area", { { "technique", "auto" }, { "light_radius", "2" } } },
-  { "Silhouette", { { "technique", "silhouette" } } },
-  { "MovingSamples",
-    { { "technique", "penumbra" }, { "light_radius", "2" }, { "moving_samples", "4" } } },
-  { "Progressive",
-    { { "technique", "sampled" }, { "light_radius", "2" }, { "progressive", "4" } } } };
+const Shadows allShadows[] = { { "Auto", "auto" }, { "Area", "auto light_radius=2" },
+  { "Silhouette", "silhouette" }, { "MovingSamples", "penumbra light_radius=2 moving_samples=4" },
+  { "Progressive", "sampled light_radius=2 progressive=4" } };
 
 /// A box over a floor in a window with an interactor, and the timers of its event loop.
-class DrivenScene : public PassScene
+class DrivenScene : public BoxScene
 {
 public:
   DrivenScene(Loop loop, const Style& style)
-    : PassScene(80, 60)
+    : BoxScene(80, 60)
     , loop_(loop)
   {
-    this->floor = this->addFloor(20.0);
-    this->box = this->addBox(hangingBox.lower, hangingBox.upper);
-    this->addSun(slantingSun);
-    this->lookFrom({ 4.0, -9.0, 7.0 });
     this->window->SetOffScreenRendering(0);
     this->interactor->SetRenderWindow(this->window);
     this->style.TakeReference(style.make());
@@ -168,7 +160,7 @@ public:
     place.insert(place.end(), camera->GetViewUp(), camera->GetViewUp() + 3);
     place.push_back(camera->GetParallelScale());
     place.push_back(camera->GetViewAngle());
-    for (vtkActor* const prop : { this->floor, this->box })
+    for (vtkActor* const prop : { this->floor(), this->renderer->GetActors()->GetLastActor() })
     {
       const double* const matrix = prop->GetMatrix()->GetData();
       place.insert(place.end(), matrix, matrix + 16);
@@ -178,8 +170,6 @@ public:
 
   vtkNew<vtkGenericRenderWindowInteractor> interactor;
   vtkSmartPointer<vtkInteractorObserver> style;
-  vtkActor* floor;
-  vtkActor* box;
 
 private:
   struct Timer
@@ -244,10 +234,7 @@ void waitForTimers(DrivenScene& scene)
 Picture fresh(DrivenScene& scene, const Shadows& shadows)
 {
   vtkNew<vtkGnomonShadowPass> pass;
-  for (const auto& [name, value] : shadows.settings)
-  {
-    pass->SetSetting(name, value);
-  }
+  choose(pass, shadows.settings);
   pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_OFF);
   scene.renderer->SetPass(pass);
   Picture picture = scene.render();
@@ -259,21 +246,13 @@ Picture fresh(DrivenScene& scene, const Shadows& shadows)
   return picture;
 }
 
-class Drag
-  : public PassTest
-  , public testing::WithParamInterface<std::tuple<Style, Button, Shadows, Loop>>
-{
-};
+using Drag = PassTestOf<std::tuple<Style, Button, Shadows, Loop>>;
 
 TEST_P(Drag, goesWherePlainVtkGoesAndFinishes)
 {
   const auto& [style, button, shadows, loop] = GetParam();
   DrivenScene scene(loop, style);
-  for (const auto& [name, value] : shadows.settings)
-  {
-    scene.pass->SetSetting(name, value);
-  }
-  scene.useGnomon();
+  scene.choose(shadows.settings);
   DrivenScene plain(loop, style);
   plain.usePlain();
   for (DrivenScene* const each : { &scene, &plain })

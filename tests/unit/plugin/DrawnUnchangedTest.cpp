@@ -18,9 +18,7 @@ namespace
 
 /// A floor that shows no shadows, below a plate that shades all of it. Props between them must look
 /// unchanged.
-class DrawnUnchanged
-  : public PassTest
-  , public testing::WithParamInterface<Way>
+class DrawnUnchanged : public PassTestOf<Way>
 {
 protected:
   DrawnUnchanged()
@@ -34,8 +32,7 @@ protected:
     this->scene.renderer->GetActiveCamera()->SetClippingRange(1.0, 20.0);
     this->scene.renderer->SetBackground(0.1, 0.1, 0.3);
     this->scene.choose(GetParam());
-    this->scene.usePlain();
-    this->without = this->scene.render();
+    this->without = this->scene.renderPlain();
   }
 
   /// Return the pixels that differ from plain VTK's picture with a prop, which is seen.
@@ -63,15 +60,12 @@ std::vector<vtkSmartPointer<vtkProp>> annotations(vtkRenderer* renderer)
 {
   vtkNew<vtkSphereSource> sphere;
   sphere->SetCenter(0.0, 0.0, 1.0);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(sphere->GetOutputPort());
-  vtkNew<vtkActor> tubes;
-  tubes->SetMapper(mapper);
+  const auto mapper = mapperOf(sphere);
+  const auto tubes = actorOf(mapper);
   tubes->GetProperty()->SetRepresentationToWireframe();
   tubes->GetProperty()->RenderLinesAsTubesOn();
   tubes->GetProperty()->SetLineWidth(5.0f);
-  vtkNew<vtkActor> roundPoints;
-  roundPoints->SetMapper(mapper);
+  const auto roundPoints = actorOf(mapper);
   roundPoints->GetProperty()->SetRepresentationToPoints();
   roundPoints->GetProperty()->RenderPointsAsSpheresOn();
   roundPoints->GetProperty()->SetPointSize(8.0f);
@@ -83,9 +77,8 @@ std::vector<vtkSmartPointer<vtkProp>> annotations(vtkRenderer* renderer)
   text->SetInput("shadow");
   text->GetTextProperty()->SetFontSize(24);
   text->SetPosition(30.0, 40.0);
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(
-    makeImage(8, 8, [](int x, int y) { return glm::dvec3(0.1 * x, 0.1 * y, 1.0); }));
+  const auto texture =
+    textureOf(makeImage(8, 8, [](int x, int y) { return glm::dvec3(0.1 * x, 0.1 * y, 1.0); }));
   vtkNew<vtkSkybox> skybox;
   skybox->SetTexture(texture);
   skybox->SetProjectionToSphere();

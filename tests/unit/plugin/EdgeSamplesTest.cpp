@@ -12,11 +12,6 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-glm::dvec3 normalOf(const VisibilityImages& kept, std::size_t pixel)
-{
-  return { kept.normalX[pixel], kept.normalY[pixel], kept.normalZ[pixel] };
-}
-
 /// A built-in scene, drawn at any size.
 class SampledScene
 {
@@ -33,9 +28,7 @@ public:
   VisibilityImages draw(const char* samples, int sizePixels = side)
   {
     this->scene_.window->SetSize(sizePixels, sizePixels);
-    this->scene_.pass->SetSetting("edge_samples", samples);
-    this->scene_.window->Render();
-    return this->scene_.pass->GetVisibility();
+    return this->scene_.draw((std::string("edge_samples=") + samples).c_str());
   }
 
   /// Return each pixel's mean visibility. Of its 256 samples, those count that lie on the plane and
@@ -119,9 +112,7 @@ std::ostream& operator<<(std::ostream& stream, const Case& of)
   return stream << of.scene;
 }
 
-class EdgeSamplesOf
-  : public PassTest
-  , public testing::WithParamInterface<Case>
+class EdgeSamplesOf : public PassTestOf<Case>
 {
 protected:
   const char* scene() const { return GetParam().scene; }
@@ -139,29 +130,14 @@ class EdgeSamples : public PassTest
 protected:
   EdgeSamples()
   {
-    this->floor = this->scene.addFloor(4.0);
-    this->sphere = this->scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    this->sphere = this->scene.addSphereOverFloor();
     this->sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
-    this->scene.lookFrom({ 0.0, -9.0, 7.0 });
-    this->scene.pass->SetTechnique("silhouette");
-    this->set("16");
+    this->scene.choose("silhouette edge_samples=16");
   }
 
-  void set(const char* samples) { this->scene.pass->SetSetting("edge_samples", samples); }
-
-  /// Count the pixels that are neither lit nor dark.
-  std::size_t countMixed()
-  {
-    std::size_t mixed = 0;
-    for (const float of : drawKept(this->scene).visibility[0])
-    {
-      mixed += of > 0.0f && of < 1.0f ? 1 : 0;
-    }
-    return mixed;
-  }
+  std::size_t countMixed() { return countBetween(drawKept(this->scene).visibility[0]); }
 
   PassScene scene{ 203, 157 };
-  vtkActor* floor;
   vtkActor* sphere;
   vtkLight* sun;
 };
@@ -191,23 +167,21 @@ TEST_P(EdgeSamplesOf, changeNothingAwayFromEdges)
   const VisibilityImages sixteen = scene.draw("16");
   std::size_t away = 0;
   std::size_t changed = 0;
-  for (int y = 1; y < one.height - 1; ++y)
+  for (std::size_t i = 0; i < one.coverage.size(); ++i)
   {
-    for (int x = 1; x < one.width - 1; ++x)
+    const int x = static_cast<int>(i) % one.width;
+    const int y = static_cast<int>(i) / one.width;
+    const auto isLikeHere = [&](int column, int row)
     {
-      const auto at = [&](int dx, int dy)
-      { return static_cast<std::size_t>((y + dy) * one.width + x + dx); };
-      bool isEdge = false;
-      for (int i = 0; i < 9; ++i)
-      {
-        const std::size_t other = at(i % 3 - 1, i / 3 - 1);
-        isEdge |= one.visibility[0][other] != one.visibility[0][at(0, 0)] ||
-          one.coverage[other] != one.coverage[at(0, 0)] ||
-          glm::dot(normalOf(one, other), normalOf(one, at(0, 0))) < 0.99;
-      }
-      away += isEdge ? 0 : 1;
-      changed += !isEdge && one.visibility[0][at(0, 0)] != sixteen.visibility[0][at(0, 0)] ? 1 : 0;
-    }
+      const auto other = static_cast<std::size_t>(row * one.width + column);
+      return one.visibility[0][other] == one.visibility[0][i] &&
+        one.coverage[other] == one.coverage[i] &&
+        glm::dot(normalOf(one, other), normalOf(one, i)) >= 0.99;
+    };
+    const bool isAway = x > 0 && y > 0 && x + 1 < one.width && y + 1 < one.height &&
+      holdsAround({ one.width, one.height }, x, y, 1, isLikeHere);
+    away += isAway ? 1 : 0;
+    changed += isAway && one.visibility[0][i] != sixteen.visibility[0][i] ? 1 : 0;
   }
   EXPECT_GT(away, 20000u);
   EXPECT_EQ(changed, 0u);
@@ -216,23 +190,17 @@ TEST_P(EdgeSamplesOf, changeNothingAwayFromEdges)
 /// The deferred route mixes the bytes of light and shadow; the image route rounds once.
 TEST_P(EdgeSamplesOf, lookAlikeByBothRoutes)
 {
-  const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene(this->scene()), 1.0);
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  vtkNew<vtkGnomonShadowPass> pass;
-  window->SetSize(301, 203);
-  window->AddRenderer(renderer);
-  renderer->SetPass(pass);
-  pass->SetTechnique("silhouette");
-  const auto draw = [&](int route, const char* samples)
+  const BuiltinPass scene(this->scene(), 301, 203);
+  scene.pass->KeepVisibilityOff();
+  scene.pass->SmoothTerminatorsOn();
+  const auto draw = [&](int route, const std::string& samples)
   {
-    pass->SetRoute(route);
-    pass->SetSetting("edge_samples", samples);
-    window->Render();
-    return readPicture(window);
+    scene.pass->SetRoute(route);
+    return scene.render(("silhouette edge_samples=" + samples).c_str());
   };
   const Picture hard = draw(vtkGnomonShadowPass::ROUTE_DEFERRED, "1");
   const Picture deferred = draw(vtkGnomonShadowPass::ROUTE_DEFERRED, "16");
-  EXPECT_EQ(pass->GetReport().route, "deferred");
+  EXPECT_EQ(scene.report().route, "deferred");
   const Picture image = draw(vtkGnomonShadowPass::ROUTE_IMAGE, "16");
   EXPECT_GT(differingPixels(hard, deferred, 8), 100u);
   EXPECT_EQ(differingPixels(image, deferred, 1), 0u);
@@ -244,24 +212,21 @@ TEST_F(EdgeSamples, haveNoFringesAtOutlines)
 {
   this->scene.renderer->RemoveActor(this->sphere);
   this->scene.addFloor(1.0, 1.0);
-  this->floor->SetScale(0.2); // within the plate's shadow of an upright sun
+  this->scene.floor()->SetScale(0.2); // within the plate's shadow of an upright sun
   this->sun->SetPosition(0.0, 0.0, 5.0);
   this->sun->SetFocalPoint(0.0, 0.0, 0.0);
   for (const glm::dvec3& from : { glm::dvec3(0.0, -9.0, 7.0), { 3.0, -9.0, -1.0 } })
   {
     this->scene.lookFrom(from);
     const VisibilityImages& kept = drawKept(this->scene);
-    std::size_t plate = 0;
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-    {
-      if (kept.coverage[i] == 1.0f && cosineTowards(kept, i, this->sun) > 0.0)
-      {
-        const bool isPlate = positionOf(kept, i).z > 0.5;
-        plate += isPlate ? 1 : 0;
-        wrong += kept.visibility[0][i] != (isPlate ? 1.0f : 0.0f) ? 1 : 0;
-      }
-    }
+    const auto isPlate = [&](std::size_t i) { return positionOf(kept, i).z > 0.5; };
+    const auto faces = [&](std::size_t i)
+    { return kept.coverage[i] == 1.0f && cosineTowards(kept, i, this->sun) > 0.0; };
+    const std::size_t plate =
+      countPixels(kept, [&](std::size_t i) { return faces(i) && isPlate(i); });
+    const std::size_t wrong = countPixels(kept,
+      [&](std::size_t i)
+      { return faces(i) && kept.visibility[0][i] != (isPlate(i) ? 1.0f : 0.0f); });
     EXPECT_EQ(plate > 1000, from.z > 0.0);
     EXPECT_EQ(wrong, 0u);
   }
@@ -291,13 +256,10 @@ TEST_F(EdgeSamples, areThereForAllLightsCamerasAndShapes)
 /// Maps decide samples with the same result as rays.
 TEST_F(EdgeSamples, agreeBetweenExactTechniques)
 {
-  this->scene.pass->SetSetting("bake", "always");
-  this->scene.pass->SetTechnique("raytraced");
-  const std::vector<float> truth = drawKept(this->scene).visibility[0];
+  const std::vector<float> truth = drawKept(this->scene, "raytraced").visibility[0];
   for (const char* technique : { "silhouette", "crsm", "crsma" })
   {
-    this->scene.pass->SetTechnique(technique);
-    EXPECT_EQ(drawKept(this->scene).visibility[0], truth) << technique;
+    EXPECT_EQ(drawKept(this->scene, technique).visibility[0], truth) << technique;
   }
 }
 
@@ -306,35 +268,24 @@ TEST_F(EdgeSamples, areNotOfAreaLights)
   this->scene.pass->SetTechnique("raytraced");
   vtkGnomonLightKeys::SetSetting(this->sun, "light_radius", "3");
   const std::vector<float> sixteen = drawKept(this->scene).visibility[0];
-  this->set("1");
+  this->scene.choose("edge_samples=1");
   EXPECT_EQ(drawKept(this->scene).visibility[0], sixteen);
 }
 
 TEST_F(EdgeSamples, lieOnSolids)
 {
   this->scene.renderer->RemoveActor(this->sphere);
-  vtkNew<vtkPolyData> centres;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> vertices;
-  for (const glm::dvec3& centre : { glm::dvec3(0.0, 0.0, 1.2), { -0.8, -0.3, 2.4 } })
-  {
-    const vtkIdType point = points->InsertNextPoint(&centre.x);
-    vertices->InsertNextCell(1, &point);
-  }
-  centres->SetPoints(points);
-  centres->SetVerts(vertices);
+  const auto centres = meshOf({ { 0.0, 0.0, 1.2 }, { -0.8, -0.3, 2.4 } }, {});
+  centres->SetVerts(meshOf({}, { { 0 }, { 1 } })->GetPolys());
   vtkNew<vtkOpenGLSphereMapper> mapper;
   mapper->SetInputData(centres);
   mapper->SetRadius(0.7);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  this->scene.renderer->AddActor(actor);
+  this->scene.add(mapper);
   const VisibilityImages& kept = drawKept(this->scene);
-  std::size_t mixed = 0;
-  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  const auto isMixedAbove = [&](std::size_t i)
   {
     const float of = kept.visibility[0][i];
-    mixed += kept.coverage[i] == 1.0f && positionOf(kept, i).z > 0.1 && of > 0.0f && of < 1.0f;
-  }
-  EXPECT_GT(mixed, 5u) << "the upper sphere's shadow on the lower one";
+    return positionOf(kept, i).z > 0.1 && of > 0.0f && of < 1.0f;
+  };
+  EXPECT_GT(countPixels(kept, isMixedAbove), 5u) << "the upper sphere's shadow on the lower one";
 }

@@ -2,6 +2,7 @@
 // restored: no cached data of casters are stale.
 
 #include "PassScene.h"
+#include "Variant.h"
 
 #include <vtkCell.h>
 
@@ -9,23 +10,6 @@ namespace gnomon::test
 {
 namespace
 {
-
-/// A pass that exists through all changes.
-struct ExactPass
-{
-  const char* technique;
-  std::vector<std::pair<const char*, const char*>> settings;
-};
-
-std::string nameOfPass(const testing::TestParamInfo<ExactPass>& pass)
-{
-  std::string name = pass.param.technique;
-  for (const auto& setting : pass.param.settings)
-  {
-    name += std::string("_") + setting.first;
-  }
-  return name;
-}
 
 /// Give each triangle corners of its own, so that moving points tears the surface.
 void partTriangles(vtkPolyData* shape)
@@ -46,23 +30,14 @@ void partTriangles(vtkPolyData* shape)
   shape->SetPolys(triangles);
 }
 
-class ExactInMotion
-  : public PassTest
-  , public testing::WithParamInterface<ExactPass>
+class ExactInMotion : public PassTestOf<Variant>
 {
 protected:
   ExactInMotion()
   {
     this->scene.addFloor(4.0);
-    vtkNew<vtkSphereSource> whole;
-    whole->SetRadius(0.7);
-    whole->SetThetaResolution(32);
-    whole->SetPhiResolution(20);
-    this->ball = this->addCopy(whole, this->ballShape);
-    vtkNew<vtkSphereSource> open;
-    open->SetRadius(0.5);
-    open->SetThetaResolution(24);
-    open->SetPhiResolution(12);
+    this->ball = this->addCopy(ballOf(glm::dvec3(0.0), 0.7, 32, 20), this->ballShape);
+    const auto open = ballOf(glm::dvec3(0.0), 0.5, 24, 12);
     open->SetEndPhi(100.0);
     this->cup = this->addCopy(open, this->cupShape);
     partTriangles(this->cupShape);
@@ -70,11 +45,8 @@ protected:
     for (std::size_t side = 0; side < 2; ++side)
     {
       const double from = side == 0 ? -1.0 : 0.0;
-      vtkNew<vtkPlaneSource> sheet;
-      sheet->SetOrigin(from, -0.8, 1.6);
-      sheet->SetPoint1(from + 1.0, -0.8, 1.6);
-      sheet->SetPoint2(from, 0.8, 1.6);
-      sheet->SetResolution(6, 6);
+      const auto sheet =
+        planeOf({ from, -0.8, 1.6 }, { from + 1.0, -0.8, 1.6 }, { from, 0.8, 1.6 }, 6);
       this->sheets[side] = this->addCopy(sheet, this->sheetShapes[side]);
     }
     this->sun = this->scene.addSun({ -1.0, -0.4, -2.0 });
@@ -84,33 +56,13 @@ protected:
     this->truth->SetTechnique("raytraced");
     this->truth->KeepVisibilityOn();
     this->truth->SmoothTerminatorsOff();
-    this->scene.pass->SetSetting("bake", "always"); // for techniques that have it
-    this->scene.pass->SetTechnique(GetParam().technique);
     this->scene.pass->SetMapSize(256);
-    for (const auto& [name, value] : GetParam().settings)
-    {
-      this->scene.pass->SetSetting(name, value);
-    }
+    GetParam().choose(this->scene); // one pass through all changes
     this->scene.pass->KeepVisibilityOn();
   }
 
   /// Return a random number from -1 to 1.
   double some() { return std::uniform_real_distribution<double>(-1.0, 1.0)(this->random); }
-
-  /// Move a shape's points.
-  template <typename Move>
-  static void deform(vtkPolyData* shape, const Move& move)
-  {
-    vtkPoints* const points = shape->GetPoints();
-    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-    {
-      glm::dvec3 point;
-      points->GetPoint(i, &point.x);
-      point = move(point);
-      points->SetPoint(i, &point.x);
-    }
-    points->Modified();
-  }
 
   using Corners = std::vector<glm::dvec3>;
   static Corners cornersOf(vtkPolyData* shape)
@@ -125,7 +77,7 @@ protected:
   static void putBack(vtkPolyData* shape, const Corners& corners)
   {
     std::size_t next = 0;
-    deform(shape, [&](const glm::dvec3&) { return corners[next++]; });
+    movePoints(shape, [&](const glm::dvec3&) { return corners[next++]; });
   }
 
   /// Remove the first of a shape's cells and reverse the order of the others.
@@ -153,12 +105,7 @@ protected:
     ASSERT_EQ(shown.size(), traced.size());
     for (std::size_t light = 0; light < traced.size(); ++light)
     {
-      std::size_t different = 0;
-      for (std::size_t i = 0; i < traced[light].size(); ++i)
-      {
-        different += shown[light][i] != traced[light][i] ? 1 : 0;
-      }
-      EXPECT_EQ(different, 0u) << after << ", light " << light;
+      EXPECT_EQ(countDifferences(shown[light], traced[light]), 0u) << after << ", light " << light;
       const LightReport& report = this->scene.report().lights[light];
       EXPECT_GT(report.mapSizeTexels, 0) << after;
       this->rays += report.tracedPixels;
@@ -182,8 +129,7 @@ protected:
 private:
   vtkActor* addCopy(vtkAlgorithm* source, vtkPolyData* copy)
   {
-    source->Update();
-    copy->DeepCopy(source->GetOutputDataObject(0));
+    copy->DeepCopy(outputOf(source));
     return this->scene.add(copy);
   }
 };
@@ -196,12 +142,12 @@ TEST_P(ExactInMotion, showsWhatIsTraced)
     const std::array<Corners, 2> whole{ { cornersOf(this->ballShape), cornersOf(this->cupShape) } };
     const auto jitter = [this](const glm::dvec3& point)
     { return point + 0.02 * glm::dvec3(this->some(), this->some(), this->some()); };
-    deform(this->ballShape, jitter);
-    deform(this->cupShape, jitter);
+    movePoints(this->ballShape, jitter);
+    movePoints(this->cupShape, jitter);
     this->expectTruth("points moved, some surfaces torn");
     const auto merge = [](const glm::dvec3& point) { return glm::round(8.0 * point) / 8.0; };
-    deform(this->ballShape, merge);
-    deform(this->cupShape, merge);
+    movePoints(this->ballShape, merge);
+    movePoints(this->cupShape, merge);
     this->expectTruth("points merged");
     putBack(this->ballShape, whole[0]);
     putBack(this->cupShape, whole[1]);
@@ -218,7 +164,7 @@ TEST_P(ExactInMotion, showsWhatIsTraced)
     const double height = 0.3 * this->some();
     for (vtkPolyData* sheet : this->sheetShapes)
     {
-      deform(sheet,
+      movePoints(sheet,
         [height](const glm::dvec3& point)
         { return glm::dvec3(point.x, point.y, 1.6 + height * std::sin(3.0 * point.x)); });
     }
@@ -241,11 +187,10 @@ TEST_P(ExactInMotion, showsWhatIsTraced)
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, ExactInMotion,
-  testing::Values(ExactPass{ "crsm", {} }, ExactPass{ "crsma", {} },
-    ExactPass{ "crsma", { { "adjacency_ring", "vertices" } } }, ExactPass{ "silhouette", {} },
-    ExactPass{ "silhouette", { { "fit", "frame" } } },
-    ExactPass{ "selective", { { "coherence", "off" }, { "contour", "image" } } }),
-  nameOfPass);
+  testing::Values(Variant{ "crsm" }, Variant{ "crsma" }, Variant{ "crsma adjacency_ring=vertices" },
+    Variant{ "silhouette" }, Variant{ "silhouette fit=frame" },
+    Variant{ "selective coherence=off contour=image" }),
+  nameOfVariant);
 
 } // namespace
 } // namespace gnomon::test

@@ -14,9 +14,19 @@ namespace gnomon::test
 namespace
 {
 
-class ExactScenes : public testing::TestWithParam<std::string>
+using Layers = std::vector<std::vector<float>>;
+
+/// Expect lights' visibility to be that of another technique, bit for bit.
+void expectSame(const Layers& visibility, const Layers& truth)
 {
-};
+  ASSERT_EQ(visibility.size(), truth.size());
+  for (std::size_t light = 0; light < truth.size(); ++light)
+  {
+    EXPECT_EQ(countDifferences(visibility[light], truth[light]), 0u) << "light " << light;
+  }
+}
+
+using ExactScenes = testing::TestWithParam<std::string>;
 
 INSTANTIATE_TEST_SUITE_P(Builtin, ExactScenes,
   testing::ValuesIn(
@@ -41,46 +51,27 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ExactScenes,
 TEST_P(ExactScenes, showWhatIsTraced)
 {
   const BuiltinPass scene(GetParam(), 400);
-  scene.pass->SetSetting("bake", "always");
-
-  scene.pass->SetTechnique("raytraced");
-  scene.window->Render();
-  const std::vector<std::vector<float>> truth = scene.pass->GetVisibility().visibility;
+  const Layers truth = scene.draw("bake=always raytraced").visibility;
   ASSERT_FALSE(truth.empty());
-  EXPECT_GT(scene.pass->GetReport().numbersChecked, 0);
-  EXPECT_EQ(scene.pass->GetReport().numbersWrong, 0);
+  EXPECT_GT(scene.report().numbersChecked, 0);
+  EXPECT_EQ(scene.report().numbersWrong, 0);
   for (const TechniqueEntry& technique : registry())
   {
     if (!technique.estimator->info.exact || !technique.estimator->info.bakesMap())
     {
       continue;
     }
-    scene.pass->SetTechnique(technique.name.c_str());
-    for (const int size : { 1024, 256 })
+    for (const char* size : { " map_size=1024", " map_size=256" })
     {
-      scene.pass->SetMapSize(size);
-      scene.window->Render();
-      const std::string what = technique.name + ", map " + std::to_string(size);
-      const std::vector<std::vector<float>>& visibility = scene.pass->GetVisibility().visibility;
-      ASSERT_EQ(visibility.size(), truth.size()) << what;
-      for (std::size_t light = 0; light < truth.size(); ++light)
-      {
-        std::size_t different = 0;
-        for (std::size_t i = 0; i < truth[light].size(); ++i)
-        {
-          different += visibility[light][i] != truth[light][i] ? 1 : 0;
-        }
-        EXPECT_EQ(different, 0u) << what << ", light " << light;
-      }
+      SCOPED_TRACE(technique.name + size);
+      expectSame(scene.draw((technique.name + size).c_str()).visibility, truth);
     }
   }
 }
 
 /// Cameras and lights that no scene's author intended: also inside surfaces, and with lamps that
 /// touch them.
-class ExactScenesFromAnywhere : public testing::TestWithParam<const char*>
-{
-};
+using ExactScenesFromAnywhere = testing::TestWithParam<const char*>;
 
 INSTANTIATE_TEST_SUITE_P(Builtin, ExactScenesFromAnywhere,
   testing::Values("bunny", "horse", "cat", "office", "room", "terrain", "bench-side", "trees-side",
@@ -106,11 +97,9 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
     return low + share * (high - low);
   };
 
-  scene.pass->SetSetting("bake", "always");
   // `selective` is exact if its contour is the whole picture and it accepts no texel by coherence.
-  scene.pass->SetSetting("contour", "image");
-  scene.pass->SetSetting("coherence", "off");
-  const std::array<std::string, 4> techniques = { "crsm", "crsma", "silhouette", "selective" };
+  scene.choose("bake=always contour=image coherence=off");
+  const std::array<const char*, 4> techniques = { "crsm", "crsma", "silhouette", "selective" };
   std::int64_t sumReceivers = 0;
   std::array<std::int64_t, 4> sumsTraced{};
   for (unsigned int run = 0; run < exactRuns(2); ++run)
@@ -139,35 +128,21 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
     scene.pass->SetMapSize(mapSizes[random() % 6]);
     scene.pass->SetSetting("fit", random() % 2 ? "frame" : "off");
 
-    scene.pass->SetTechnique("raytraced");
-    scene.window->Render();
-    const std::vector<std::vector<float>> truth = scene.pass->GetVisibility().visibility;
+    const Layers truth = scene.draw("raytraced").visibility;
     ASSERT_EQ(truth.size(), 1u);
-    sumReceivers += scene.pass->GetReport().lights.at(0).tracedPixels;
+    sumReceivers += scene.report().lights.at(0).tracedPixels;
     for (std::size_t number = 0; number < techniques.size(); ++number)
     {
-      scene.pass->SetTechnique(techniques[number].c_str());
-      scene.window->Render();
-      const std::vector<std::vector<float>>& visibility = scene.pass->GetVisibility().visibility;
-      ASSERT_EQ(visibility.size(), 1u);
-      std::size_t wrong = 0;
-      for (std::size_t i = 0; i < truth[0].size(); ++i)
-      {
-        wrong += visibility[0][i] != truth[0][i] ? 1 : 0;
-      }
-      EXPECT_EQ(wrong, 0u) << techniques[number] << ", run " << run << ", map "
-                           << scene.pass->GetMapSize() << ", light of kind " << kind;
-      sumsTraced[number] += scene.pass->GetReport().lights.at(0).tracedPixels;
+      SCOPED_TRACE(testing::Message() << techniques[number] << ", run " << run << ", map "
+                                      << scene.pass->GetMapSize() << ", light of kind " << kind);
+      expectSame(scene.draw(techniques[number]).visibility, truth);
+      sumsTraced[number] += scene.report().lights.at(0).tracedPixels;
     }
   }
   EXPECT_GT(sumReceivers, 0);
-  for (std::size_t number = 0; number < techniques.size(); ++number)
+  for (std::size_t number = 0; number < 3; ++number) // `selective` may trace both pictures whole
   {
-    // `selective` may have to trace both pictures whole.
-    if (techniques[number] != "selective")
-    {
-      EXPECT_LT(sumsTraced[number], sumReceivers) << techniques[number];
-    }
+    EXPECT_LT(sumsTraced[number], sumReceivers) << techniques[number];
   }
 }
 
@@ -178,28 +153,25 @@ TEST(ExactFaces, areDecidedWhateverTheNoiseOfWhatIsBehindThem)
   for (const char* name : { "long-cube", "stack" })
   {
     const BuiltinPass scene(name, 512);
-    scene.pass->SetMapSize(1024);
-    scene.pass->SetSetting("bake", "always");
+    scene.choose("map_size=1024 bake=always");
     const auto traced = [&](const char* technique)
     {
-      scene.pass->SetTechnique(technique);
-      scene.window->Render();
-      return scene.pass->GetReport().lights[0].tracedPixels;
+      scene.draw(technique);
+      return scene.report().lights[0].tracedPixels;
     };
     const auto all = traced("raytraced");
-    const std::vector<std::vector<float>> truth = scene.pass->GetVisibility().visibility;
+    const Layers truth = scene.pass->GetVisibility().visibility;
     ASSERT_FALSE(truth.empty());
     for (const char* technique : { "crsma", "silhouette" })
     {
-      EXPECT_LT(20 * traced(technique), all) << technique << ", " << name;
-      EXPECT_EQ(scene.pass->GetVisibility().visibility, truth) << technique << ", " << name;
+      SCOPED_TRACE(std::string(technique) + ", " + name);
+      EXPECT_LT(20 * traced(technique), all);
+      expectSame(scene.pass->GetVisibility().visibility, truth);
     }
   }
 }
 
-class ExactSoftScenes : public testing::TestWithParam<const char*>
-{
-};
+using ExactSoftScenes = testing::TestWithParam<const char*>;
 
 INSTANTIATE_TEST_SUITE_P(Builtin, ExactSoftScenes,
   testing::Values("soft-stack", "soft-panels", "soft-plates", "soft-long-cube", "bunny", "posts",
@@ -210,32 +182,16 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ExactSoftScenes,
 TEST_P(ExactSoftScenes, showWhatAllRaysShow)
 {
   const BuiltinPass scene(GetParam(), 160);
-  scene.pass->SetSetting("light_samples", "16");
-  if (std::string(GetParam()).rfind("soft-", 0) != 0)
-  {
-    scene.pass->SetSetting("light_radius", "3"); // degrees, or world units
-  }
-  scene.pass->SetTechnique("raytraced");
-  scene.window->Render();
-  const std::vector<std::vector<float>> truth = scene.pass->GetVisibility().visibility;
-  scene.pass->SetTechnique("penumbra");
-  scene.window->Render();
-  const std::vector<std::vector<float>>& visibility = scene.pass->GetVisibility().visibility;
+  const bool isSoft = std::string(GetParam()).rfind("soft-", 0) == 0;
+  scene.choose(isSoft ? "" : "light_radius=3"); // degrees, or world units
+  const Layers truth = scene.draw("raytraced light_samples=16").visibility;
   ASSERT_FALSE(truth.empty());
-  ASSERT_EQ(visibility.size(), truth.size());
-  for (std::size_t light = 0; light < truth.size(); ++light)
-  {
-    EXPECT_EQ(std::count(truth[light].begin(), truth[light].end(), 1.0f),
-      std::count(visibility[light].begin(), visibility[light].end(), 1.0f));
-    EXPECT_TRUE(visibility[light] == truth[light]) << "light " << light;
-  }
+  expectSame(scene.draw("penumbra").visibility, truth);
 }
 
 /// Every pixel has a class, and the counts are of traced pixels. Without coherence `selective` is
 /// the truth inside its contour.
-class SelectiveScenes : public testing::TestWithParam<const char*>
-{
-};
+using SelectiveScenes = testing::TestWithParam<const char*>;
 INSTANTIATE_TEST_SUITE_P(Builtin, SelectiveScenes,
   testing::Values("primitives", "cups", "room", "screens", "office", "terrain", "posts"),
   [](const testing::TestParamInfo<const char*>& scene) { return testNameOf(scene.param); });
@@ -243,16 +199,10 @@ INSTANTIATE_TEST_SUITE_P(Builtin, SelectiveScenes,
 TEST_P(SelectiveScenes, areTracedInsideTheContour)
 {
   const BuiltinPass scene(GetParam(), 256);
-  const auto draw = [&](const char* technique) -> const VisibilityImages&
-  {
-    scene.pass->SetTechnique(technique);
-    scene.window->Render();
-    return scene.pass->GetVisibility();
-  };
   for (const char* technique : { "coherence", "selective" })
   {
-    draw(technique);
-    for (const LightReport& light : scene.pass->GetReport().lights)
+    scene.draw(technique);
+    for (const LightReport& light : scene.report().lights)
     {
       std::int64_t pixels = 0, traced = 0;
       for (const ClassCount& count : light.classes)
@@ -264,11 +214,8 @@ TEST_P(SelectiveScenes, areTracedInsideTheContour)
       EXPECT_EQ(traced, light.tracedPixels) << technique;
     }
   }
-  const std::vector<std::vector<float>> truth = draw("raytraced").visibility;
-  scene.pass->SetTechnique("selective");
-  scene.pass->SetSetting("coherence", "off");
-  scene.pass->SetSetting("contour", "4");
-  const VisibilityImages& contour = draw("selective");
+  const Layers truth = scene.draw("raytraced").visibility;
+  const VisibilityImages& contour = scene.draw("selective coherence=off contour=4");
   ASSERT_EQ(contour.visibility.size(), truth.size());
   for (std::size_t light = 0; light < truth.size(); ++light)
   {

@@ -9,17 +9,13 @@ using namespace gnomon::test;
 namespace
 {
 
-class DegenerateScenes
-  : public PassTest
-  , public testing::WithParamInterface<Variant>
+class DegenerateScenes : public PassTestOf<Variant>
 {
 protected:
   static void fill(PassScene& scene)
   {
-    scene.addFloor(4.0);
+    scene.addSphereOverFloor();
     scene.addBox({ 1.0, 1.0, 0.0 }, { 2.0, 2.0, 1.0 });
-    scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-    scene.lookFrom({ 0.0, -9.0, 7.0 });
   }
 
   static void draw(PassScene& scene)
@@ -54,7 +50,7 @@ protected:
 
 bool isSoft(const Variant& variant)
 {
-  return variant.technique() == variant.text &&
+  return variant.isDefault() &&
     (has(variant.info(), "light_samples") || has(variant.info(), "pcss_samples"));
 }
 
@@ -137,13 +133,9 @@ TEST_BY_VARIANTS(DegenerateScenes, WithMissingData, isForAll)
     GetParam().set(scene.pass, "light_samples", "8");
     scene.pass->SetSetting("light_radius", "0.5");
   }
-  vtkActor* const ball = scene.addSphere({ 1.0, -1.0, 1.5 }, 0.5);
-  auto* const mapper = vtkPolyDataMapper::SafeDownCast(ball->GetMapper());
-  mapper->Update();
-  vtkNew<vtkPolyData> holed;
-  holed->DeepCopy(mapper->GetInput());
+  const auto holed = copyOf(ballOf({ 1.0, -1.0, 1.5 }, 0.5, 48, 24));
   holed->GetPoints()->SetPoint(7, 0.1, 0.2, -3.4028235e38);
-  mapper->SetInputDataObject(holed);
+  scene.add(holed.Get());
   scene.addSpot({ 1.0, -2.0, 5.0 }, glm::dvec3(0.0), 45.0);
   drawKept(scene);
   EXPECT_GT(scene.report().droppedNonFinite, 0u);

@@ -28,22 +28,12 @@ protected:
     scene.addBox({ 38.0, 38.0, 0.0 }, { 39.0, 39.0, 3.0 });
     scene.addBox({ -39.0, -39.0, 0.0 }, { -38.0, -38.0, 3.0 });
   }
-  static void fit(PassScene& scene, const char* fit, const char* snap = "on")
-  {
-    scene.pass->SetSetting("fit", fit);
-    scene.pass->SetSetting("snap", snap);
-  }
   /// Return the wrong pixels of a frame with kept visibility.
   static std::size_t wrong(PassScene& scene, const char* technique, const VisibilityImages& truth)
   {
-    scene.pass->SetTechnique(technique);
-    return compareVisibility(drawKept(scene), truth).wrong;
+    return compareVisibility(drawKept(scene, technique), truth).wrong;
   }
-  static VisibilityImages truthOf(PassScene& scene)
-  {
-    scene.pass->SetTechnique("raytraced");
-    return drawKept(scene);
-  }
+  static VisibilityImages truthOf(PassScene& scene) { return drawKept(scene, "raytraced"); }
 };
 
 /// One light of each kind over the scene of fill().
@@ -90,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, FittingOfKinds,
       [](PassScene& scene) {
         return scene.addSpot({ -4.0, -1.6, 6.0 }, glm::dvec3(0.0), allDirections);
       } }),
-  [](const testing::TestParamInfo<Kind>& kind) { return std::string(kind.param.name); });
+  byName);
 
 } // namespace
 
@@ -101,42 +91,41 @@ TEST_F(Fitting, reportSaysWhatViewsAreFittedTo)
   scene.addSun({ 1.0, 0.4, -1.5 });
   const auto fitOf = [&](const char* technique, const char* fit, int route)
   {
-    this->fit(scene, fit);
-    scene.choose({ technique, route });
-    scene.render();
+    scene.choose(fit);
+    scene.render({ technique, route });
     return scene.report().lights.at(0).fit;
   };
   const auto reason = [&] { return scene.report().lights.at(0).fitReason; };
   const int inlined = vtkGnomonShadowPass::ROUTE_INLINE;
   const int image = vtkGnomonShadowPass::ROUTE_IMAGE;
-  EXPECT_EQ(fitOf("nsm", "off", image), "off");
+  EXPECT_EQ(fitOf("nsm", "fit=off", image), "off");
   EXPECT_EQ(reason(), "");
-  EXPECT_EQ(fitOf("nsm", "frame", image), "receivers");
+  EXPECT_EQ(fitOf("nsm", "fit=frame", image), "receivers");
   EXPECT_EQ(reason(), "");
-  EXPECT_EQ(fitOf("nsm", "once", image), "frustum");
+  EXPECT_EQ(fitOf("nsm", "fit=once", image), "frustum");
   EXPECT_THAT(reason(), HasSubstr("made once"));
-  EXPECT_EQ(fitOf("nsm", "frame", inlined), "frustum");
+  EXPECT_EQ(fitOf("nsm", "fit=frame", inlined), "frustum");
   EXPECT_THAT(reason(), HasSubstr("inline route"));
-  EXPECT_EQ(fitOf("pssm", "off", image), "frustum");
+  EXPECT_EQ(fitOf("pssm", "fit=off", image), "frustum");
   EXPECT_THAT(reason(), HasSubstr("fit=frame"));
-  EXPECT_EQ(fitOf("pssm", "frame", image), "receivers");
-  EXPECT_EQ(fitOf("lispsm", "off", image), "frustum");
-  EXPECT_EQ(fitOf("lispsm", "frame", image), "receivers");
-  EXPECT_EQ(fitOf("lispsm", "off", inlined), "frustum");
-  EXPECT_EQ(fitOf("raytraced", "frame", image), "");
+  EXPECT_EQ(fitOf("pssm", "fit=frame", image), "receivers");
+  EXPECT_EQ(fitOf("lispsm", "fit=off", image), "frustum");
+  EXPECT_EQ(fitOf("lispsm", "fit=frame", image), "receivers");
+  EXPECT_EQ(fitOf("lispsm", "fit=off", inlined), "frustum");
+  EXPECT_EQ(fitOf("raytraced", "fit=frame", image), "");
   EXPECT_EQ(reason(), "");
-  EXPECT_EQ(fitOf("pcf", "frame", image), "receivers");
-  EXPECT_EQ(fitOf("vsm", "frame", image), "receivers");
+  EXPECT_EQ(fitOf("pcf", "fit=frame", image), "receivers");
+  EXPECT_EQ(fitOf("vsm", "fit=frame", image), "receivers");
   scene.pass->SetSetting("split_blend", "0.1");
-  EXPECT_EQ(fitOf("pssm", "frame", image), "frustum");
+  EXPECT_EQ(fitOf("pssm", "fit=frame", image), "frustum");
   EXPECT_THAT(reason(), HasSubstr("overlap"));
   scene.pass->SetSetting("kernel_width", "0.1");
-  EXPECT_EQ(fitOf("pcf", "frame", image), "frustum");
+  EXPECT_EQ(fitOf("pcf", "fit=frame", image), "frustum");
   EXPECT_THAT(reason(), HasSubstr("width in world units"));
-  EXPECT_EQ(fitOf("nsm", "frame", image), "receivers");
+  EXPECT_EQ(fitOf("nsm", "fit=frame", image), "receivers");
   // Translucent surfaces are no receivers of the prepass.
   scene.addBox({ 1.0, 1.0, 1.0 }, { 1.5, 1.5, 1.5 })->GetProperty()->SetOpacity(0.5);
-  EXPECT_EQ(fitOf("nsm", "frame", image), "frustum");
+  EXPECT_EQ(fitOf("nsm", "fit=frame", image), "frustum");
   EXPECT_THAT(reason(), HasSubstr("translucent"));
 }
 
@@ -145,7 +134,7 @@ TEST_F(Fitting, isDoneAgainOnlyWhenOtherReceiversMayBeSeen)
   PassScene scene(64, 48);
   this->fill(scene);
   scene.addSun({ 1.0, 0.4, -1.5 });
-  this->fit(scene, "frame");
+  scene.choose("fit=frame snap=on");
   scene.choose({ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE });
   const auto expectBakedOnce = [&]
   {
@@ -184,12 +173,12 @@ TEST_P(FittingOfKinds, leavesFewerWrongPixelsThanTheFrustum)
   GetParam().add(scene);
   scene.pass->SetMapSize(256);
   const VisibilityImages truth = this->truthOf(scene);
-  this->fit(scene, "off");
+  scene.choose("fit=off snap=on");
   const std::size_t unfitted = this->wrong(scene, "nsm", truth);
-  this->fit(scene, "once", "off");
+  scene.choose("fit=once snap=off");
   const std::size_t frustum = this->wrong(scene, "nsm", truth);
   ASSERT_EQ(scene.report().lights.at(0).fit, "frustum");
-  this->fit(scene, "frame", "off");
+  scene.choose("fit=frame snap=off");
   const std::size_t receivers = this->wrong(scene, "nsm", truth);
   ASSERT_EQ(scene.report().lights.at(0).fit, "receivers");
   EXPECT_LE(receivers, frustum);
@@ -206,17 +195,10 @@ TEST_F(Fitting, bringsEveryEstimatorNearerToTheTruth)
   // Filters blur over texels, so smaller texels blur less.
   const auto error = [&](const char* technique, const char* fit)
   {
-    this->fit(scene, fit, "off");
-    scene.pass->SetTechnique(technique);
-    const VisibilityImages& kept = drawKept(scene);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-    {
-      sum +=
-        kept.coverage[i] > 0.0f ? std::abs(kept.visibility[0][i] - truth.visibility[0][i]) : 0.0;
-    }
-    return sum;
+    scene.choose(fit);
+    return meanDifference(drawKept(scene, technique).visibility[0], truth.visibility[0]);
   };
+  scene.choose("snap=off");
   for (const char* estimator :
     { "compare", "pcf", "adaptive", "variance", "exponential", "moments" })
   {
@@ -224,9 +206,9 @@ TEST_F(Fitting, bringsEveryEstimatorNearerToTheTruth)
     for (const char* technique : { "nsm", "lispsm", "tsm", "pssm" })
     {
       SCOPED_TRACE(std::string(technique) + " with " + estimator);
-      const double frustum = error(technique, "once");
+      const double frustum = error(technique, "fit=once");
       ASSERT_EQ(scene.report().lights.at(0).fit, "frustum");
-      const double receivers = error(technique, "frame");
+      const double receivers = error(technique, "fit=frame");
       ASSERT_EQ(scene.report().lights.at(0).fit, "receivers");
       EXPECT_LT(receivers, frustum);
     }
@@ -247,10 +229,10 @@ TEST_F(Fitting, warpOfAViewAlongTheGroundFollowsTheReceivers)
   scene.pass->SetSetting("map_size", "256");
   scene.addSun({ 1.0, 0.1, -0.6 });
   const VisibilityImages truth = this->truthOf(scene);
-  this->fit(scene, "frame", "off");
+  scene.choose("fit=frame snap=off");
   const std::size_t uniform = this->wrong(scene, "nsm", truth);
   const std::size_t chosen = this->wrong(scene, "lispsm", truth);
-  this->fit(scene, "off");
+  scene.choose("fit=off snap=on");
   const std::size_t published = this->wrong(scene, "lispsm", truth);
   EXPECT_GT(uniform, 50u);
   EXPECT_LE(chosen, 0.6 * static_cast<double>(uniform));
@@ -268,7 +250,7 @@ TEST_F(Fitting, snappedEdgesStayWhereTheyAreWhenTheCameraMoves)
   this->fill(scene);
   scene.addSun({ 1.0, 0.7, -1.5 });
   scene.pass->SetMapSize(48);
-  this->fit(scene, "frame", "on");
+  scene.choose("fit=frame snap=on");
   const auto drawAt = [&](int pixels)
   {
     scene.lookDown(halfHeight, pixels * pixel, pixels * pixel);

@@ -3,6 +3,7 @@
 
 #include "LiveObjects.h"
 #include "PassScene.h"
+#include "Variant.h"
 
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "shadowtech/base/Gl.h"
@@ -10,7 +11,6 @@
 #include <vtkOpenGLState.h>
 #include <vtkRenderPass.h>
 #include <vtkRenderState.h>
-#include <vtkTextureUnitManager.h>
 
 #include <set>
 
@@ -150,42 +150,16 @@ public:
 };
 vtkStandardNewMacro(ProbePass);
 
-void fill(PassScene& scene)
-{
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSun({ 1.0, 0.3, -1.5 });
-  scene.addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-}
-
-class GlStateOfWay
-  : public PassTest
-  , public testing::WithParamInterface<Way>
-{
-protected:
-  void choose(PassScene& scene) const { scene.choose(GetParam()); }
-};
+using GlStateOfWay = PassTestOf<Way>;
 
 INSTANTIATE_TEST_SUITE_P(Ways, GlStateOfWay, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, GlStateOfWay, testing::Values(planarWay), nameOf);
 INSTANTIATE_TEST_SUITE_P(ThroughLayers, GlStateOfWay, testing::Values(layersWay), nameOf);
 INSTANTIATE_TEST_SUITE_P(OnImage, GlStateOfWay, testing::Values(tracedWay), nameOf);
 
-/// Return the number of texture units that VTK's manager can still give.
-int freeTextureUnits(vtkOpenGLRenderWindow* window)
+std::size_t freeTextureUnits(vtkOpenGLRenderWindow* window)
 {
-  vtkTextureUnitManager* manager = window->GetState()->GetTextureUnitManager();
-  std::vector<int> units;
-  for (int unit = manager->Allocate(); unit >= 0; unit = manager->Allocate())
-  {
-    units.push_back(unit);
-  }
-  for (const int unit : units)
-  {
-    manager->Free(unit);
-  }
-  return static_cast<int>(units.size());
+  return TakenUnits(window).units.size();
 }
 
 /// A pass that draws a scene in its way.
@@ -205,16 +179,16 @@ std::ostream& operator<<(std::ostream& stream, const Drawing& drawing)
 
 constexpr const char* routeNames[] = { "Auto", "Inline", "Image", "Deferred" };
 
-Drawing byTechnique(const char* technique, int route, const char* setting = nullptr,
-  const char* value = nullptr, bool textured = false)
+Drawing byTechnique(
+  const char* technique, int route, const char* setting = "", bool textured = false)
 {
-  std::string name = std::string(technique) + routeNames[route] +
-    (setting ? std::string("_") + setting + "_" + value : "") + (textured ? "Textured" : "");
-  return { std::move(name),
+  return {
+    Variant{ technique + std::string(routeNames[route]) + (*setting ? " " : "") + setting }.name() +
+      (textured ? "Textured" : ""),
     [=](PassScene& scene) -> vtkSmartPointer<vtkRenderPass>
     {
       scene.choose({ technique, route });
-      setting ? scene.set(setting, value) : void();
+      scene.choose(setting);
       if (textured)
       {
         vtkNew<vtkGnomonAreaLight> lamp;
@@ -227,7 +201,8 @@ Drawing byTechnique(const char* technique, int route, const char* setting = null
         lightOf(scene.renderer, 1)->SwitchOff();
       }
       return scene.pass.Get();
-    } };
+    }
+  };
 }
 
 /// A picture from each point of a light.
@@ -254,16 +229,15 @@ std::vector<Drawing> drawings()
   constexpr int within = vtkGnomonShadowPass::ROUTE_INLINE;
   constexpr int image = vtkGnomonShadowPass::ROUTE_IMAGE;
   constexpr int deferred = vtkGnomonShadowPass::ROUTE_DEFERRED;
-  std::vector<Drawing> all = { byTechnique("raytraced", deferred, "edge_samples", "1"),
-    byTechnique("raytraced", deferred, "edge_samples", "16"),
-    byTechnique("msm", within, "blur", "box"), byTechnique("msm", within, "blur", "sat"),
-    byTechnique("msm", within, "mip_maps", "on") };
+  std::vector<Drawing> all = { byTechnique("raytraced", deferred, "edge_samples=1"),
+    byTechnique("raytraced", deferred, "edge_samples=16"), byTechnique("msm", within, "blur=box"),
+    byTechnique("msm", within, "blur=sat"), byTechnique("msm", within, "mip_maps=on") };
   for (const char* technique : { "nsm", "pcf", "raytraced", "planar", "montecarlo" })
   {
     const Way way{ technique, image };
     all.insert(all.end(),
       { byTechnique(technique, image), fromPoints(way, 0, 0), fromPoints(way, 2, 4),
-        byTechnique(technique, image, nullptr, nullptr, true) });
+        byTechnique(technique, image, "", true) });
   }
   for (const char* technique : { "nsm", "pcf" })
   {
@@ -271,25 +245,19 @@ std::vector<Drawing> drawings()
     all.insert(
       all.end(), { byTechnique(technique, within), fromPoints(way, 0, 0), fromPoints(way, 2, 4) });
   }
-  all.push_back(byTechnique("sampled", image, nullptr, nullptr, true));
+  all.push_back(byTechnique("sampled", image, "", true));
   return all;
 }
-class GlStateOfDrawing
-  : public PassTest
-  , public testing::WithParamInterface<Drawing>
-{
-};
+using GlStateOfDrawing = PassTestOf<Drawing>;
 INSTANTIATE_TEST_SUITE_P(All, GlStateOfDrawing, testing::ValuesIn(drawings()), byName);
 } // namespace
 
 TEST_P(GlStateOfDrawing, isChangedOnlyWherePlainVtkChangesIt)
 {
-  PassScene plain(200, 150);
-  fill(plain);
+  SunAndSpotScene plain(200, 150);
   vtkNew<ProbePass> plainProbe;
   plain.renderer->SetPass(plainProbe);
-  PassScene scene(200, 150);
-  fill(scene);
+  SunAndSpotScene scene(200, 150);
   vtkNew<ProbePass> probe;
   probe->Inner = GetParam().choose(scene);
   scene.renderer->SetPass(probe);
@@ -319,9 +287,8 @@ TEST_P(GlStateOfDrawing, isChangedOnlyWherePlainVtkChangesIt)
 
 TEST_P(GlStateOfWay, isWhatVtkRemembers)
 {
-  PassScene scene(200, 150);
-  fill(scene);
-  this->choose(scene);
+  SunAndSpotScene scene(200, 150);
+  scene.choose(GetParam());
   scene.render();
   scene.render();
   vtkOpenGLState* state = scene.window->GetState();
@@ -342,14 +309,12 @@ TEST_P(GlStateOfWay, isWhatVtkRemembers)
 
 TEST_P(GlStateOfWay, allTextureUnitsAreGivenBack)
 {
-  PassScene plain(200, 150);
-  fill(plain);
+  SunAndSpotScene plain(200, 150);
   plain.usePlain();
   plain.render();
-  const int free = freeTextureUnits(plain.window);
-  PassScene scene(200, 150);
-  fill(scene);
-  this->choose(scene);
+  const std::size_t free = freeTextureUnits(plain.window);
+  SunAndSpotScene scene(200, 150);
+  scene.choose(GetParam());
   for (int frame = 0; frame < 3; ++frame)
   {
     scene.render();
@@ -359,9 +324,8 @@ TEST_P(GlStateOfWay, allTextureUnitsAreGivenBack)
 
 TEST_P(GlStateOfWay, objectsStayTheSameInNumber)
 {
-  PassScene scene(120, 90);
-  fill(scene);
-  this->choose(scene);
+  SunAndSpotScene scene(120, 90);
+  scene.choose(GetParam());
   scene.render();
   scene.render();
   const LiveObjects live = countLiveObjects(scene.window);
@@ -380,30 +344,25 @@ TEST_P(GlStateOfWay, objectsStayTheSameInNumber)
   EXPECT_EQ(countLiveObjects(scene.window), live) << "after 20 sizes";
   for (int time = 0; time < 20; ++time)
   {
-    scene.usePlain();
-    scene.render();
-    scene.useGnomon();
+    scene.renderPlain();
     scene.render();
   }
   const LiveObjects toggled = countLiveObjects(scene.window);
   EXPECT_TRUE(toggled.sameButPrograms(live)) << toggled << " after the pass was off and on";
   // Plain VTK's own programs have been added to those with the hook; no more follow.
-  scene.usePlain();
-  scene.render();
-  scene.useGnomon();
+  scene.renderPlain();
   scene.render();
   EXPECT_EQ(countLiveObjects(scene.window), toggled);
 }
 
 TEST_P(GlStateOfWay, releaseGivesEverythingBack)
 {
-  PassScene scene(120, 90);
-  fill(scene);
+  SunAndSpotScene scene(120, 90);
   scene.usePlain();
   scene.render();
   const LiveObjects plain = countLiveObjects(scene.window);
   scene.useGnomon();
-  this->choose(scene);
+  scene.choose(GetParam());
   const Picture picture = scene.render();
   EXPECT_FALSE(countLiveObjects(scene.window).sameButPrograms(plain));
   scene.pass->ReleaseGraphicsResources(scene.window);
@@ -416,8 +375,7 @@ TEST_P(GlStateOfWay, releaseGivesEverythingBack)
 
 TEST_P(GlStateOfWay, passMayDieBeforeItsWindow)
 {
-  PassScene scene(120, 90);
-  fill(scene);
+  SunAndSpotScene scene(120, 90);
   scene.usePlain();
   scene.render();
   const LiveObjects plain = countLiveObjects(scene.window);
@@ -436,8 +394,7 @@ TEST_P(GlStateOfWay, passMayDieBeforeItsWindow)
 TEST_P(GlStateOfWay, passMayDieWhileAnotherWindowIsDrawn)
 {
   PassScene a(120, 90);
-  PassScene b(120, 90);
-  fill(b);
+  SunAndSpotScene b(120, 90);
   b.usePlain();
   const Picture plain = b.render();
   // Both windows draw the same actor; its mapper refers to the pass until drawn without it.
@@ -465,13 +422,11 @@ TEST_P(GlStateOfWay, passMayOutliveItsWindow)
   gnomon::test::choose(pass, GetParam());
   Picture first;
   {
-    PassScene scene(120, 90);
-    fill(scene);
+    SunAndSpotScene scene(120, 90);
     scene.renderer->SetPass(pass);
     first = scene.render();
   }
-  PassScene second(120, 90);
-  fill(second);
+  SunAndSpotScene second(120, 90);
   second.renderer->SetPass(pass);
   EXPECT_EQ(differingPixels(first, second.render()), 0u);
   EXPECT_EQ(pass->GetReport().surfacesExtracted, 2);
@@ -479,38 +434,22 @@ TEST_P(GlStateOfWay, passMayOutliveItsWindow)
 
 TEST_P(GlStateOfWay, withoutFreeTextureUnitsTheSceneIsDrawnWithoutShadows)
 {
-  PassScene scene(120, 90);
-  fill(scene);
-  this->choose(scene);
+  SunAndSpotScene scene(120, 90);
+  scene.choose(GetParam());
   const bool fetches = GetParam().route != vtkGnomonShadowPass::ROUTE_INLINE;
   if (fetches)
   {
     scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE); // the deferred route needs no unit
   }
-  scene.usePlain();
-  const Picture plain = scene.render();
-  scene.useGnomon();
+  const Picture plain = scene.renderPlain();
 
-  vtkTextureUnitManager* manager = scene.window->GetState()->GetTextureUnitManager();
-  std::vector<int> taken;
-  for (int unit = manager->Allocate(); unit >= 0; unit = manager->Allocate())
+  const std::size_t free = freeTextureUnits(scene.window);
   {
-    taken.push_back(unit);
+    TakenUnits taken(scene.window);
+    taken.giveBack(fetches ? 0 : 1); // not enough for two maps; a layer texture needs one
+    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("no texture unit is left"));
   }
-  manager->Free(taken.back()); // one unit is not enough for two maps
-  taken.pop_back();
-  if (fetches)
-  {
-    EXPECT_EQ(
-      manager->Allocate(), static_cast<int>(taken.size())); // and one layer texture needs one
-    taken.push_back(static_cast<int>(taken.size()));
-  }
-  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-  EXPECT_THAT(this->takeErrors(), HasSubstr("no texture unit is left"));
-  for (const int unit : taken)
-  {
-    manager->Free(unit);
-  }
-  EXPECT_EQ(freeTextureUnits(scene.window), static_cast<int>(taken.size()) + (fetches ? 0 : 1));
+  EXPECT_EQ(freeTextureUnits(scene.window), free);
   EXPECT_GT(differingPixels(plain, scene.render()), 100u) << "no shadow in the next frame";
 }

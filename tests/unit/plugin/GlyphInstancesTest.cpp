@@ -17,9 +17,7 @@ namespace
 constexpr int glyphCount = 3400;
 
 /// Glyphs in a slab over a floor, with an array for every setting of the mapper, under a sun.
-class GlyphInstances
-  : public PassTest
-  , public testing::WithParamInterface<Way>
+class GlyphInstances : public PassTestOf<Way>
 {
 protected:
   GlyphInstances()
@@ -90,11 +88,8 @@ protected:
   /// Expect some of the picture to be dark, but not all.
   void expectShadows(const Picture& picture)
   {
-    std::size_t dark = 0;
-    for (std::size_t i = 0; i < picture.pixels(); ++i)
-    {
-      dark += picture.rgb[3 * i] == 0 ? 1 : 0;
-    }
+    const std::size_t dark =
+      countPixels(picture, [&](int x, int y) { return picture.red(x, y) == 0; });
     EXPECT_GT(dark, picture.pixels() / 10);
     EXPECT_LT(dark, 9 * picture.pixels() / 10);
   }
@@ -133,10 +128,7 @@ TEST_P(GlyphInstances, showTheSameAsTheirTriangles)
 TEST_P(GlyphInstances, ofSeveralSourcesAreSurfacesOfTheirOwn)
 {
   this->cup->SetThetaResolution(24);
-  vtkNew<vtkSphereSource> ball;
-  ball->SetThetaResolution(16);
-  ball->SetPhiResolution(8);
-  ball->SetCenter(0.3, 0.0, 100.0); // far from its origin, in the source's units
+  const auto ball = ballOf({ 0.3, 0.0, 100.0 }, 0.5, 16, 8); // far from its origin, in its units
   this->mapper->SetSourceConnection(1, ball->GetOutputPort());
   this->mapper->SourceIndexingOn();
   this->mapper->SetSourceIndexArray("sources");
@@ -160,18 +152,8 @@ TEST_P(GlyphInstances, mirroredAndOneSided)
 TEST_P(GlyphInstances, withHolesAreSeenThrough)
 {
   // A third of each row is opaque, shifted in every row, so any shift is noticed.
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(9, 5, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  for (int i = 0; i < 9 * 5; ++i)
-  {
-    const int alpha = (i % 9 + 2 * (i / 9)) % 3 == 0 ? 255 : 0;
-    auto* texel = static_cast<unsigned char*>(image->GetScalarPointer(i % 9, i / 9, 0));
-    std::fill_n(texel, 3, static_cast<unsigned char>(255));
-    texel[3] = static_cast<unsigned char>(alpha);
-  }
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(image);
+  const auto texture =
+    textureOf(makeVeil(9, 5, [](int x, int y) { return (x + 2 * y) % 3 == 0 ? 255 : 0; }));
   vtkNew<vtkFloatArray> coordinates;
   coordinates->SetNumberOfComponents(2);
   vtkPolyData* source = this->cup->GetOutput();

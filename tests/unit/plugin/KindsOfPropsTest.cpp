@@ -18,9 +18,7 @@ bool isAnnotation(const std::string& name)
   return name == "text" || name == "axes" || name == "annotated cube";
 }
 
-class KindsOfProps
-  : public PassTest
-  , public testing::WithParamInterface<const char*>
+class KindsOfProps : public PassTestOf<const char*>
 {
 protected:
   /// The colour under ambient light alone.
@@ -42,19 +40,20 @@ protected:
 
   Shown draw()
   {
-    this->scene.window->Render();
+    const Picture picture = this->scene.render();
     Shown shown;
-    const Picture picture = readPicture(this->scene.window);
-    for (int y = 0; y < picture.height; ++y)
-    {
-      for (int x = 0; x < picture.width; ++x)
+    shown.darkGround = countPixels(picture,
+      [&](int x, int y)
+      {
+        const glm::ivec3 off = glm::abs(picture.at(x, y) - darkGroundColour);
+        return std::max({ off.r, off.g, off.b }) <= 1;
+      });
+    shown.brightPixels = countPixels(picture,
+      [&](int x, int y)
       {
         const glm::ivec3 colour = picture.at(x, y);
-        const glm::ivec3 off = glm::abs(colour - darkGroundColour);
-        shown.darkGround += std::max({ off.r, off.g, off.b }) <= 1 ? 1 : 0;
-        shown.brightPixels += std::max({ colour.r, colour.g, colour.b }) > 60 ? 1 : 0;
-      }
-    }
+        return std::max({ colour.r, colour.g, colour.b }) > 60;
+      });
     for (const std::string& note : this->scene.pass->GetReport().notes)
     {
       shown.leftOut += note.find("neither cast") != std::string::npos ? note + "\n" : "";
@@ -83,10 +82,8 @@ protected:
   BuiltinPass scene{ "props", 320 };
 };
 
-INSTANTIATE_TEST_SUITE_P(By, KindsOfProps,
-  testing::Values("nsm", "silhouette", "raytraced", "penumbra"),
-  [](const testing::TestParamInfo<const char*>& technique)
-  { return std::string(technique.param); });
+INSTANTIATE_TEST_SUITE_P(
+  By, KindsOfProps, testing::Values("nsm", "silhouette", "raytraced", "penumbra"), byText);
 
 } // namespace
 
@@ -106,15 +103,8 @@ TEST_P(KindsOfProps, castOrAreListed)
 /// A plate hides the sun from everything and nothing from the camera.
 TEST_P(KindsOfProps, receiveOrAreListed)
 {
-  vtkNew<vtkPlaneSource> plate;
-  plate->SetOrigin(-40.0, 20.0, -40.0);
-  plate->SetPoint1(40.0, 20.0, -40.0);
-  plate->SetPoint2(-40.0, 20.0, 40.0);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(plate->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  this->scene.renderer->AddActor(actor);
+  this->scene.renderer->AddActor(actorOf(
+    mapperOf(planeOf({ -40.0, 20.0, -40.0 }, { 40.0, 20.0, -40.0 }, { -40.0, 20.0, 40.0 }))));
   this->scene.renderer->SetBackground(0.0, 0.0, 0.0);
   const Shown all = this->draw();
   this->hideEach(

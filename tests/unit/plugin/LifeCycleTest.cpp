@@ -34,15 +34,14 @@ double residentMegabytes()
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-void fillWithSunAndSpot(PassScene& scene)
+struct SmallScene : SunAndSpotScene
 {
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSun({ 1.0, 0.3, -1.5 });
-  scene.addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  scene.pass->SetMapSize(128);
-}
+  SmallScene()
+    : SunAndSpotScene(40, 30)
+  {
+    this->pass->SetMapSize(128);
+  }
+};
 
 /// Objects and memory left by many repetitions.
 struct LeftBehind
@@ -97,20 +96,13 @@ void expectNoMoreThanPlainVtk(const LeftBehind& left, const LeftBehind& plain)
   EXPECT_LT(left.growthMegabytes - plain.growthMegabytes, mostGrowthMegabytes);
 }
 
-class LifeCycle
-  : public PassTest
-  , public testing::WithParamInterface<Way>
+class LifeCycle : public PassTestOf<Way>
 {
 protected:
-  LifeCycle()
-    : scene_(40, 30)
-  {
-    fillWithSunAndSpot(this->scene_);
-    this->scene_.choose(GetParam());
-  }
+  LifeCycle() { this->scene_.choose(GetParam()); }
   void draw() { this->scene_.window->Render(); }
 
-  PassScene scene_;
+  SmallScene scene_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, LifeCycle, fewWays, nameOf);
@@ -197,8 +189,7 @@ TEST_P(LifeCycle, passSwitchedAndWindowResizedManyTimes)
 
 TEST_P(LifeCycle, passMovedToAnotherWindowAndBackManyTimes)
 {
-  PassScene other(40, 30);
-  fillWithSunAndSpot(other);
+  SmallScene other;
   const Picture picture = this->scene_.render();
   expectNothingLeftBehind(repeat(this->scene_.window, 100,
     [&](int)
@@ -240,8 +231,7 @@ TEST_P(LifeCycle, lightSamplingReleasesEverything)
   sampling->SetSamples(4);
   for (int time = 0; time < 3; ++time)
   {
-    PassScene other(40, 30);
-    fillWithSunAndSpot(other);
+    SmallScene other;
     set(lightOf(other.renderer, 1), "light_radius", "0.5");
     other.choose(GetParam());
     sampling->SetDelegatePass(other.pass);

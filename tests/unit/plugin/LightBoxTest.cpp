@@ -11,16 +11,8 @@ using testing::HasSubstr;
 namespace
 {
 
-struct Caster
-{
-  glm::dvec3 lower;
-  glm::dvec3 upper;
-};
-
 /// A light at 45 degrees along +x over a floor, whose box begins around (-3, 0, 3).
-class LightBox
-  : public PassTest
-  , public testing::WithParamInterface<Way>
+class LightBox : public PassTestOf<Way>
 {
 protected:
   static constexpr double width = 3.0;
@@ -39,7 +31,7 @@ protected:
     this->light->SetFocalPoint(0.0, 0.0, 0.0);
   }
 
-  void addCaster(const Caster& caster)
+  void addCaster(const Box& caster)
   {
     this->scene.addBox(caster.lower, caster.upper);
     this->casters.push_back(caster);
@@ -50,11 +42,9 @@ protected:
   {
     return [this, depth](const glm::dvec2& floor)
     {
-      for (const Caster& caster : this->casters)
+      for (const Box& caster : this->casters)
       {
-        const glm::dvec2 middle = 0.5 * (glm::dvec2(caster.lower) + glm::dvec2(caster.upper));
-        const glm::dvec2 reach = glm::dvec2(caster.upper) - middle + 0.05;
-        if (std::abs(floor.x - middle.x) < reach.x && std::abs(floor.y - middle.y) < reach.y)
+        if (isUnder(floor, { caster.lower - 0.05, caster.upper + 0.05 }))
         {
           return -1.0;
         }
@@ -65,36 +55,15 @@ protected:
       const bool inBox =
         along <= depth && std::abs(across) <= 0.5 * width && std::abs(floor.y) <= 0.5 * height;
       const bool shadow = std::any_of(this->casters.begin(), this->casters.end(),
-        [&](const Caster& caster) { return this->blocks(caster, floor, along); });
+        [&](const Box& caster)
+        { return hitsBox(floor, -this->travel, caster.lower, caster.upper, along); });
       return inBox && !shadow ? 180.0 : 0.0; // 255 times the cosine of 45 degrees
     };
   }
 
-  /// True if the segment from the floor to the near face, `length` long, meets a caster.
-  bool blocks(const Caster& caster, const glm::dvec2& floor, double length) const
-  {
-    double first = 0.0;
-    double last = length;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double origin = glm::dvec3(floor, 0.0)[axis];
-      const double slope = -this->travel[axis];
-      if (slope == 0.0)
-      {
-        first = origin < caster.lower[axis] || origin > caster.upper[axis] ? 1e9 : first;
-        continue;
-      }
-      const double a = (caster.lower[axis] - origin) / slope;
-      const double b = (caster.upper[axis] - origin) / slope;
-      first = std::max(first, std::min(a, b));
-      last = std::min(last, std::max(a, b));
-    }
-    return first <= last;
-  }
-
   PassScene scene{ 300, 300 };
   vtkLight* light;
-  std::vector<Caster> casters;
+  std::vector<Box> casters;
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, LightBox, allWays, nameOf);

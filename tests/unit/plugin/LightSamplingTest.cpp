@@ -152,7 +152,7 @@ protected:
     point->DeepCopy(this->light);
     point->SetTransformMatrix(nullptr);
     point->SetLightTypeToSceneLight();
-    vtkGnomonLightKeys::SetSetting(point, "light_radius", "0");
+    set(point, "light_radius", "0");
     this->scene.renderer->RemoveLight(this->light);
     this->scene.renderer->AddLight(point);
     const std::vector<glm::dvec3> offsets = gnomon::pairedLightSamples(area);
@@ -555,11 +555,11 @@ TEST_F(LightSampling, refusesWhatItCannotShow)
   EXPECT_EQ(this->sampling->GetProgress(), 1.0) << "there is nothing to wait for";
   this->scene.renderer->PreserveDepthBufferOff();
 
-  vtkGnomonLightKeys::SetSetting(this->light, "light_sampling", "jittered");
+  set(this->light, "light_sampling", "jittered");
   EXPECT_EQ(differingPixels(this->scene.render(), centre), 0u);
   EXPECT_THAT(this->takeErrors(),
     testing::AllOf(HasSubstr("light 0"), HasSubstr("opposite pairs"), HasSubstr("sobol")));
-  vtkGnomonLightKeys::SetSetting(this->light, "light_sampling", "random");
+  set(this->light, "light_sampling", "random");
   EXPECT_GT(differingPixels(this->scene.render(), centre, 10), 100u);
   EXPECT_EQ(this->takeErrors(), "");
 }

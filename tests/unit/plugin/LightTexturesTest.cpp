@@ -52,9 +52,7 @@ protected:
     this->lamp->SetWidth(2.0);
     this->lamp->SetHeight(2.0);
     this->scene.renderer->AddLight(this->lamp);
-    this->scene.set("light_samples", "256");
-    this->scene.set("mc_rays", "10");
-    this->scene.set("mc_filter", "0");
+    this->scene.choose("light_samples=256 mc_rays=10 mc_filter=0");
     this->scene.lookDown(1.2);
   }
 
@@ -79,8 +77,7 @@ protected:
 
   const VisibilityImages& draw(const std::string& technique)
   {
-    this->scene.pass->SetTechnique(technique.c_str());
-    return drawKept(this->scene);
+    return drawKept(this->scene, technique.c_str());
   }
 
   /// Expect visibility to equal `expected` at the places of all pixels of the floor.
@@ -237,8 +234,7 @@ TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
 TEST_F(LightTextures, areFilteredAsLightIsWithout)
 {
   this->buildScene();
-  this->scene.set("mc_rays", "3");
-  this->scene.set("mc_filter", "5");
+  this->scene.choose("mc_rays=3 mc_filter=5");
   const VisibilityImages plain = this->draw("montecarlo");
   this->lamp->SetTexture(makeImage(1, 1, [](int, int) { return Colour{ 0.2, 0.6, 0.0 }; }));
   const VisibilityImages& kept = this->draw("montecarlo");
@@ -260,8 +256,7 @@ TEST_F(LightTextures, ofPointsStandBesideOtherHardLights)
   this->lamp->SetHeight(0.0);
   this->scene.addSun({ 0.3, 0.0, -1.0 })->SetIntensity(0.3);
   this->scene.addSun({ -0.3, 0.2, -1.0 })->SetIntensity(0.3);
-  this->scene.pass->SetTechnique("raytraced");
-  const Picture picture = this->scene.render();
+  const Picture picture = this->scene.render("raytraced");
   EXPECT_EQ(this->scene.report().route, "image");
   EXPECT_GT(picture.at(5, 5).r, picture.at(5, 5).g + 20) << "the texture's mean has no green";
   const VisibilityImages& kept = drawKept(this->scene);
@@ -349,8 +344,7 @@ TEST_F(LightTextures, colourTranslucentSurfaces)
   this->floor->GetProperty()->SetOpacity(0.999);
   for (const char* technique : seeing)
   {
-    this->scene.pass->SetTechnique(technique);
-    const glm::ivec3 pixel = this->scene.render().at(24, 18);
+    const glm::ivec3 pixel = this->scene.render(technique).at(24, 18);
     EXPECT_NEAR(pixel.g, 0.6 * pixel.r, 2.0) << technique;
     EXPECT_NEAR(pixel.b, 0.2 * pixel.r, 2.0) << technique;
     EXPECT_GT(pixel.r, 200) << technique;

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "lights/vtkGnomonVersions.h"
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkTextureUnitManager.h>
 
+#include <cstddef>
 #include <ostream>
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkRenderWindow;
-VTK_ABI_NAMESPACE_END
+#include <vector>
 
 namespace gnomon::test
 {
@@ -39,5 +39,29 @@ std::ostream& operator<<(std::ostream& stream, const LiveObjects& live);
 
 /// Count the live objects of a window's context, which is current afterwards.
 LiveObjects countLiveObjects(vtkRenderWindow* window);
+
+/// Takes all texture units that VTK's manager can still give, and gives them back.
+struct TakenUnits
+{
+  explicit TakenUnits(vtkOpenGLRenderWindow* window)
+    : manager(window->GetState()->GetTextureUnitManager())
+  {
+    for (int unit = this->manager->Allocate(); unit >= 0; unit = this->manager->Allocate())
+    {
+      this->units.push_back(unit);
+    }
+  }
+  ~TakenUnits() { this->giveBack(this->units.size()); }
+  void giveBack(std::size_t count)
+  {
+    for (; count > 0; --count, this->units.pop_back())
+    {
+      this->manager->Free(this->units.back());
+    }
+  }
+
+  vtkTextureUnitManager* manager;
+  std::vector<int> units;
+};
 
 } // namespace gnomon::test

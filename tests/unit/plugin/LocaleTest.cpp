@@ -17,9 +17,7 @@ struct Commas : std::numpunct<char>
   std::string do_grouping() const override { return "\3"; }
 };
 
-class UnderALocaleWithCommas
-  : public PassTest
-  , public testing::WithParamInterface<Variant>
+class UnderALocaleWithCommas : public PassTestOf<Variant>
 {
 protected:
   UnderALocaleWithCommas()
@@ -34,11 +32,7 @@ private:
 
 TEST_P(UnderALocaleWithCommas, shadersCompile)
 {
-  PassScene scene(32, 24);
-  scene.addFloor(20.0);
-  scene.addBox(hangingBox.lower, hangingBox.upper);
-  scene.lookFrom({ 4.0, -9.0, 7.0 });
-  scene.addSun(slantingSun);
+  BoxScene scene(32, 24);
   scene.addSpot({ 3.0, 2.0, 9.0 }, { 0.0, 0.0, 0.0 }, 30.0);
   if (GetParam().takesCubes())
   {

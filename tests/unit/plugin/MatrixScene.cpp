@@ -39,11 +39,7 @@ vtkSmartPointer<vtkUnsignedCharArray> makeColours(vtkIdType count)
 /// cells.
 vtkSmartPointer<vtkPolyData> makeBall(double x, double radius)
 {
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetCenter(x, 0.0, radius);
-  sphere->SetRadius(radius);
-  sphere->SetThetaResolution(24);
-  sphere->SetPhiResolution(12);
+  const auto sphere = ballOf({ x, 0.0, radius }, radius, 24, 12);
   sphere->SetStartPhi(45.0);
   sphere->SetEndPhi(135.0);
   vtkNew<vtkTextureMapToSphere> textured;
@@ -55,23 +51,9 @@ vtkSmartPointer<vtkPolyData> makeBall(double x, double radius)
   return ball;
 }
 
-vtkSmartPointer<vtkActor> actorWith(vtkMapper* mapper)
-{
-  const auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  return actor;
-}
-
-vtkSmartPointer<vtkPolyDataMapper> mapperOf(vtkPolyData* data)
-{
-  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
-  mapper->SetInputData(data);
-  return mapper;
-}
-
 vtkSmartPointer<vtkActor> makePolygons(vtkRenderer*)
 {
-  return actorWith(mapperOf(makeBall(0.0, 1.2)));
+  return actorOf(mapperOf(makeBall(0.0, 1.2)));
 }
 
 vtkSmartPointer<vtkActor> makeStrips(vtkRenderer*)
@@ -80,17 +62,14 @@ vtkSmartPointer<vtkActor> makeStrips(vtkRenderer*)
   stripper->SetInputData(makeBall(0.0, 1.2));
   stripper->PassCellDataAsFieldDataOn();
   stripper->Update();
-  return actorWith(mapperOf(stripper->GetOutput()));
+  return actorOf(mapperOf(stripper->GetOutput()));
 }
 
 vtkSmartPointer<vtkActor> makeComposite(vtkRenderer*)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, makeBall(-1.0, 0.9));
-  blocks->SetBlock(1, makeBall(1.0, 0.9));
   vtkNew<SharedBlocksMapper> mapper;
-  mapper->SetInputDataObject(blocks);
-  return actorWith(mapper);
+  mapper->SetInputDataObject(blocksOf({ makeBall(-1.0, 0.9), makeBall(1.0, 0.9) }));
+  return actorOf(mapper);
 }
 
 vtkSmartPointer<vtkActor> makeGlyphs(vtkRenderer*)
@@ -112,13 +91,12 @@ vtkSmartPointer<vtkActor> makeGlyphs(vtkRenderer*)
   mapper->SetSourceData(makeBall(0.0, 0.9));
   mapper->SetScaleArray("sizes");
   mapper->SetScaleModeToScaleByMagnitude();
-  return actorWith(mapper);
+  return actorOf(mapper);
 }
 
 vtkSmartPointer<vtkActor> makeFollower(vtkRenderer* renderer)
 {
-  const auto follower = vtkSmartPointer<vtkFollower>::New();
-  follower->SetMapper(mapperOf(makeBall(0.0, 1.0)));
+  const auto follower = actorOf<vtkFollower>(mapperOf(makeBall(0.0, 1.0)));
   follower->SetPosition(0.0, 0.0, 1.0);
   follower->SetCamera(renderer->GetActiveCamera());
   return follower;
@@ -126,9 +104,7 @@ vtkSmartPointer<vtkActor> makeFollower(vtkRenderer* renderer)
 
 vtkSmartPointer<vtkActor> makeLevels(vtkRenderer*)
 {
-  const auto actor = vtkSmartPointer<vtkLODActor>::New();
-  actor->SetMapper(mapperOf(makeBall(0.0, 1.2)));
-  return actor;
+  return actorOf<vtkLODActor>(mapperOf(makeBall(0.0, 1.2)));
 }
 
 vtkSmartPointer<vtkActor> makeCulledGlyphs(vtkRenderer* renderer)
@@ -154,9 +130,7 @@ vtkSmartPointer<vtkTexture> makeTexture()
     static_cast<unsigned char*>(image->GetScalarPointer())[i] =
       static_cast<unsigned char>(120 + (i * 37) % 130);
   }
-  const auto texture = vtkSmartPointer<vtkTexture>::New();
-  texture->SetInputData(image);
-  return texture;
+  return textureOf(image);
 }
 
 void shadePhysically(vtkActor* actor)

@@ -37,9 +37,7 @@ std::pair<double, double> expectedChannel(int unlit, int lit, double visibility,
   return { shown - tolerance, clamped ? 255.0 : shown + tolerance };
 }
 
-class Matrix
-  : public PassTest
-  , public testing::WithParamInterface<std::tuple<std::size_t, std::size_t>>
+class Matrix : public PassTestOf<std::tuple<std::size_t, std::size_t>>
 {
 protected:
   /// Four pictures of one view: as VTK draws it, without the light, the technique's visibility of
@@ -86,20 +84,11 @@ protected:
   /// True if all samples of a pixel have its visibility.
   static bool isUniform(const View& view, int x, int y)
   {
+    const glm::ivec2 size(view.lit.width, view.lit.height);
     const auto at = [&](int column, int row)
-    { return view.visibility.at(static_cast<std::size_t>(row * view.lit.width + column)); };
-    for (int row = y - 1; row <= y + 1; ++row)
-    {
-      for (int column = x - 1; column <= x + 1; ++column)
-      {
-        if (row < 0 || row >= view.lit.height || column < 0 || column >= view.lit.width ||
-          at(column, row) != at(x, y))
-        {
-          return false;
-        }
-      }
-    }
-    return true;
+    { return view.visibility.at(static_cast<std::size_t>(row * size.x + column)); };
+    return x > 0 && y > 0 && x + 1 < size.x && y + 1 < size.y &&
+      holdsAround(size, x, y, 1, [&](int column, int row) { return at(column, row) == at(x, y); });
   }
 
   /// True if a pixel of the picture shows this visibility.
@@ -209,12 +198,7 @@ TEST_P(Matrix, pictureShowsTheVisibilityThatIsKept)
       visibilities.push_back(this->check(window, added, ways.at(way)));
     }
     // The map's visibility equals the ray-traced one, except at shadows' edges.
-    std::size_t different = 0;
-    for (std::size_t k = 0; k < visibilities[0].size(); ++k)
-    {
-      different += visibilities[0][k] != visibilities[2][k] ? 1 : 0;
-    }
-    EXPECT_LE(different, visibilities[0].size() / 50);
+    EXPECT_LE(countDifferences(visibilities[0], visibilities[2]), visibilities[0].size() / 50);
   }
 }
 

@@ -8,8 +8,6 @@ namespace gnomon::test
 namespace
 {
 
-using SettingList = std::vector<std::pair<const char*, const char*>>;
-
 /// Expect each pixel's class to agree with its decision, and the classes' counts with the pixels.
 void expectClassesOfPixels(
   const VisibilityImages& kept, const std::vector<ClassCount>& counted, vtkLight* light)
@@ -80,12 +78,7 @@ protected:
     this->lamp->SetHeight(size);
   }
 
-  /// The first actor is the floor.
-  void stopFloorFromCasting()
-  {
-    vtkGnomonPropKeys::SetCasts(
-      vtkActor::SafeDownCast(this->scene.renderer->GetActors()->GetItemAsObject(0)), false);
-  }
+  void stopFloorFromCasting() { vtkGnomonPropKeys::SetCasts(this->scene.floor(), false); }
 
   /// A plate over a floor that casts nothing, seen from above. It ends at x = 0, and its shadow
   /// ends around x = 1.
@@ -100,24 +93,10 @@ protected:
   /// Return the visible share of that lamp: its side is 2, at height 10, the plate's height 2.
   static double halfPlaneAt(double x) { return std::clamp(0.5 + 2.0 * (x - 1.0), 0.0, 1.0); }
 
-  const VisibilityImages& draw(const char* technique, const SettingList& settings)
-  {
-    this->scene.pass->SetTechnique(technique);
-    for (const auto& [name, value] : settings)
-    {
-      this->scene.set(name, value);
-    }
-    return drawKept(this->scene);
-  }
-  std::vector<float> visibility(const char* technique, const SettingList& settings)
-  {
-    return this->draw(technique, settings).visibility.at(0);
-  }
   /// The truth by rays to many points.
   std::vector<float> fineTruth()
   {
-    return this->visibility(
-      "raytraced", { { "light_sampling", "sobol" }, { "light_samples", "1024" } });
+    return this->scene.visibilityBy("raytraced light_sampling=sobol light_samples=1024");
   }
 
   PassScene scene{ 160, 120 };
@@ -147,14 +126,14 @@ TEST_F(MonteCarlo, hasThePenumbraOfAHalfPlane)
   for (const int rays : { 1, 2, 3, 4, 8 })
   {
     this->scene.set("mc_rays", rays);
-    const double rms = rmsOf(this->draw("montecarlo", { { "mc_filter", "0" } }));
+    const double rms = rmsOf(drawKept(this->scene, "montecarlo mc_filter=0"));
     EXPECT_EQ(this->scene.report().lights[0].lightSamples, rays * rays);
     const double expected = std::sqrt(1.0 / (6.0 * rays * rays * rays));
     EXPECT_NEAR(rms, expected, 0.05 * expected) << rays;
   }
   // Random rays of `raytraced`, without the grid: sqrt(1 / 54) is expected, and 0.135 specified.
   const double random =
-    rmsOf(this->draw("raytraced", { { "light_sampling", "random" }, { "light_samples", "9" } }));
+    rmsOf(drawKept(this->scene, "raytraced light_sampling=random light_samples=9"));
   EXPECT_NEAR(random, 0.135, 0.05 * 0.135);
 }
 
@@ -163,23 +142,22 @@ TEST_F(MonteCarlo, decidesByBoundsWhatRaysWouldSay)
   this->buildScene();
   this->scene.addBox({ -3.5, 0.0, 1.0 }, { -1.5, 3.0, 2.0 });
   this->stopFloorFromCasting();
-  for (const char* layers : { "peeled", "near_far", "near" })
+  this->scene.choose("montecarlo mc_filter=0");
+  for (const char* layers : { "mc_layers=peeled", "mc_layers=near_far", "mc_layers=near" })
   {
-    const SettingList settings = { { "mc_filter", "0" }, { "mc_layers", layers } };
-    this->draw("montecarlo", settings);
-    this->scene.pass->SetSetting("mc_classify", "off");
-    const std::vector<float> searched = this->visibility("montecarlo", {});
+    this->scene.render(layers);
+    const std::vector<float> searched = this->scene.visibilityBy("mc_classify=off");
     std::int64_t searches = 0;
-    for (const char* classify : { "off", "pixels", "rays" })
+    for (const char* classify : { "mc_classify=off", "mc_classify=pixels", "mc_classify=rays" })
     {
-      const VisibilityImages& kept = this->draw("montecarlo", { { "mc_classify", classify } });
+      const VisibilityImages& kept = drawKept(this->scene, classify);
       // Rays that are cut elsewhere end elsewhere, by rounding.
       EXPECT_LE(countDifferences(kept.visibility[0], searched), searched.size() / 10000)
         << classify;
       const auto& classes = this->scene.report().lights[0].classes;
       ASSERT_EQ(classes.size(), 6u);
       expectClassesOfPixels(kept, classes, this->lamp);
-      const bool off = classify == std::string("off");
+      const bool off = classify == std::string("mc_classify=off");
       EXPECT_EQ(classes[2].pixels > 0, !off) << "lit by bounds";
       EXPECT_EQ(classes[3].pixels > 0, !off) << "in shadow by bounds";
       EXPECT_TRUE(off || classes[5].pixels < searches) << "each saves searches";
@@ -194,13 +172,12 @@ TEST_F(MonteCarlo, decidesGroundsThatCast)
 {
   this->scene.addThings();
   this->scene.addBox({ 1.5, -2.5, 0.0 }, { 2.0, -2.0, 0.02 }); // rises by a texel
-  this->scene.set("mc_filter", 0);
-  this->scene.pass->SetMapSize(512);
+  this->scene.choose("mc_filter=0 map_size=512");
   /// @param share the least number of pixels that bounds light, over that of pixels left to rays
   const auto expectDecided = [&](const std::string& what, double share)
   {
-    const VisibilityImages searched = this->draw("montecarlo", { { "mc_classify", "off" } });
-    const VisibilityImages& kept = this->draw("montecarlo", { { "mc_classify", "rays" } });
+    const VisibilityImages searched = drawKept(this->scene, "montecarlo mc_classify=off");
+    const VisibilityImages& kept = drawKept(this->scene, "montecarlo mc_classify=rays");
     EXPECT_EQ(kept.visibility.size(), searched.visibility.size());
     for (std::size_t channel = 0; channel < kept.visibility.size(); ++channel)
     {
@@ -243,8 +220,8 @@ TEST_F(MonteCarlo, findsTheSameByBothNamesOfThePyramid)
 {
   this->scene.window->SetSize(120, 90);
   this->buildScene();
-  EXPECT_EQ(this->visibility("montecarlo", { { "mc_pyramid", "mips" } }),
-    this->visibility("montecarlo", { { "mc_pyramid", "nbuffer" } }));
+  EXPECT_EQ(this->scene.visibilityBy("montecarlo mc_pyramid=mips"),
+    this->scene.visibilityBy("montecarlo mc_pyramid=nbuffer"));
 }
 
 TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
@@ -255,11 +232,10 @@ TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
   this->scene.addBox({ -0.1, -0.1, 0.0 }, { 0.1, 0.1, 4.0 });
   this->scene.lookFrom({ 0.0, -4.0, 3.0 });
   this->scene.addSun({ 0.0, 0.0, -1.0 });
-  const SettingList settings = { { "light_radius", "12" }, { "mc_filter", "0" } };
-  this->draw("montecarlo", settings);
+  this->scene.choose("montecarlo light_radius=12 mc_filter=0");
   const std::vector<float> truth =
-    this->visibility("raytraced", { { "light_sampling", "jittered" }, { "light_samples", "9" } });
-  const VisibilityImages& kept = this->draw("montecarlo", {});
+    this->scene.visibilityBy("raytraced light_sampling=jittered light_samples=9");
+  const VisibilityImages& kept = drawKept(this->scene, "montecarlo");
   // Count the floor alone: rounding decides whether sides parallel to the light face it.
   const double onFloor = meanErrorWhere(
     kept, truth, [](const glm::dvec3& at, float v) { return v < 1.0f && std::abs(at.z) < 1e-3; },
@@ -271,33 +247,23 @@ TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
 /// triangle that rises from the receiver's own.
 TEST_F(MonteCarlo, smoothMeshesHaveNoDarkSpecks)
 {
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-2.0, -2.0, 0.0);
-  plane->SetPoint1(2.0, -2.0, 0.0);
-  plane->SetPoint2(-2.0, 2.0, 0.0);
-  plane->SetResolution(120, 120);
-  plane->Update();
-  vtkPolyData* const hills = plane->GetOutput();
-  for (vtkIdType i = 0; i < hills->GetNumberOfPoints(); ++i)
-  {
-    double point[3];
-    hills->GetPoint(i, point);
-    point[2] = 0.03 * std::sin(7.0 * point[0]) * std::sin(5.0 * point[1]);
-    hills->GetPoints()->SetPoint(i, point);
-  }
-  this->scene.add(hills);
+  const auto hills = copyOf(squareOf(2.0, 0.0, 120));
+  movePoints(hills,
+    [](const glm::dvec3& at)
+    { return at + glm::dvec3(0.0, 0.0, 0.03 * std::sin(7.0 * at.x) * std::sin(5.0 * at.y)); });
+  this->scene.add(hills.Get());
   this->scene.lookDown(2.0, 0.0, 0.0);
   for (const double turn : { 0.0, 0.3 }) // of the mesh's rows to the map's
   {
     this->scene.renderer->RemoveAllLights();
     this->scene.addSun(glm::dvec3(turn, 0.1, -2.0));
-    for (const char* size : { "64", "128", "256" })
+    this->scene.choose("montecarlo mc_filter=0 light_radius=1");
+    for (const char* size : { "map_size=64", "map_size=128", "map_size=256" })
     {
-      const std::vector<float> seen = this->visibility(
-        "montecarlo", { { "mc_filter", "0" }, { "light_radius", "1" }, { "map_size", size } });
+      const std::vector<float> seen = this->scene.visibilityBy(size);
       // Without the correction 8 to 107 dark pixels; with it one pixel in two of the pictures.
       EXPECT_LE(std::count_if(seen.begin(), seen.end(), [](float v) { return v < 1.0f; }), 2)
-        << size << " texels, " << turn;
+        << size << ", " << turn;
       EXPECT_EQ(this->scene.report().lights[0].classes.at(1).pixels, 0); // none is turned away
     }
   }
@@ -308,11 +274,8 @@ TEST_F(MonteCarlo, smoothMeshesHaveNoDarkSpecks)
 TEST_F(MonteCarlo, sheetsThatStandOnTheGroundLeakATexelAtMost)
 {
   this->scene.addFloor(4.0);
-  vtkNew<vtkPlaneSource> sheet; // over the line x = y / 3, which crosses the map's rows anywhere
-  sheet->SetOrigin(-0.5, -1.5, 0.0);
-  sheet->SetPoint1(0.5, 1.5, 0.0);
-  sheet->SetPoint2(-0.5, -1.5, 1.0);
-  this->scene.add(sheet);
+  // Over the line x = y / 3, which crosses the map's rows anywhere.
+  this->scene.add(planeOf({ -0.5, -1.5, 0.0 }, { 0.5, 1.5, 0.0 }, { -0.5, -1.5, 1.0 }));
   this->scene.lookDown(0.2, 0.1, 0.0);
   for (const double slope : { 0.5, 1.0, 2.0 })
   {
@@ -322,7 +285,7 @@ TEST_F(MonteCarlo, sheetsThatStandOnTheGroundLeakATexelAtMost)
     {
       this->scene.pass->SetMapSize(mapSize);
       const VisibilityImages& kept =
-        this->draw("montecarlo", { { "mc_filter", "0" }, { "light_radius", "0.1" } });
+        drawKept(this->scene, "montecarlo mc_filter=0 light_radius=0.1");
       const double texel = 8.0 / mapSize; // along the sun, as long as a row on the floor, or longer
       double lit = 0.0;
       double farthest = 0.0;
@@ -352,8 +315,7 @@ TEST_F(MonteCarlo, oneLayerHasOuterPenumbraeOnly)
   this->buildHalfPlane();
   // Every point behind the first surface is in its shadow, wherever its rays go. For the eye behind
   // the light, 0.816 above it, that is x < 0.907. The lamp lights x > 0.75 of it.
-  const VisibilityImages& kept =
-    this->draw("montecarlo", { { "mc_layers", "near" }, { "mc_filter", "0" } });
+  const VisibilityImages& kept = drawKept(this->scene, "montecarlo mc_layers=near mc_filter=0");
   std::size_t inside = 0;
   std::size_t outer = 0;
   for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
@@ -393,14 +355,11 @@ TEST_F(MonteCarlo, eyeLayerEmptiesWhatTheCameraSeesToBeEmpty)
     return within;
   };
   const auto errorWithin = [&](const char* layers)
-  {
-    const VisibilityImages& kept = this->draw(
-      "montecarlo", { { "mc_search", "linear" }, { "mc_filter", "0" }, { "mc_layers", layers } });
-    return meanErrorWhere(kept, truth, isWithin, 2000);
-  };
-  const double two = errorWithin("near_far");
+  { return meanErrorWhere(drawKept(this->scene, layers), truth, isWithin, 2000); };
+  this->scene.choose("montecarlo mc_search=linear mc_filter=0");
+  const double two = errorWithin("mc_layers=near_far");
   EXPECT_GT(lit, 2000u / 4);
-  EXPECT_LT(errorWithin("eye"), 0.5 * two);
+  EXPECT_LT(errorWithin("mc_layers=eye"), 0.5 * two);
 }
 
 } // namespace gnomon::test

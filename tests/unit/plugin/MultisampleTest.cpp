@@ -37,15 +37,14 @@ public:
   bool are(float visibility, int x, int y) const
   {
     const int margin = (this->finer_ + 1) / 2;
-    for (int row = y * this->finer_ - margin; row < (y + 1) * this->finer_ + margin; ++row)
+    const int first = -margin;
+    const int end = this->finer_ + margin;
+    for (int i = 0; i < (end - first) * (end - first); ++i)
     {
-      for (int column = x * this->finer_ - margin; column < (x + 1) * this->finer_ + margin;
-           ++column)
+      if (!this->shows(visibility, x * this->finer_ + first + i % (end - first),
+            y * this->finer_ + first + i / (end - first)))
       {
-        if (!this->shows(visibility, column, row))
-        {
-          return false;
-        }
+        return false;
       }
     }
     return true;
@@ -114,22 +113,13 @@ VisibilityImages traced(const MakeScene& makeScene)
 /// Return four flaps around a hollow, each ending where the next begins.
 vtkSmartPointer<vtkPolyData> makeHollow()
 {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> quads;
+  std::vector<glm::dvec3> points;
   for (int i = 0; i < 5; ++i)
   {
-    points->InsertNextPoint(0.4 * i - 0.8, -0.9, 0.3 * std::abs(i - 2));
-    points->InsertNextPoint(0.4 * i - 0.8, 0.9, 0.3 * std::abs(i - 2) + 0.1);
+    points.emplace_back(0.4 * i - 0.8, -0.9, 0.3 * std::abs(i - 2));
+    points.emplace_back(0.4 * i - 0.8, 0.9, 0.3 * std::abs(i - 2) + 0.1);
   }
-  for (vtkIdType i = 0; i < 8; i += 2)
-  {
-    const vtkIdType corners[4] = { i, i + 2, i + 3, i + 1 };
-    quads->InsertNextCell(4, corners);
-  }
-  auto hollow = vtkSmartPointer<vtkPolyData>::New();
-  hollow->SetPoints(points);
-  hollow->SetPolys(quads);
-  return hollow;
+  return meshOf(points, { { 0, 2, 3, 1 }, { 2, 4, 5, 3 }, { 4, 6, 7, 5 }, { 6, 8, 9, 7 } });
 }
 
 /// A ball and a hollow above a floor. No box stands on the floor: a pixel's only fragment of the
@@ -138,13 +128,8 @@ std::unique_ptr<PassScene> makeSurfaces(bool parallel)
 {
   auto scene = std::make_unique<PassScene>(400, 300);
   scene->addFloor(4.0);
-  vtkNew<vtkSphereSource> ball;
-  ball->SetCenter(0.0, 0.0, 1.2);
-  ball->SetRadius(1.0);
-  ball->SetThetaResolution(120);
-  ball->SetPhiResolution(60);
-  scene->add(ball);
-  vtkActor* hollow = scene->add(makeHollow());
+  scene->add(ballOf({ 0.0, 0.0, 1.2 }, 1.0, 120, 60));
+  vtkActor* hollow = scene->add(makeHollow().Get());
   hollow->RotateZ(25.0);
   hollow->SetPosition(-2.2, 0.0, 0.5);
   scene->addSun({ 1.0, 0.3, -1.5 });
@@ -204,10 +189,6 @@ struct Sample
   {
     return this->kept.coverage[i] > 0.0f ? this->kept.visibility[0][i] : 1.0;
   }
-  glm::dvec3 normal(std::size_t i) const
-  {
-    return { this->kept.normalX[i], this->kept.normalY[i], this->kept.normalZ[i] };
-  }
   /// True if another sample of a pixel shows another plane.
   bool differs(const Sample& other, std::size_t i) const
   {
@@ -216,8 +197,9 @@ struct Sample
       return this->kept.coverage[i] != other.kept.coverage[i];
     }
     const glm::dvec3 between = positionOf(other.kept, i) - positionOf(this->kept, i);
-    return glm::dot(this->normal(i), other.normal(i)) < 0.9999 ||
-      std::abs(glm::dot(this->normal(i), between)) > 1e-3;
+    const glm::dvec3 normal = normalOf(this->kept, i);
+    return glm::dot(normal, normalOf(other.kept, i)) < 0.9999 ||
+      std::abs(glm::dot(normal, between)) > 1e-3;
   }
 };
 
@@ -241,19 +223,11 @@ Sample drawSample(BuiltinPass& scene, const glm::dvec2& place)
   const int* size = scene.window->GetSize();
   scene.renderer->GetActiveCamera()->SetWindowCenter(
     2.0 * place.x / size[0], 2.0 * place.y / size[1]);
-  scene.window->Render();
-  const VisibilityImages kept = scene.pass->GetVisibility();
-  scene.renderer->SetPass(nullptr);
-  scene.window->Render();
-  scene.renderer->SetPass(scene.pass);
-  return { readPicture(scene.window), kept };
+  const VisibilityImages kept = scene.draw();
+  return { scene.renderPlain(), kept };
 }
 
-class Multisample
-  : public PassTest
-  , public testing::WithParamInterface<bool>
-{
-};
+using Multisample = PassTestOf<bool>;
 
 INSTANTIATE_TEST_SUITE_P(Projections, Multisample, testing::Bool(),
   [](const testing::TestParamInfo<bool>& parallel)
@@ -286,8 +260,7 @@ TEST_P(Multisample, surfacesHaveNoSpecks)
   EXPECT_EQ(scene->report().route, "inline");
   EXPECT_GT(scene->window->GetMultiSamples(), 1);
   EXPECT_THAT(scene->report().notes, testing::IsEmpty());
-  scene->usePlain();
-  const Specks specks = countSpecks(shadowed, scene->render(), truth);
+  const Specks specks = countSpecks(shadowed, scene->renderPlain(), truth);
   EXPECT_GT(specks.lit, 50000u);
   EXPECT_EQ(specks.dark, 0u);
   EXPECT_GT(specks.shade, 5000u);
@@ -309,10 +282,8 @@ TEST_F(PassTest, outlinesAreLitAsTheirSurfaces)
   scene->window->SetMultiSamples(samples);
   const Picture lit = scene->render();
   EXPECT_EQ(scene->report().route, "image");
-  scene->usePlain();
-  EXPECT_EQ(differingPixels(lit, scene->render(), 1), 0u);
+  EXPECT_EQ(differingPixels(lit, scene->renderPlain(), 1), 0u);
 
-  scene->useGnomon();
   scene->addBox({ -20.0, -9.1, -20.0 }, { 20.0, -9.0, 20.0 }); // behind the camera
   const Picture shaded = scene->render();
   EXPECT_EQ(std::count_if(shaded.rgb.begin(), shaded.rgb.end(), [](int v) { return v > 1; }), 0);
@@ -330,8 +301,7 @@ TEST_F(PassTest, outlinesHaveTheVisibilityOfTheirSurfaces)
   }
   scene.pass->SetTechnique("raytraced");
   scene.window->SetMultiSamples(samples);
-  scene.window->Render();
-  const Picture drawn = readPicture(scene.window);
+  const Picture drawn = scene.render();
   const std::vector<glm::dvec2> places = samplesOf(scene.window);
   const Sample centre = drawSample(scene, glm::dvec2(0.0));
   std::vector<Sample> all;
@@ -376,13 +346,7 @@ TEST_F(PassTest, headlightsLeaveLitWhatIsSeenInSeveralSamples)
   vtkGnomonLightKeys::SetCasts(headlight, true);
   scene.renderer->AddLight(headlight);
   const auto changedByShadows = [&](const char* technique)
-  {
-    scene.pass->SetTechnique(technique);
-    scene.useGnomon();
-    const Picture shadowed = scene.render();
-    scene.usePlain();
-    return differingPixels(shadowed, scene.render());
-  };
+  { return differingPixels(scene.render(technique), scene.renderPlain()); };
   EXPECT_LT(changedByShadows("nsm"), 5u);
   EXPECT_EQ(scene.report().route, "inline");
   scene.window->SetMultiSamples(8);

@@ -27,19 +27,15 @@ using namespace gnomon::test;
 namespace
 {
 
-class Neighbours
-  : public PassTest
-  , public testing::WithParamInterface<Way>
+class Neighbours : public PassTestOf<Way>
 {
 protected:
   Neighbours()
   {
     this->scene.choose(GetParam());
     this->scene.renderer->SetBackground(0.1, 0.2, 0.3);
-    this->floor = this->scene.addFloor(4.0);
-    this->sphere = this->scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    this->sphere = this->scene.addSphereOverFloor();
     this->sun = this->scene.addSun({ 1.0, 0.3, -1.5 });
-    this->scene.lookFrom({ 0.0, -9.0, 7.0 });
   }
 
   /// Draw with casting and with idle light. Outside the shadows, which must exist, and inside
@@ -54,18 +50,13 @@ protected:
     const Picture idle = this->scene.render();
     EXPECT_EQ(this->scene.report().route, "none");
     this->sun->SetShadowAttenuation(1.0f);
-    std::size_t keptPixels = 0;
-    std::size_t changedInside = 0;
-    std::size_t changedOutside = 0;
-    for (int y = 0; y < idle.height; ++y)
-    {
-      for (int x = 0; x < idle.width; ++x)
-      {
-        const bool changed = shadowed.at(x, y) != idle.at(x, y);
-        keptPixels += kept(idle, x, y) ? 1 : 0;
-        (kept(idle, x, y) ? changedInside : changedOutside) += changed ? 1 : 0;
-      }
-    }
+    const auto changed = [&](int x, int y) { return shadowed.at(x, y) != idle.at(x, y); };
+    const auto isKept = [&](int x, int y) { return kept(idle, x, y); };
+    const std::size_t keptPixels = countPixels(idle, isKept);
+    const std::size_t changedInside =
+      countPixels(idle, [&](int x, int y) { return isKept(x, y) && changed(x, y); });
+    const std::size_t changedOutside =
+      countPixels(idle, [&](int x, int y) { return !isKept(x, y) && changed(x, y); });
     EXPECT_GT(keptPixels, 100u);
     EXPECT_EQ(changedInside, 0u);
     EXPECT_GT(changedOutside, 100u) << "no shadow";
@@ -112,12 +103,10 @@ protected:
   {
     this->sun->SetShadowAttenuation(0.0f);
     const Picture idle = this->scene.render();
-    this->scene.usePlain();
-    EXPECT_EQ(differingPixels(idle, this->scene.render()), 0u);
+    EXPECT_EQ(differingPixels(idle, this->scene.renderPlain()), 0u);
   }
 
   PassScene scene{ 200, 150 };
-  vtkActor* floor;
   vtkActor* sphere;
   vtkLight* sun;
 };
@@ -198,11 +187,8 @@ TEST_P(Neighbours, worldPointPickerGivesTheSamePoints)
 TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
 {
   // A pane in front of a shadow, and half in the sphere's shadow itself.
-  vtkNew<vtkPlaneSource> pane;
-  pane->SetOrigin(0.6, -1.0, 0.6);
-  pane->SetPoint1(1.6, -1.0, 0.6);
-  pane->SetPoint2(0.6, 1.0, 0.6);
-  vtkActor* actor = this->scene.add(pane);
+  vtkActor* actor =
+    this->scene.add(planeOf({ 0.6, -1.0, 0.6 }, { 1.6, -1.0, 0.6 }, { 0.6, 1.0, 0.6 }));
   actor->GetProperty()->SetColor(1.0, 0.0, 0.0);
   actor->GetProperty()->SetOpacity(0.5);
   for (const bool peeling : { false, true })
@@ -271,21 +257,16 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
 /// may then be bright. If the sphere casts nothing, nothing hides the light.
 TEST_P(Neighbours, translucentFacetsAreDarkOnlyWhereTheLightIsHidden)
 {
-  this->floor->VisibilityOff();
+  this->scene.floor()->VisibilityOff();
   this->sphere->VisibilityOff();
-  vtkNew<vtkSphereSource> coarse; // of 8 by 8 facets
-  coarse->SetCenter(0.0, 0.0, 1.5);
-  coarse->SetRadius(1.5);
-  vtkActor* const actor = this->scene.add(coarse);
+  vtkActor* const actor = this->scene.add(ballOf({ 0.0, 0.0, 1.5 }, 1.5)); // of 8 by 8 facets
   actor->GetProperty()->SetOpacity(0.5);
   vtkLight* const spot = this->scene.addSpot({ -4.0, -1.2, 7.5 }, { 0.0, 0.0, 1.5 }, 60.0);
   for (const bool isSun : { false, true })
   {
     this->sun->SetSwitch(isSun);
     spot->SetSwitch(!isSun);
-    this->scene.usePlain();
-    const Picture plain = this->scene.render();
-    this->scene.useGnomon();
+    const Picture plain = this->scene.renderPlain();
     EXPECT_EQ(differingPixels(this->scene.render(), plain, 2), 0u) << "sun: " << isSun;
     EXPECT_NE(this->scene.report().route, "none");
 
@@ -331,11 +312,8 @@ TEST_P(Neighbours, depthPeelingIsHonoured)
   // Two panes that pierce each other: only peeling sorts them.
   for (const double slope : { 1.0, -1.0 })
   {
-    vtkNew<vtkPlaneSource> pane;
-    pane->SetOrigin(-1.5, -1.5, 1.0 - slope);
-    pane->SetPoint1(1.5, -1.5, 1.0 + slope);
-    pane->SetPoint2(-1.5, 1.5, 1.0 - slope);
-    vtkActor* actor = this->scene.add(pane);
+    vtkActor* actor = this->scene.add(
+      planeOf({ -1.5, -1.5, 1.0 - slope }, { 1.5, -1.5, 1.0 + slope }, { -1.5, 1.5, 1.0 - slope }));
     actor->GetProperty()->SetOpacity(0.6);
     actor->GetProperty()->SetColor(slope > 0.0 ? 1.0 : 0.0, 0.0, slope > 0.0 ? 0.0 : 1.0);
   }
@@ -349,10 +327,8 @@ TEST_P(Neighbours, depthPeelingIsHonoured)
 
 TEST_P(Neighbours, renderedPropsAreCounted)
 {
-  this->scene.usePlain();
-  this->scene.render();
+  this->scene.renderPlain();
   const int plain = this->scene.renderer->GetNumberOfPropsRendered();
-  this->scene.useGnomon();
   this->scene.render();
   EXPECT_EQ(this->scene.renderer->GetNumberOfPropsRendered(), plain);
   EXPECT_EQ(this->scene.pass->GetNumberOfRenderedProps(), plain);

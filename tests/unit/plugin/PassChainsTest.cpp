@@ -107,13 +107,7 @@ const std::vector<Chain>& chains()
 class ChainedScene : public PassTest
 {
 protected:
-  ChainedScene()
-  {
-    this->scene.addFloor(10.0);
-    this->scene.addBox(hangingBox.lower, hangingBox.upper);
-    this->scene.addSun(slantingSun);
-    this->scene.lookDown(10.0);
-  }
+  ChainedScene() { this->scene.lookDown(10.0); }
 
   void useChain(const Chain& chain)
   {
@@ -126,11 +120,10 @@ protected:
   FloorCheck check(const Picture& picture) const
   {
     // Three texels, and what filters over pixels reach.
-    return checkFloor(this->scene, picture, floorUnderSun(hangingBox, 10.0),
-      3.0 * 24.0 / 1024.0 + 3.0 * 20.0 / 300.0);
+    return this->scene.check(picture, 3.0 * 24.0 / 1024.0 + 3.0 * 20.0 / 300.0);
   }
 
-  PassScene scene{ 300, 300 };
+  BoxScene scene{ 300, 300, hangingBox, 10.0 };
 
 private:
   Pass top_;
@@ -172,11 +165,8 @@ TEST_P(PassChains, WithoutShadowsTheyDrawTheSame)
 {
   const Chain& chain = chains()[std::get<0>(GetParam())];
   this->scene.choose(std::get<1>(GetParam()));
-  vtkNew<vtkPlaneSource> pane;
-  pane->SetOrigin(-3.0, -3.0, 5.0);
-  pane->SetPoint1(2.0, -3.0, 5.0);
-  pane->SetPoint2(-3.0, 2.0, 5.0);
-  vtkActor* actor = this->scene.add(pane);
+  vtkActor* actor =
+    this->scene.add(planeOf({ -3.0, -3.0, 5.0 }, { 2.0, -3.0, 5.0 }, { -3.0, 2.0, 5.0 }));
   actor->GetProperty()->SetOpacity(0.5);
   actor->GetProperty()->SetColor(1.0, 0.0, 0.0);
   lightOf(this->scene.renderer)->SetShadowAttenuation(0.0f);
@@ -200,8 +190,7 @@ TEST_F(ChainedScene, SupersamplingInsideIsForFunctionsOfThePoint)
     EXPECT_EQ(this->check(this->scene.render()).wrong(), 0u);
     EXPECT_EQ(this->takeErrors(), "");
 
-    this->scene.choose(way);
-    const FloorCheck unshadowed = this->check(this->scene.render());
+    const FloorCheck unshadowed = this->check(this->scene.render(way));
     EXPECT_THAT(this->takeErrors(),
       testing::AllOf(testing::HasSubstr("vtkSSAAPass"), testing::HasSubstr("resolution")));
     EXPECT_GT(unshadowed.falseLight, 500u);

@@ -3,7 +3,10 @@
 #include "shadowtech/base/Gl.h"
 
 #include <vtkCallbackCommand.h>
+#include <vtkRenderPass.h>
 #include <vtkTrivialProducer.h>
+
+#include <sstream>
 
 namespace gnomon::test
 {
@@ -27,6 +30,21 @@ void choose(vtkGnomonShadowPass* pass, const Way& way)
   pass->SetRoute(way.route);
 }
 
+void choose(vtkGnomonShadowPass* pass, const char* text)
+{
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+  {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos)
+    {
+      pass->SetTechnique(word.c_str());
+      continue;
+    }
+    pass->SetSetting(word.substr(0, equals).c_str(), word.substr(equals + 1).c_str());
+  }
+}
+
 PassScene::PassScene(int width, int height)
 {
   this->window->SetSize(width, height);
@@ -38,14 +56,16 @@ PassScene::PassScene(int width, int height)
   this->useGnomon();
 }
 
-vtkActor* PassScene::add(vtkAlgorithm* source)
+vtkActor* PassScene::add(vtkMapper* mapper)
 {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(source->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
+  const vtkSmartPointer<vtkActor> actor = actorOf(mapper);
   this->renderer->AddActor(actor);
   return actor;
+}
+
+vtkActor* PassScene::add(vtkAlgorithm* source)
+{
+  return this->add(mapperOf(source));
 }
 
 vtkActor* PassScene::add(vtkPolyData* data)
@@ -57,28 +77,17 @@ vtkActor* PassScene::add(vtkPolyData* data)
 
 vtkActor* PassScene::addBox(const glm::dvec3& lower, const glm::dvec3& upper)
 {
-  vtkNew<vtkCubeSource> box;
-  box->SetBounds(lower.x, upper.x, lower.y, upper.y, lower.z, upper.z);
-  return this->add(box);
+  return this->add(boxOf(lower, upper));
 }
 
 vtkActor* PassScene::addFloor(double extent, double z)
 {
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-extent, -extent, z);
-  plane->SetPoint1(extent, -extent, z);
-  plane->SetPoint2(-extent, extent, z);
-  return this->add(plane);
+  return this->add(squareOf(extent, z));
 }
 
 vtkActor* PassScene::addSphere(const glm::dvec3& centre, double radius)
 {
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetCenter(centre.x, centre.y, centre.z);
-  sphere->SetRadius(radius);
-  sphere->SetThetaResolution(48);
-  sphere->SetPhiResolution(24);
-  return this->add(sphere);
+  return this->add(ballOf(centre, radius, 48, 24));
 }
 
 vtkLight* PassScene::addSun(const glm::dvec3& direction)
@@ -150,10 +159,22 @@ void PassScene::addThings()
   this->lookFrom({ 2.0, -8.0, 7.0 });
 }
 
-std::vector<float> PassScene::visibilityBy(const char* technique)
+vtkActor* PassScene::addSphereOverFloor()
 {
-  this->pass->SetTechnique(technique);
-  return drawKept(*this).visibility.at(0);
+  this->addFloor(4.0);
+  vtkActor* const sphere = this->addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  this->lookFrom({ 0.0, -9.0, 7.0 });
+  return sphere;
+}
+
+vtkActor* PassScene::floor() const
+{
+  return vtkActor::SafeDownCast(this->renderer->GetActors()->GetItemAsObject(0));
+}
+
+std::vector<float> PassScene::visibilityBy(const char* text)
+{
+  return drawKept(*this, text).visibility.at(0);
 }
 
 VisibilityImages PassScene::drawAnew()
@@ -178,6 +199,27 @@ Picture PassScene::render()
   return readPicture(this->window);
 }
 
+Picture PassScene::render(const char* text)
+{
+  this->choose(text);
+  return this->render();
+}
+
+Picture PassScene::render(const Way& way)
+{
+  this->choose(way);
+  return this->render();
+}
+
+Picture PassScene::renderPlain()
+{
+  const vtkSmartPointer<vtkRenderPass> before = this->renderer->GetPass();
+  this->usePlain();
+  Picture picture = this->render();
+  this->renderer->SetPass(before);
+  return picture;
+}
+
 const double slantingSunValue = 255.0 * std::sqrt(0.5);
 
 bool isUnder(const glm::dvec2& floor, const Box& box)
@@ -196,6 +238,30 @@ ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direct
     }
     return hitsBox(floor, -direction, box.lower, box.upper) ? 0.0 : value;
   };
+}
+
+BoxScene::BoxScene(int width, int height, const Box& of, double halfSide)
+  : PassScene(width, height)
+  , box(of)
+  , extent(halfSide)
+{
+  this->addFloor(halfSide);
+  this->addBox(of.lower, of.upper);
+  this->sun = this->addSun(slantingSun);
+  this->lookFrom({ 4.0, -9.0, 7.0 });
+}
+
+FloorCheck BoxScene::check(const Picture& picture, double band) const
+{
+  return checkFloor(*this, picture, floorUnderSun(this->box, this->extent), band);
+}
+
+SunAndSpotScene::SunAndSpotScene(int width, int height)
+  : PassScene(width, height)
+{
+  this->addSphereOverFloor();
+  this->addSun({ 1.0, 0.3, -1.5 });
+  this->addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
 }
 
 ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& directions)
@@ -242,11 +308,11 @@ FloorCheck checkFloor(
 }
 
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
-  const glm::dvec3& upper)
+  const glm::dvec3& upper, double end)
 {
   const glm::dvec3 origin(floor, 0.0);
   double first = 0.0;
-  double last = 1e300;
+  double last = end;
   for (int axis = 0; axis < 3; ++axis)
   {
     if (toLight[axis] == 0.0)
@@ -265,8 +331,9 @@ bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec
   return first <= last;
 }
 
-const VisibilityImages& drawKept(PassScene& scene)
+const VisibilityImages& drawKept(PassScene& scene, const char* text)
 {
+  scene.choose(text);
   scene.pass->KeepVisibilityOn();
   scene.render();
   const VisibilityImages& kept = scene.pass->GetVisibility();
@@ -306,6 +373,11 @@ glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel)
     kept.origin[2] + kept.positionZ[pixel] };
 }
 
+glm::dvec3 normalOf(const VisibilityImages& kept, std::size_t pixel)
+{
+  return { kept.normalX[pixel], kept.normalY[pixel], kept.normalZ[pixel] };
+}
+
 double cosineTowards(const VisibilityImages& kept, std::size_t pixel, vtkLight* light)
 {
   const auto vector = [](const double* v) { return glm::dvec3(v[0], v[1], v[2]); };
@@ -313,9 +385,8 @@ double cosineTowards(const VisibilityImages& kept, std::size_t pixel, vtkLight* 
   const glm::dvec3 toLight = light->GetPositional()
     ? position - positionOf(kept, pixel)
     : position - vector(light->GetTransformedFocalPoint());
-  const glm::dvec3 normal(kept.normalX[pixel], kept.normalY[pixel], kept.normalZ[pixel]);
   const double distance = glm::length(toLight);
-  return distance > 0.0 ? glm::dot(normal, toLight) / distance : 0.0;
+  return distance > 0.0 ? glm::dot(normalOf(kept, pixel), toLight) / distance : 0.0;
 }
 
 Acne countAcne(const VisibilityImages& kept,
@@ -324,9 +395,9 @@ Acne countAcne(const VisibilityImages& kept,
   Acne acne;
   for (std::size_t i = 0; i < kept.coverage.size(); ++i)
   {
-    const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
     const glm::dvec3 way = toLight(positionOf(kept, i));
-    if (kept.coverage[i] > 0.0f && glm::dot(normal, way) > leastCosine * glm::length(way))
+    if (kept.coverage[i] > 0.0f &&
+      glm::dot(normalOf(kept, i), way) > leastCosine * glm::length(way))
     {
       ++acne.facing;
       acne.dark += kept.visibility[0][i] < 1.0f ? 1 : 0;
@@ -348,25 +419,6 @@ Acne countAcneOfLamp(const VisibilityImages& kept, const glm::dvec3& lightWorld,
 {
   return countAcne(
     kept, [&](const glm::dvec3& position) { return lightWorld - position; }, leastCosine);
-}
-
-vtkSmartPointer<vtkImageData> makeImage(
-  int width, int height, const std::function<glm::dvec3(int, int)>& colourOf)
-{
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(width, height, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  for (int y = 0; y < height; ++y)
-  {
-    for (int x = 0; x < width; ++x)
-    {
-      for (int channel = 0; channel < 3; ++channel)
-      {
-        image->SetScalarComponentFromDouble(x, y, 0, channel, 255.0 * colourOf(x, y)[channel]);
-      }
-    }
-  }
-  return image;
 }
 
 void listenToProgress(vtkObject* teller, std::vector<double>& told)

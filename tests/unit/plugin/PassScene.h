@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Picture.h"
+#include "Shapes.h"
 
 #include "VtkMessages.h"
 
@@ -77,6 +78,8 @@ std::string nameOf(const testing::TestParamInfo<Way>& way);
 
 /// Return the name of a test's value of any type with a member `name`.
 inline constexpr auto byName = [](const auto& info) { return std::string(info.param.name); };
+/// Return the name of a test's value that is a text.
+inline constexpr auto byText = [](const auto& info) { return std::string(info.param); };
 inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, Way{ "pcf", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "pcf", vtkGnomonShadowPass::ROUTE_IMAGE },
@@ -93,6 +96,8 @@ inline const Way layersWay{ "montecarlo", vtkGnomonShadowPass::ROUTE_IMAGE };
 inline const Way tracedWay{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE };
 std::ostream& operator<<(std::ostream& stream, const Way& way);
 void choose(vtkGnomonShadowPass* pass, const Way& way);
+/// Choose a technique, settings or both, word by word, like "vsm blur=sat kernel_size=16".
+void choose(vtkGnomonShadowPass* pass, const char* text);
 
 /// A renderer in its own window, under the pass. Surfaces are white and matt, without ambient
 /// light, so a pixel's value is the light's cosine times its visibility.
@@ -103,6 +108,7 @@ public:
 
   vtkActor* add(vtkAlgorithm* source);
   vtkActor* add(vtkPolyData* data);
+  vtkActor* add(vtkMapper* mapper);
   vtkActor* addBox(const glm::dvec3& lower, const glm::dvec3& upper);
   /// Add the square of half side `extent` around the origin, at height z.
   vtkActor* addFloor(double extent, double z = 0.0);
@@ -120,9 +126,19 @@ public:
   void lookFrom(const glm::dvec3& position, const glm::dvec3& target = glm::dvec3(0.0));
   /// Add a floor with a box on it and a sphere above it, and look at them.
   void addThings();
+  /// Add a sphere over a floor, and look at them. Return the sphere.
+  vtkActor* addSphereOverFloor();
+  /// Return the actor that was added first.
+  vtkActor* floor() const;
 
+  ///@{
   /// Draw a frame, which must raise no OpenGL error.
   Picture render();
+  Picture render(const char* text);
+  Picture render(const Way& way);
+  ///@}
+  /// Draw a frame without a pass, which the renderer then gets back.
+  Picture renderPlain();
 
   ///@{
   /// Draw by Gnomon's pass or without a pass.
@@ -130,14 +146,18 @@ public:
   void usePlain() { this->renderer->SetPass(nullptr); }
   ///@}
 
+  ///@{
+  /// Choose a way, or a technique and settings of the pass.
   void choose(const Way& way) { test::choose(this->pass, way); }
+  void choose(const char* text) { test::choose(this->pass, text); }
+  ///@}
   ///@{
   /// Set a setting of the pass.
   void set(const char* name, const char* value) { this->pass->SetSetting(name, value); }
   void set(const char* name, int value) { this->set(name, std::to_string(value).c_str()); }
   ///@}
-  /// Return the first light's visibility by a technique, which stays chosen.
-  std::vector<float> visibilityBy(const char* technique);
+  /// Return the first light's visibility by a technique and settings, which stay chosen.
+  std::vector<float> visibilityBy(const char* text);
   /// Return the visibility of a new pass with the same settings, which has no earlier frames.
   VisibilityImages drawAnew();
 
@@ -186,6 +206,24 @@ bool isUnder(const glm::dvec2& floor, const Box& box);
 ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction = slantingSun,
   double value = slantingSunValue);
 
+/// A box over a floor of half side `extent`, under the slanting sun.
+struct BoxScene : PassScene
+{
+  BoxScene(int width, int height, const Box& box = hangingBox, double extent = 20.0);
+  /// Compare a picture of the floor with the exact answer.
+  FloorCheck check(const Picture& picture, double band) const;
+
+  Box box;
+  double extent;
+  vtkLight* sun;
+};
+
+/// A sphere over a floor, under a sun and a spot light.
+struct SunAndSpotScene : PassScene
+{
+  SunAndSpotScene(int width, int height);
+};
+
 /// Return the exact answer under several suns of half intensity; negative on the box itself.
 ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& directions);
 
@@ -194,13 +232,10 @@ ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& dir
 FloorCheck checkFloor(
   const PassScene& scene, const Picture& picture, const ExactFloor& exact, double band);
 
-/// True if the ray from a floor point towards the light, p + t * toLight for t > 0, meets the box.
+/// True if the ray from a floor point towards the light, p + t * toLight for t from 0 to `end`,
+/// meets the box.
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
-  const glm::dvec3& upper);
-
-/// Make an image of three channels, texel by texel.
-vtkSmartPointer<vtkImageData> makeImage(
-  int width, int height, const std::function<glm::dvec3(int, int)>& colourOf);
+  const glm::dvec3& upper, double end = 1e300);
 
 /// Append the progress that a pass reports to `told`, and 2 at its end.
 void listenToProgress(vtkObject* teller, std::vector<double>& told);
@@ -209,13 +244,15 @@ void listenToProgress(vtkObject* teller, std::vector<double>& told);
 inline constexpr double allDirections = 180.0;
 
 /// Draw a frame and keep its visibility. Check that its values are finite and in [0, 1].
-const VisibilityImages& drawKept(PassScene& scene);
+/// @param text technique and settings to choose first
+const VisibilityImages& drawKept(PassScene& scene, const char* text = "");
 
 /// Return the first light's mean visibility of each column of a picture.
 std::vector<double> columnMeans(const VisibilityImages& kept);
 
 /// Return the world position of a pixel's receiver; NaN if the pixel shows no surface.
 glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel);
+glm::dvec3 normalOf(const VisibilityImages& kept, std::size_t pixel);
 
 /// Return the cosine between a pixel's normal and the direction to a light; 0 if the pixel is at
 /// the light.
@@ -272,6 +309,34 @@ std::size_t countPixels(const VisibilityImages& kept, const Holds& holds)
   }
   return count;
 }
+/// Count the pixels (x, y) of a picture for which holds() is true.
+template <typename Holds>
+std::size_t countPixels(const Picture& picture, const Holds& holds)
+{
+  std::size_t count = 0;
+  for (int i = 0; i < picture.width * picture.height; ++i)
+  {
+    count += holds(i % picture.width, i / picture.width) ? 1 : 0;
+  }
+  return count;
+}
+/// True if holds(column, row) is true of all pixels of a picture at most `reach` away from a pixel
+/// along either side.
+template <typename Holds>
+bool holdsAround(const glm::ivec2& size, int x, int y, int reach, const Holds& holds)
+{
+  for (int row = std::max(y - reach, 0); row <= std::min(y + reach, size.y - 1); ++row)
+  {
+    for (int column = std::max(x - reach, 0); column <= std::min(x + reach, size.x - 1); ++column)
+    {
+      if (!holds(column, row))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
 /// Count the pixels between light and shadow.
 std::size_t countBetween(const std::vector<float>& visibility);
 
@@ -293,6 +358,12 @@ protected:
 
   tool::VtkMessages messages_;
   std::size_t errorsTaken_ = 0;
+};
+template <typename Parameter>
+class PassTestOf
+  : public PassTest
+  , public testing::WithParamInterface<Parameter>
+{
 };
 
 } // namespace gnomon::test

@@ -40,9 +40,7 @@ void lookFromBelow(PassScene& scene, double halfHeight, double x, double height)
 /// The truth by rays to 256 points.
 std::vector<float> truthOf(PassScene& scene)
 {
-  scene.pass->SetTechnique("raytraced");
-  scene.set("light_samples", 256);
-  return scene.visibilityBy("raytraced");
+  return scene.visibilityBy("raytraced light_samples=256");
 }
 
 /// Count the pixels for which a predicate of two images holds.
@@ -130,11 +128,7 @@ const SearchedScene searchedScenes[] = {
     },
     0.01, 1000 },
 };
-class PcssSearches
-  : public PassTest
-  , public testing::WithParamInterface<SearchedScene>
-{
-};
+using PcssSearches = PassTestOf<SearchedScene>;
 INSTANTIATE_TEST_SUITE_P(All, PcssSearches, testing::ValuesIn(searchedScenes), byName);
 
 } // namespace
@@ -165,19 +159,15 @@ TEST_F(Pcss, asPublishedIsAShareOfTheConesMap)
   // more, as a share of a map of the whole cone. The cone is 2 tan(cone) wide at distance 1. The
   // floor would darken itself.
   HalfPlaneScene scene(400, 400, 1.0);
-  vtkGnomonPropKeys::SetCasts(
-    vtkActor::SafeDownCast(scene.renderer->GetActors()->GetItemAsObject(0)), false);
-  scene.pass->SetTechnique("pcss");
-  scene.set("as_published", "on");
-  scene.set("pcss_samples", "high");
-  scene.pass->SetMapSize(4096);
+  vtkGnomonPropKeys::SetCasts(scene.floor(), false);
+  scene.choose("pcss as_published=on pcss_samples=high map_size=4096");
   vtkLight* lamp = scene.addSpot({ 0.0, 0.0, 10.0 }, glm::dvec3(0.0), 50.0);
   for (const double cone : { 50.0, 30.0 })
   {
     lamp->SetConeAngle(cone);
     for (const double radius : { 0.0125, 0.025 })
     {
-      vtkGnomonLightKeys::SetSetting(lamp, "light_radius", std::to_string(radius).c_str());
+      set(lamp, "light_radius", std::to_string(radius).c_str());
       const double disk =
         0.25 * (2.0 * radius) * 1.0625 * 2.0 * std::tan(glm::radians(cone)) * 10.0;
       const double exact = 2.0 * chordOfTenth * disk;
@@ -249,11 +239,8 @@ TEST_F(Pcss, hasNoSeamsWhereFacesOfTheCubeMeet)
   scene.addBox({ 0.4, -3.0, 0.62 }, { 0.45, 3.0, 1.4 });
   soften(scene, scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), allDirections), "0.3");
   scene.lookDown(0.4, 1.0);
-  scene.pass->SetTechnique("raytraced");
-  scene.set("light_samples", "256");
-  const std::vector<double> truth = columnMeans(drawKept(scene));
-  scene.pass->SetTechnique("pcss");
-  const std::vector<double> softly = columnMeans(drawKept(scene));
+  const std::vector<double> truth = columnMeans(drawKept(scene, "raytraced light_samples=256"));
+  const std::vector<double> softly = columnMeans(drawKept(scene, "pcss"));
   constexpr std::size_t strip = 5; // columns, 0.008 wide each
   double off[2] = {};
   double seen = 0.0;
@@ -387,7 +374,7 @@ TEST_F(Pcss, asPublishedIsForSpotLightsAlone)
     expectRefused();
   }
   lamp->SetConeAngle(50.0);
-  vtkGnomonLightKeys::SetSetting(lamp, "projection", "pssm");
+  set(lamp, "projection", "pssm");
   expectRefused();
   EXPECT_THAT(this->takeErrors(), testing::HasSubstr("spot lights with a single view"));
 }

@@ -107,9 +107,7 @@ TimerOrder take(PictureSchedule& schedule, const Step& step)
   }
 }
 
-class PictureScheduleTest : public testing::TestWithParam<Sequence>
-{
-};
+using PictureScheduleTest = testing::TestWithParam<Sequence>;
 
 TEST_P(PictureScheduleTest, orders)
 {

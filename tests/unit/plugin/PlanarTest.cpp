@@ -26,28 +26,15 @@ struct Against
 bool isEdge(const VisibilityImages& truth, int x, int y)
 {
   const auto at = [&](int column, int row)
+  { return static_cast<std::size_t>(row * truth.width + column); };
+  const auto isLikeHere = [&, here = at(x, y)](int column, int row)
   {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(truth.width) +
-      static_cast<std::size_t>(column);
+    const std::size_t there = at(column, row);
+    const glm::dvec3 turn = glm::abs(normalOf(truth, there) - normalOf(truth, here));
+    return truth.visibility[0][there] == truth.visibility[0][here] &&
+      truth.coverage[there] == truth.coverage[here] && turn.x + turn.y + turn.z <= 1e-3;
   };
-  const std::size_t here = at(x, y);
-  for (int row = std::max(y - 2, 0); row <= std::min(y + 2, truth.height - 1); ++row)
-  {
-    for (int column = std::max(x - 2, 0); column <= std::min(x + 2, truth.width - 1); ++column)
-    {
-      const std::size_t there = at(column, row);
-      if (truth.visibility[0][there] != truth.visibility[0][here] ||
-        truth.coverage[there] != truth.coverage[here] ||
-        std::abs(truth.normalX[there] - truth.normalX[here]) +
-            std::abs(truth.normalY[there] - truth.normalY[here]) +
-            std::abs(truth.normalZ[there] - truth.normalZ[here]) >
-          1e-3f)
-      {
-        return true;
-      }
-    }
-  }
-  return false;
+  return !holdsAround({ truth.width, truth.height }, x, y, 2, isLikeHere);
 }
 
 Against compare(const VisibilityImages& planar, const VisibilityImages& truth)
@@ -56,16 +43,16 @@ Against compare(const VisibilityImages& planar, const VisibilityImages& truth)
   const Agreement agreement = compareVisibility(planar, truth);
   result.covered = agreement.covered;
   result.wrong = agreement.wrong + agreement.coverage;
-  for (int y = 0; y < truth.height; ++y)
+  const auto isDark = [&](std::size_t i)
+  { return truth.coverage[i] > 0.0f && truth.visibility[0][i] == 0.0f; };
+  const auto isSpeckle = [&](std::size_t i)
   {
-    for (int x = 0; x < truth.width; ++x)
-    {
-      const std::size_t i = static_cast<std::size_t>(y * truth.width + x);
-      result.shadowed += truth.coverage[i] > 0.0f && truth.visibility[0][i] == 0.0f ? 1 : 0;
-      const bool wrong = std::abs(planar.visibility[0][i] - truth.visibility[0][i]) > 0.5f;
-      result.speckles += wrong && !isEdge(truth, x, y) ? 1 : 0;
-    }
-  }
+    const int pixel = static_cast<int>(i);
+    return std::abs(planar.visibility[0][i] - truth.visibility[0][i]) > 0.5f &&
+      !isEdge(truth, pixel % truth.width, pixel / truth.width);
+  };
+  result.shadowed = countPixels(truth, isDark);
+  result.speckles = countPixels(truth, isSpeckle);
   return result;
 }
 
@@ -74,10 +61,8 @@ class Planar : public PassTest
 protected:
   static Against againstRays(PassScene& scene)
   {
-    scene.pass->SetTechnique("raytraced");
-    const VisibilityImages truth = drawKept(scene);
-    scene.pass->SetTechnique("planar");
-    return compare(drawKept(scene), truth);
+    const VisibilityImages truth = drawKept(scene, "raytraced");
+    return compare(drawKept(scene, "planar"), truth);
   }
 
   /// Expect agreement with rays, except at edges: rasterisers move corners by up to 1/256 pixel.
@@ -184,22 +169,10 @@ std::function<void(PassScene&)> oneSidedSheet(double turnDegrees)
 }
 void addSheetWithHoles(PassScene& scene)
 {
-  vtkNew<vtkPlaneSource> sheet;
-  sheet->SetOrigin(-1.5, -1.5, 2.0);
-  sheet->SetPoint1(1.5, -1.5, 2.0);
-  sheet->SetPoint2(-1.5, 1.5, 2.0);
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(4, 4, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  image->GetPointData()->GetScalars()->Fill(255.0);
-  for (int i = 0; i < 16; ++i)
-  {
-    image->SetScalarComponentFromDouble(i % 4, i / 4, 0, 3, (i + i / 4) % 2 ? 255.0 : 0.0);
-  }
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(image);
+  const auto texture =
+    textureOf(makeVeil(4, 4, [](int x, int y) { return (x + 5 * y) % 2 ? 255 : 0; }));
   texture->InterpolateOff();
-  scene.add(sheet)->SetTexture(texture);
+  scene.addFloor(1.5, 2.0)->SetTexture(texture);
 }
 
 const PlanarScene planarScenes[] = {
@@ -219,12 +192,7 @@ const PlanarScene planarScenes[] = {
   { "finelyCutAndTurned", 1000,
     [](PassScene& scene)
     {
-      vtkNew<vtkPlaneSource> floor;
-      floor->SetOrigin(-4.0, -4.0, 0.0);
-      floor->SetPoint1(4.0, -4.0, 0.0);
-      floor->SetPoint2(-4.0, 4.0, 0.0);
-      floor->SetResolution(150, 150);
-      scene.add(floor)->RotateWXYZ(25.0, 0.3, 0.5, 1.0);
+      scene.add(squareOf(4.0, 0.0, 150))->RotateWXYZ(25.0, 0.3, 0.5, 1.0);
       scene.addBox({ -1.0, -1.0, 1.0 }, { 0.5, 0.5, 1.5 })->RotateWXYZ(25.0, 0.3, 0.5, 1.0);
       scene.addSun({ 0.3, 0.4, -1.0 });
     },
@@ -281,8 +249,7 @@ class PlanarScenes
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(All, PlanarScenes, testing::ValuesIn(planarScenes),
-  [](const testing::TestParamInfo<PlanarScene>& scene) { return std::string(scene.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, PlanarScenes, testing::ValuesIn(planarScenes), byName);
 
 } // namespace
 
@@ -323,10 +290,8 @@ TEST_F(Planar, shadowsEndWhereTheirReceiverEnds)
   scene.addBox({ -3.0, -0.4, 1.0 }, { 3.0, 0.4, 1.2 });
   scene.addSun({ 0.2, 0.5, -1.0 });
   scene.lookFrom({ 1.0, -5.0, 9.0 });
-  scene.pass->SetTechnique("raytraced");
-  const VisibilityImages truth = drawKept(scene);
-  scene.pass->SetTechnique("planar");
-  const VisibilityImages& kept = drawKept(scene);
+  const VisibilityImages truth = drawKept(scene, "raytraced");
+  const VisibilityImages& kept = drawKept(scene, "planar");
   EXPECT_LE(countPixels(kept,
               [&](std::size_t i) { return kept.visibility[0][i] < truth.visibility[0][i] - 0.5f; }),
     20u)
@@ -374,8 +339,7 @@ TEST_F(Planar, noMorePlanesThanAskedForShowShadows)
   scene.addSphere({ -0.5, 0.0, 1.5 }, 0.4);
   scene.addSun({ 0.5, 0.2, -1.0 });
   scene.lookDown(3.5);
-  scene.pass->SetTechnique("planar");
-  drawKept(scene);
+  drawKept(scene, "planar");
   EXPECT_EQ(scene.report().lights[0].planes, 2);
   const auto darkOnUpper = [](const VisibilityImages& kept)
   {
@@ -405,8 +369,7 @@ TEST_F(Planar, planesStayWhenTheCameraMoves)
   addBoxes(scene);
   scene.addSun({ 1.0, 0.4, -1.0 });
   scene.lookFrom({ 2.0, -8.0, 7.0 });
-  scene.pass->SetTechnique("planar");
-  scene.render();
+  scene.render("planar");
   for (int step = 0; step < 12; ++step)
   {
     scene.renderer->GetActiveCamera()->Azimuth(30.0);
@@ -429,11 +392,8 @@ TEST_F(Planar, lightsThatTheirReceiversPlaneCutsAreWhatRaysSay)
                   : scene.addSpot({ -2.0, -2.0, 0.6 }, glm::dvec3(0.0), allDirections);
     scene.lookFrom({ 2.0, -8.0, 7.0 });
     scene.set("light_radius", kind == 0 ? "40" : "1");
-    scene.set("light_samples", "1024");
-    scene.pass->SetTechnique("raytraced");
-    const std::vector<float> truth = drawKept(scene).visibility[0];
-    scene.pass->SetTechnique("planar");
-    EXPECT_LT(meanOff(drawKept(scene), truth), 0.002);
+    const std::vector<float> truth = drawKept(scene, "raytraced light_samples=1024").visibility[0];
+    EXPECT_LT(meanOff(drawKept(scene, "planar"), truth), 0.002);
   }
 }
 
@@ -444,8 +404,7 @@ TEST_F(Planar, softShadowsEndExactlyAtDarkAndLit)
   scene.addBox({ -2.0, -2.0, 0.5 }, { 2.0, 2.0, 1.0 });
   scene.addSpot({ 0.0, 0.0, 5.0 }, glm::dvec3(0.0), allDirections);
   scene.lookFrom({ 0.0, -8.0, 3.0 });
-  scene.pass->SetTechnique("planar");
-  scene.set("light_radius", "0.2");
+  scene.choose("planar light_radius=0.2");
   for (const char* count : { "1", "32", "33", "100", "1024" })
   {
     scene.set("light_samples", count);

@@ -1,8 +1,8 @@
 // Point lights and wide spot lights, whose maps have a layer for each face of a cube.
 
+#include "BuiltinPass.h"
 #include "PassScene.h"
 
-#include "Scene.h"
 #include "SyntheticScene.h"
 
 #include "lights/LightSpace.h"
@@ -20,8 +20,7 @@ class PositionalLights : public PassTest
 protected:
   static const VisibilityImages& draw(PassScene& scene, const char* technique = "nsm")
   {
-    scene.pass->SetTechnique(technique);
-    const VisibilityImages& kept = drawKept(scene);
+    const VisibilityImages& kept = drawKept(scene, technique);
     for (const std::vector<float>& light : kept.visibility)
     {
       EXPECT_TRUE(std::all_of(
@@ -83,23 +82,10 @@ private:
 TEST_F(PositionalLights, theRoomHasNoSeams)
 {
   const gnomon::tool::Scene room = gnomon::tool::loadScene("room");
-  const vtkSmartPointer<vtkRenderer> renderer = gnomon::tool::makeRenderer(room, 1.0);
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetSize(320, 320);
-  window->AddRenderer(renderer);
-  vtkNew<vtkGnomonShadowPass> pass;
-  pass->SmoothTerminatorsOff();
-  renderer->SetPass(pass);
-  pass->KeepVisibilityOn();
-  const auto drawWith = [&](const char* technique)
-  {
-    pass->SetTechnique(technique);
-    window->Render();
-    return pass->GetVisibility();
-  };
-  const VisibilityImages traced = drawWith("raytraced");
+  const BuiltinPass scene(room, 320);
+  const VisibilityImages traced = scene.draw("raytraced");
   const auto& at = room.lights[0].position;
-  EdgeFinder edges(renderer, { at[0], at[1], at[2] });
+  EdgeFinder edges(scene.renderer, { at[0], at[1], at[2] });
   /// Return the number of different pixels.
   const auto expectEdges =
     [&](const VisibilityImages& mapped, double tolerance, double texels, double mapSize)
@@ -110,8 +96,7 @@ TEST_F(PositionalLights, theRoomHasNoSeams)
       if (std::abs(mapped.visibility[0][i] - traced.visibility[0][i]) > tolerance)
       {
         ++different;
-        const glm::dvec3 normal(traced.normalX[i], traced.normalY[i], traced.normalZ[i]);
-        EXPECT_TRUE(edges.isNear(positionOf(traced, i), normal, texels, mapSize))
+        EXPECT_TRUE(edges.isNear(positionOf(traced, i), normalOf(traced, i), texels, mapSize))
           << "pixel " << i % 320 << ", " << i / 320;
       }
     }
@@ -120,9 +105,9 @@ TEST_F(PositionalLights, theRoomHasNoSeams)
   for (const int mapSize : { 128, 320 })
   {
     SCOPED_TRACE(mapSize);
-    pass->SetMapSize(mapSize);
-    const std::size_t wrong = expectEdges(drawWith("nsm"), 0.0, 2.0, mapSize);
-    EXPECT_EQ(pass->GetReport().bytesMaps, 6u * 4u * static_cast<unsigned>(mapSize * mapSize));
+    scene.pass->SetMapSize(mapSize);
+    const std::size_t wrong = expectEdges(scene.draw("nsm"), 0.0, 2.0, mapSize);
+    EXPECT_EQ(scene.report().bytesMaps, 6u * 4u * static_cast<unsigned>(mapSize * mapSize));
     EXPECT_GT(wrong, 0u) << "a map has its texels";
     EXPECT_LE(wrong, (mapSize == 128 ? 0.01 : 0.005) * 320.0 * 320.0);
   }
@@ -132,9 +117,9 @@ TEST_F(PositionalLights, theRoomHasNoSeams)
   for (const char* kernel : { "bilinear", "box", "poisson", "castano" })
   {
     SCOPED_TRACE(kernel);
-    set(lightOf(renderer), "kernel", kernel);
-    set(lightOf(renderer), "kernel_size", "7");
-    EXPECT_GT(expectEdges(drawWith("pcf"), 0.05, 5.5, 320.0 - 8.0), 1000u);
+    set(lightOf(scene.renderer), "kernel", kernel);
+    set(lightOf(scene.renderer), "kernel_size", "7");
+    EXPECT_GT(expectEdges(scene.draw("pcf"), 0.05, 5.5, 320.0 - 8.0), 1000u);
   }
 }
 
@@ -235,8 +220,6 @@ TEST_F(PositionalLights, lightsOfAllKindsShareAShader)
   EXPECT_EQ(scene.report().route, "inline");
   scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
   EXPECT_EQ(differingPixels(direct, scene.render(), 1), 0u);
-  scene.pass->SetTechnique("raytraced");
-  EXPECT_LE(differingPixels(direct, scene.render(), 8), 800u);
-  scene.usePlain();
-  EXPECT_GT(differingPixels(direct, scene.render(), 8), 10000u);
+  EXPECT_LE(differingPixels(direct, scene.render("raytraced"), 8), 800u);
+  EXPECT_GT(differingPixels(direct, scene.renderPlain(), 8), 10000u);
 }

@@ -22,7 +22,6 @@
 #include <vtkOpenGLState.h>
 #include <vtkProp3DFollower.h>
 #include <vtkPropAssembly.h>
-#include <vtkPropCollection.h>
 #include <vtkQuadricLODActor.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkStripper.h>
@@ -36,9 +35,7 @@ namespace
 
 /// A floor from straight above, under a sun at 45 degrees that travels along +x. A caster at height
 /// z shades the floor z further along x.
-class Props
-  : public PassTest
-  , public testing::WithParamInterface<Way>
+class Props : public PassTestOf<Way>
 {
 protected:
   Props()
@@ -52,12 +49,9 @@ protected:
   /// A square of side 2 at height 2 over (x, y), its front up or down; it shades (x + 2, y).
   vtkActor* addSquare(bool frontUp, double x = 0.0, double y = 0.0)
   {
-    vtkNew<vtkPlaneSource> square;
     const double side = frontUp ? 1.0 : -1.0;
-    square->SetOrigin(-side, -1.0, 2.0);
-    square->SetPoint1(side, -1.0, 2.0);
-    square->SetPoint2(-side, 1.0, 2.0);
-    vtkActor* actor = this->scene.add(square);
+    vtkActor* actor =
+      this->scene.add(planeOf({ -side, -1.0, 2.0 }, { side, -1.0, 2.0 }, { -side, 1.0, 2.0 }));
     actor->SetPosition(x, y, 0.0);
     return actor;
   }
@@ -127,43 +121,17 @@ vtkStandardNewMacro(QuietInteractor);
 struct Kind
 {
   const char* name;
-  vtkSmartPointer<vtkProp3D> (*make)(vtkRenderer* renderer);
+  std::function<vtkSmartPointer<vtkProp3D>(vtkRenderer* renderer)> make;
   bool isFlat = false;
 };
 const Box hungBox{ { -1.0, -1.0, 1.5 }, { 1.0, 1.0, 2.5 } };
 const Box flatPlace{ { -1.0, -1.0, 2.0 }, { 1.0, 1.0, 2.0 } };
 
-vtkSmartPointer<vtkPolyDataMapper> mapperOf(vtkAlgorithm* source)
+vtkSmartPointer<vtkPolyDataMapper> boxMapper(const glm::dvec3& off = glm::dvec3(0.0))
 {
-  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
-  mapper->SetInputConnection(source->GetOutputPort());
-  return mapper;
+  return mapperOf(boxOf(hungBox.lower - off, hungBox.upper - off));
 }
-vtkSmartPointer<vtkAlgorithm> boxSource(const glm::dvec3& off = glm::dvec3(0.0))
-{
-  const auto box = vtkSmartPointer<vtkCubeSource>::New();
-  const glm::dvec3 lower = hungBox.lower - off;
-  const glm::dvec3 upper = hungBox.upper - off;
-  box->SetBounds(lower.x, upper.x, lower.y, upper.y, lower.z, upper.z);
-  return box;
-}
-/// Around the origin, in the plane z = 0.
-vtkSmartPointer<vtkAlgorithm> signSource()
-{
-  const auto sign = vtkSmartPointer<vtkPlaneSource>::New();
-  sign->SetOrigin(-1.0, -1.0, 0.0);
-  sign->SetPoint1(1.0, -1.0, 0.0);
-  sign->SetPoint2(-1.0, 1.0, 0.0);
-  return sign;
-}
-template <typename Actor = vtkActor>
-vtkSmartPointer<Actor> actorOf(vtkMapper* mapper)
-{
-  const auto actor = vtkSmartPointer<Actor>::New();
-  actor->SetMapper(mapper);
-  return actor;
-}
-vtkSmartPointer<vtkProp3D> held(vtkProp3D* part)
+vtkSmartPointer<vtkAssembly> held(vtkProp3D* part)
 {
   const auto assembly = vtkSmartPointer<vtkAssembly>::New();
   assembly->AddPart(part);
@@ -171,9 +139,9 @@ vtkSmartPointer<vtkProp3D> held(vtkProp3D* part)
 }
 
 /// The box, turned by a quarter around an axis beside it, and back by its assembly.
-vtkSmartPointer<vtkProp3D> makeAssembly(vtkRenderer*)
+vtkSmartPointer<vtkAssembly> turnedTwice()
 {
-  const auto box = actorOf(mapperOf(boxSource({ 0.0, 0.0, 1.0 })));
+  const auto box = actorOf(boxMapper({ 0.0, 0.0, 1.0 }));
   box->SetPosition(0.0, 2.0, 1.0);
   const auto inner = held(box);
   inner->RotateZ(90.0); // the box at (-2, 0)
@@ -182,25 +150,19 @@ vtkSmartPointer<vtkProp3D> makeAssembly(vtkRenderer*)
   return outer;
 }
 
-vtkSmartPointer<vtkProp3D> makeBlocks(vtkRenderer*)
+/// The box, and another one that is hidden.
+vtkSmartPointer<vtkActor> blocksActor()
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  const auto box = boxSource();
-  box->Update();
-  blocks->SetBlock(0, vtkPolyData::SafeDownCast(box->GetOutputDataObject(0)));
-  vtkNew<vtkCubeSource> hidden;
-  hidden->SetBounds(3.0, 4.0, 3.0, 4.0, 1.0, 2.0);
-  hidden->Update();
-  blocks->SetBlock(1, hidden->GetOutput());
   vtkNew<SharedBlocksMapper> mapper;
-  mapper->SetInputDataObject(blocks);
+  mapper->SetInputDataObject(blocksOf({ copyOf(boxOf(hungBox.lower, hungBox.upper)),
+    copyOf(boxOf({ 3.0, 3.0, 1.0 }, { 4.0, 4.0, 2.0 })) }));
   vtkNew<vtkCompositeDataDisplayAttributes> attributes;
   mapper->SetCompositeDataDisplayAttributes(attributes);
   mapper->SetBlockVisibility(2, false); // by flat index: the tree is 0, its children 1 and 2
   return actorOf(mapper);
 }
 
-vtkSmartPointer<vtkProp3D> makeDataSet(vtkRenderer*)
+vtkSmartPointer<vtkActor> gridActor()
 {
   vtkNew<vtkImageData> grid;
   grid->SetDimensions(2, 2, 2);
@@ -211,71 +173,54 @@ vtkSmartPointer<vtkProp3D> makeDataSet(vtkRenderer*)
   return actorOf(mapper);
 }
 
-vtkSmartPointer<vtkProp3D> makeParts(vtkRenderer*)
+vtkSmartPointer<vtkActor> partsActor()
 {
   vtkNew<vtkCompositePolyDataMapper> mapper;
-  mapper->SetInputConnection(boxSource()->GetOutputPort());
+  mapper->SetInputConnection(boxOf(hungBox.lower, hungBox.upper)->GetOutputPort());
   return actorOf(mapper);
 }
 
-vtkSmartPointer<vtkProp3D> makeStrips(vtkRenderer*)
+vtkSmartPointer<vtkActor> stripsActor()
 {
   vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputConnection(boxSource()->GetOutputPort());
+  triangles->SetInputConnection(boxOf(hungBox.lower, hungBox.upper)->GetOutputPort());
   vtkNew<vtkStripper> strips;
   strips->SetInputConnection(triangles->GetOutputPort());
   return actorOf(mapperOf(strips));
 }
 
 /// Two half boxes.
-vtkSmartPointer<vtkProp3D> makeGlyphs(vtkRenderer*)
+vtkSmartPointer<vtkActor> glyphsActor()
 {
-  vtkNew<vtkPoints> places;
-  places->InsertNextPoint(0.0, -0.5, 2.0);
-  places->InsertNextPoint(0.0, 0.5, 2.0);
-  vtkNew<vtkPolyData> points;
-  points->SetPoints(places);
-  vtkNew<vtkCubeSource> half;
-  half->SetBounds(-1.0, 1.0, -0.5, 0.5, -0.5, 0.5);
   vtkNew<vtkGlyph3DMapper> mapper;
-  mapper->SetInputData(points);
-  mapper->SetSourceConnection(half->GetOutputPort());
+  mapper->SetInputData(meshOf({ { 0.0, -0.5, 2.0 }, { 0.0, 0.5, 2.0 } }, {}));
+  mapper->SetSourceConnection(boxOf({ -1.0, -0.5, -0.5 }, { 1.0, 0.5, 0.5 })->GetOutputPort());
   return actorOf(mapper);
 }
 
-vtkSmartPointer<vtkProp3D> makeLevels(vtkRenderer*)
-{
-  const auto prop = vtkSmartPointer<vtkLODProp3D>::New();
-  prop->AddLOD(mapperOf(boxSource()), 0.0);
-  return prop;
-}
-
 /// A sign that faces the camera, and so lies flat under a camera that looks straight down.
-vtkSmartPointer<vtkProp3D> makeFollower(vtkRenderer* renderer)
+vtkSmartPointer<vtkFollower> signThatFaces(vtkRenderer* renderer)
 {
-  const auto follower = actorOf<vtkFollower>(mapperOf(signSource()));
+  const auto follower = actorOf<vtkFollower>(mapperOf(squareOf(1.0)));
   follower->SetPosition(0.0, 0.0, 2.0);
   follower->SetCamera(renderer->GetActiveCamera());
   return follower;
 }
 
-vtkSmartPointer<vtkProp3D> makePropFollower(vtkRenderer* renderer)
+vtkSmartPointer<vtkProp3DFollower> propThatFaces(vtkRenderer* renderer)
 {
   const auto follower = vtkSmartPointer<vtkProp3DFollower>::New();
-  follower->SetProp3D(actorOf(mapperOf(signSource())));
+  follower->SetProp3D(actorOf(mapperOf(squareOf(1.0))));
   follower->SetPosition(0.0, 0.0, 2.0);
   follower->SetCamera(renderer->GetActiveCamera());
   return follower;
 }
 
-vtkSmartPointer<vtkProp3D> makeImage(vtkRenderer*)
+vtkSmartPointer<vtkImageActor> imageThatCasts()
 {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(5, 5, 1);
+  const auto image = makeImage(5, 5, [](int, int) { return glm::dvec3(1.0); });
   image->SetSpacing(0.5, 0.5, 1.0);
   image->SetOrigin(-1.0, -1.0, 2.0);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  image->GetPointData()->GetScalars()->Fill(255.0);
   const auto slice = vtkSmartPointer<vtkImageActor>::New();
   slice->SetInputData(image);
   slice->GetProperty()->SetAmbient(0.0);
@@ -286,35 +231,35 @@ vtkSmartPointer<vtkProp3D> makeImage(vtkRenderer*)
 
 constexpr bool isFlat = true;
 const Kind kinds[] = {
-  { "actor",
-    [](vtkRenderer*) -> vtkSmartPointer<vtkProp3D> { return actorOf(mapperOf(boxSource())); } },
+  { "actor", [](vtkRenderer*) { return actorOf(boxMapper()); } },
   { "mirrored",
-    [](vtkRenderer*) -> vtkSmartPointer<vtkProp3D>
+    [](vtkRenderer*)
     {
-      const auto actor = actorOf(mapperOf(boxSource({ 1.0, 0.0, 0.0 })));
+      const auto actor = actorOf(boxMapper({ 1.0, 0.0, 0.0 }));
       actor->SetScale(-1.0, 1.0, 1.0);
       actor->SetPosition(-1.0, 0.0, 0.0);
       return actor;
     } },
-  { "assembly", makeAssembly },
-  { "blocks", makeBlocks },
-  { "dataSet", makeDataSet },
-  { "parts", makeParts },
-  { "strips", makeStrips },
-  { "glyphs", makeGlyphs },
-  { "levels", makeLevels },
-  { "levelActor",
-    [](vtkRenderer*) -> vtkSmartPointer<vtkProp3D>
-    { return actorOf<vtkLODActor>(mapperOf(boxSource())); } },
-  { "followerWithoutACamera",
-    [](vtkRenderer*) -> vtkSmartPointer<vtkProp3D>
-    { return actorOf<vtkFollower>(mapperOf(boxSource())); } },
+  { "assembly", [](vtkRenderer*) { return turnedTwice(); } },
+  { "blocks", [](vtkRenderer*) { return blocksActor(); } },
+  { "dataSet", [](vtkRenderer*) { return gridActor(); } },
+  { "parts", [](vtkRenderer*) { return partsActor(); } },
+  { "strips", [](vtkRenderer*) { return stripsActor(); } },
+  { "glyphs", [](vtkRenderer*) { return glyphsActor(); } },
+  { "levels",
+    [](vtkRenderer*)
+    {
+      const auto prop = vtkSmartPointer<vtkLODProp3D>::New();
+      prop->AddLOD(boxMapper(), 0.0);
+      return prop;
+    } },
+  { "levelActor", [](vtkRenderer*) { return actorOf<vtkLODActor>(boxMapper()); } },
+  { "followerWithoutACamera", [](vtkRenderer*) { return actorOf<vtkFollower>(boxMapper()); } },
   { "followerWithoutACameraInAssemblies",
-    [](vtkRenderer*) -> vtkSmartPointer<vtkProp3D>
-    { return held(held(actorOf<vtkFollower>(mapperOf(boxSource())))); } },
-  { "follower", makeFollower, isFlat },
-  { "propFollower", makePropFollower, isFlat },
-  { "image", makeImage, isFlat },
+    [](vtkRenderer*) { return held(held(actorOf<vtkFollower>(boxMapper()))); } },
+  { "follower", signThatFaces, isFlat },
+  { "propFollower", propThatFaces, isFlat },
+  { "image", [](vtkRenderer*) { return imageThatCasts(); }, isFlat },
 };
 
 } // namespace
@@ -334,9 +279,7 @@ TEST_P(Props, ofAllKindsCastAndReceive)
       Box box = kind.isFlat ? flatPlace : hungBox;
       box.lower.y += y;
       box.upper.y += y;
-      this->scene.usePlain();
-      const int lit = this->scene.redAt(this->scene.render(), 0.5, y);
-      this->scene.useGnomon();
+      const int lit = this->scene.redAt(this->scene.renderPlain(), 0.5, y);
       this->scene.render(); // VTK makes inner mappers in the first frames
       this->scene.render();
       const Picture picture = this->scene.render();
@@ -375,27 +318,17 @@ TEST_P(Props, castUnlessToldOtherwise)
 /// A prop before the others leaves the receivers' state changed behind it.
 TEST_P(Props, oneThatBindsItsOwnFramebufferLeavesOthersRight)
 {
-  this->addSquare(true);
+  vtkActor* const square = this->addSquare(true);
   const Picture without = this->scene.render();
-  vtkNew<vtkPlaneSource> plane;
   vtkNew<ElsewhereMapper> mapper;
-  mapper->SetInputConnection(plane->GetOutputPort());
-  vtkNew<vtkActor> elsewhere;
-  elsewhere->SetMapper(mapper);
+  mapper->SetInputConnection(squareOf(0.5)->GetOutputPort());
+  const auto elsewhere = actorOf(mapper);
   vtkGnomonPropKeys::SetCasts(elsewhere, false);
-  vtkCollectionSimpleIterator iterator;
-  std::vector<vtkSmartPointer<vtkProp>> props;
-  vtkPropCollection* all = this->scene.renderer->GetViewProps();
-  all->InitTraversal(iterator);
-  while (vtkProp* prop = all->GetNextProp(iterator))
+  for (const vtkSmartPointer<vtkActor> later : { this->floor, square })
   {
-    props.emplace_back(prop);
-  }
-  this->scene.renderer->RemoveAllViewProps();
-  this->scene.renderer->AddViewProp(elsewhere);
-  for (vtkProp* prop : props)
-  {
-    this->scene.renderer->AddViewProp(prop);
+    this->scene.renderer->RemoveActor(later);
+    this->scene.renderer->AddActor(elsewhere); // again: it stays the first
+    this->scene.renderer->AddActor(later);
   }
   EXPECT_EQ(differingPixels(without, this->scene.render()), 0u);
 }
@@ -426,8 +359,7 @@ TEST_P(Props, oneSidedOnesCastFromTheirFront)
 TEST_P(Props, partsOfAssembliesMayBeInTheRendererToo)
 {
   vtkActor* square = this->addSquare(true);
-  vtkNew<vtkAssembly> assembly;
-  assembly->AddPart(square);
+  const auto assembly = held(square);
   assembly->SetPosition(0.0, 3.0, 0.0);
   this->scene.renderer->AddActor(assembly);
   for (int frame = 0; frame < 2; ++frame)
@@ -459,11 +391,10 @@ TEST_P(Props, levelsOfDetailCastAsDrawn)
 {
   const auto levelAt = [](double x, double seconds)
   {
-    const auto box = vtkSmartPointer<vtkCubeSource>::New();
-    box->SetBounds(x - 0.5, x + 0.5, -0.5, 0.5, 1.5, 2.5);
     const auto mapper = vtkSmartPointer<TimedMapper>::New();
     mapper->Seconds = seconds;
-    mapper->SetInputConnection(box->GetOutputPort());
+    mapper->SetInputConnection(
+      boxOf({ x - 0.5, -0.5, 1.5 }, { x + 0.5, 0.5, 2.5 })->GetOutputPort());
     return mapper;
   };
   vtkNew<vtkLODProp3D> prop;
@@ -504,11 +435,8 @@ TEST_P(Props, selectedLevelsOfDetailCastThoughTheyWereNeverInView)
   prop->AutomaticLODSelectionOff();
   const auto addLevelAt = [&](double height)
   {
-    vtkNew<vtkCubeSource> box;
-    box->SetBounds(-0.5, 0.5, -0.5, 0.5, height - 0.5, height + 0.5);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(box->GetOutputPort());
-    return prop->AddLOD(mapper, 0.0);
+    const auto box = boxOf({ -0.5, -0.5, height - 0.5 }, { 0.5, 0.5, height + 0.5 });
+    return prop->AddLOD(mapperOf(box), 0.0);
   };
   addLevelAt(6.0);
   prop->SetSelectedLODID(addLevelAt(10.0));
@@ -522,14 +450,7 @@ TEST_P(Props, quadricLevelsOfDetailCastAsDrawn)
 {
   vtkNew<QuietInteractor> interactor;
   interactor->SetRenderWindow(this->scene.window);
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetRadius(1.0);
-  sphere->SetThetaResolution(120);
-  sphere->SetPhiResolution(60);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(sphere->GetOutputPort());
-  vtkNew<vtkQuadricLODActor> actor;
-  actor->SetMapper(mapper);
+  const auto actor = actorOf<vtkQuadricLODActor>(mapperOf(ballOf(glm::dvec3(0.0), 1.0, 120, 60)));
   actor->SetPosition(0.0, 0.0, 2.0);
   this->scene.renderer->AddActor(actor);
   this->scene.window->SetDesiredUpdateRate(1e-6);
@@ -566,11 +487,7 @@ TEST_P(Props, translucentOnesCastIfAsked)
 /// seen through it; both are lit but where boxes shade one of them.
 TEST_P(Props, seenThroughOnesHideNoReceiver)
 {
-  vtkNew<vtkPlaneSource> square;
-  square->SetOrigin(-1.0, -1.0, 2.0);
-  square->SetPoint1(1.0, -1.0, 2.0);
-  square->SetPoint2(-1.0, 1.0, 2.0);
-  square->Update();
+  const auto square = outputOf(squareOf(1.0, 2.0));
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetNumberOfComponents(4);
   for (int i = 0; i < 4; ++i)
@@ -578,10 +495,9 @@ TEST_P(Props, seenThroughOnesHideNoReceiver)
     colours->InsertNextTuple4(255, 255, 255, 128);
   }
   vtkNew<vtkPolyData> coloured;
-  coloured->ShallowCopy(square->GetOutput());
+  coloured->ShallowCopy(square);
   coloured->GetPointData()->SetScalars(colours);
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, square->GetOutput());
+  const auto blocks = blocksOf({ square });
   enum
   {
     ByProperty,
@@ -599,29 +515,27 @@ TEST_P(Props, seenThroughOnesHideNoReceiver)
       auto shared = vtkSmartPointer<SharedBlocksMapper>::New();
       vtkNew<vtkCompositeDataDisplayAttributes> attributes;
       shared->SetCompositeDataDisplayAttributes(attributes);
-      attributes->SetBlockOpacity(square->GetOutput(), 0.5);
+      attributes->SetBlockOpacity(square, 0.5);
       mapper = shared;
       mapper->SetInputDataObject(blocks);
     }
     else
     {
-      mapper->SetInputDataObject(opacity == ByScalars ? coloured.Get() : square->GetOutput());
+      mapper->SetInputDataObject(opacity == ByScalars ? coloured.Get() : square.Get());
     }
-    vtkNew<vtkActor> veil;
-    veil->SetMapper(mapper);
+    const auto veil = actorOf(mapper);
     veil->ForceOpaqueOn();
     veil->GetProperty()->SetOpacity(opacity == ByProperty || opacity == Unlit ? 0.5 : 1.0);
     veil->GetProperty()->SetLighting(opacity != Unlit);
-    vtkNew<vtkAssembly> assembly;
-    assembly->AddPart(veil);
+    const auto assembly = held(veil);
     vtkNew<vtkPropAssembly> parts;
     parts->AddPart(veil);
-    vtkNew<vtkFollower> follower;
+    const auto follower = actorOf<vtkFollower>(mapper);
     follower->SetCamera(this->scene.renderer->GetActiveCamera());
-    follower->SetMapper(mapper);
     follower->SetProperty(veil->GetProperty());
     follower->ForceOpaqueOn();
-    for (vtkProp* prop : std::initializer_list<vtkProp*>{ veil, assembly, parts, follower })
+    for (vtkProp* prop :
+      std::initializer_list<vtkProp*>{ veil.Get(), assembly.Get(), parts.Get(), follower.Get() })
     {
       if (prop == follower && opacity == ByBlocks)
       {
@@ -642,10 +556,7 @@ TEST_P(Props, seenThroughOnesHideNoReceiver)
 
 TEST_P(Props, levelsOfDetailMayShareAMapper)
 {
-  vtkNew<vtkCubeSource> box;
-  box->SetBounds(-2.5, -1.5, -0.5, 0.5, 1.5, 2.5);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(box->GetOutputPort());
+  const auto mapper = mapperOf(boxOf({ -2.5, -0.5, 1.5 }, { -1.5, 0.5, 2.5 }));
   vtkNew<vtkLODProp3D> prop;
   prop->AutomaticLODSelectionOff();
   vtkNew<vtkProperty> white;
@@ -673,7 +584,7 @@ TEST_P(Props, castersOutsideTheViewCast)
 
 TEST_P(Props, followersTurnWithTheCamera)
 {
-  this->scene.renderer->AddViewProp(makeFollower(this->scene.renderer));
+  this->scene.renderer->AddViewProp(signThatFaces(this->scene.renderer));
   this->scene.renderer->GetActiveCamera()->Roll(45.0); // the sign's corners lie on the axes
   const Picture rolled = this->scene.render();
   this->scene.renderer->GetActiveCamera()->Roll(-45.0);

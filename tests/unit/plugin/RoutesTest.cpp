@@ -1,13 +1,12 @@
 // Both routes, on the built-in scenes and with all techniques, and scenes far away and of other
 // sizes.
 
+#include "BuiltinPass.h"
+#include "LiveObjects.h"
 #include "PassScene.h"
 #include "Variant.h"
 
-#include "Scene.h"
-
-#include <vtkOpenGLState.h>
-#include <vtkTextureUnitManager.h>
+#include <vtkCollectionRange.h>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -15,37 +14,10 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-class Routes
-  : public PassTest
-  , public testing::WithParamInterface<const char*>
-{
-};
+using Routes = PassTestOf<const char*>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Routes,
-  testing::Values("bunny", "cube", "primitives", "posts", "plates", "room", "terrain"),
-  [](const testing::TestParamInfo<const char*>& scene) { return std::string(scene.param); });
-
-/// A built-in scene's renderer with the pass, in a window.
-struct ToolScene
-{
-  explicit ToolScene(const std::string& name, int size)
-    : renderer(gnomon::tool::makeRenderer(gnomon::tool::loadScene(name), 1.0))
-  {
-    this->window->SetSize(size, size);
-    this->window->AddRenderer(this->renderer);
-    this->renderer->SetPass(this->pass);
-    this->pass->SmoothTerminatorsOff(); // shaders look up above facets; the image route does not
-  }
-  Picture render()
-  {
-    this->window->Render();
-    return readPicture(this->window);
-  }
-
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  vtkSmartPointer<vtkRenderer> renderer;
-  vtkNew<vtkGnomonShadowPass> pass;
-};
+  testing::Values("bunny", "cube", "primitives", "posts", "plates", "room", "terrain"), byText);
 
 struct Placing
 {
@@ -68,17 +40,9 @@ std::size_t differenceOfRoutes(
   return differingPixels(direct, image, tolerance);
 }
 
-class PointwiseScenes
-  : public PassTest
-  , public testing::WithParamInterface<Variant>
-{
-};
+using PointwiseScenes = PassTestOf<Variant>;
 
-class PlacedScenes
-  : public PassTest
-  , public testing::WithParamInterface<Placing>
-{
-};
+using PlacedScenes = PassTestOf<Placing>;
 
 INSTANTIATE_TEST_SUITE_P(Placings, PlacedScenes,
   testing::ValuesIn(
@@ -103,19 +67,16 @@ void place(vtkRenderer* renderer, const Placing& placing)
   vtkNew<vtkTransform> transform;
   transform->Translate(placing.distance, placing.distance, placing.distance);
   transform->Scale(placing.scale, placing.scale, placing.scale);
-  vtkActorCollection* actors = renderer->GetActors();
-  actors->InitTraversal();
-  while (vtkActor* actor = actors->GetNextActor())
+  for (vtkActor* actor : vtk::Range(renderer->GetActors()))
   {
     vtkNew<vtkTransform> placed;
     placed->SetMatrix(transform->GetMatrix());
     placed->Concatenate(actor->GetUserMatrix());
     actor->SetUserMatrix(placed->GetMatrix());
   }
-  vtkLightCollection* lights = renderer->GetLights();
-  lights->InitTraversal();
-  while (vtkLight* light = lights->GetNextItem())
+  for (int i = 0; i < renderer->GetLights()->GetNumberOfItems(); ++i)
   {
+    vtkLight* const light = lightOf(renderer, i);
     light->SetPosition(transform->TransformDoublePoint(light->GetPosition()));
     light->SetFocalPoint(transform->TransformDoublePoint(light->GetFocalPoint()));
   }
@@ -132,15 +93,13 @@ void place(vtkRenderer* renderer, const Placing& placing)
 
 TEST_P(Routes, differOnAtMostOnePixelInAHundredThousand)
 {
-  ToolScene scene(GetParam(), 512);
-  scene.renderer->SetPass(nullptr);
-  const Picture plain = scene.render();
-  scene.renderer->SetPass(scene.pass);
+  const BuiltinPass scene(GetParam(), 512);
+  scene.pass->KeepVisibilityOff();
+  const Picture plain = scene.renderPlain();
   for (const char* text : { "nsm", "pcf kernel_size=5", "pcf kernel=box kernel_size=5",
          "pcf kernel=poisson kernel_size=5", "pcf kernel=castano kernel_size=5" })
   {
-    const Variant variant{ text };
-    variant.choose(scene.pass);
+    scene.choose(text);
     const std::size_t different = differenceOfRoutes(
       scene.pass, [&] { return scene.render(); }, 1);
     EXPECT_LE(different, plain.pixels() / 100000) << text;
@@ -151,10 +110,8 @@ TEST_P(Routes, differOnAtMostOnePixelInAHundredThousand)
 TEST_BY_VARIANTS(PointwiseScenes, BothRoutes, &Variant::isPointwise)
 {
   PassScene scene(256, 256);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSphereOverFloor();
   vtkLight* const sun = scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
   GetParam().choose(scene.pass);
   const auto expectTheSame = [&]
   {
@@ -177,17 +134,11 @@ TEST_BY_VARIANTS(PointwiseScenes, BothRoutes, &Variant::isPointwise)
 TEST_P(PlacedScenes, haveTheSameVisibility)
 {
   const Placing& placing = GetParam();
-  ToolScene near("primitives", 320);
-  near.pass->SetTechnique(placing.technique);
-  near.pass->KeepVisibilityOn();
-  near.render();
-  ToolScene placed("primitives", 320);
-  placed.pass->SetTechnique(placing.technique);
-  placed.pass->KeepVisibilityOn();
+  const BuiltinPass near("primitives", 320);
+  const BuiltinPass placed("primitives", 320);
   place(placed.renderer, placing);
-  placed.render();
   const Agreement agreement =
-    compareVisibility(near.pass->GetVisibility(), placed.pass->GetVisibility());
+    compareVisibility(near.draw(placing.technique), placed.draw(placing.technique));
   EXPECT_GT(agreement.covered, 50000u);
   EXPECT_GE(agreement.agreeing(), 0.9999) << agreement.wrong << " wrong, " << agreement.coverage
                                           << " covered otherwise, of " << agreement.covered;
@@ -210,29 +161,14 @@ TEST_F(PassTest, lightsByTheDozenShowAllTheirShadows)
     scene.addSun({ std::cos(angle), std::sin(angle), -1.5 })->SetIntensity(1.5 / count);
   }
   scene.window->Initialize();
-  vtkTextureUnitManager* units = scene.window->GetState()->GetTextureUnitManager();
-  std::vector<int> taken;
-  for (int unit = units->Allocate(); unit >= 0; unit = units->Allocate())
-  {
-    taken.push_back(unit);
-  }
-  for (int i = 0; i < count / 2; ++i)
-  {
-    units->Free(taken.back());
-    taken.pop_back();
-  }
+  TakenUnits taken(scene.window);
+  taken.giveBack(count / 2);
   const Picture mapped = scene.render();
   EXPECT_EQ(scene.report().route, "image");
   EXPECT_THAT(scene.report().notes, testing::Contains(testing::HasSubstr("translucent surfaces")));
-  scene.pass->SetTechnique("raytraced");
-  const Picture traced = scene.render();
+  const Picture traced = scene.render("raytraced");
   EXPECT_LE(differingPixels(mapped, traced, 8), 20u);
-  scene.usePlain();
-  EXPECT_GT(differingPixels(scene.render(), traced, 8), 100u);
-  for (const int unit : taken)
-  {
-    units->Free(unit);
-  }
+  EXPECT_GT(differingPixels(scene.renderPlain(), traced, 8), 100u);
 }
 
 /// More lights than an image has bits. Each light's hard shadow shows with that light's brightness.
@@ -300,8 +236,7 @@ TEST_F(PassTest, slowTechniquesTakeTheImageRoute)
     for (const auto& [technique, route] : { std::pair("nsm", "inline"), { "pcf", "inline" },
            { "pcss", samples > 0 ? "inline" : "image" } })
     {
-      scene.pass->SetTechnique(technique);
-      scene.render();
+      scene.render(technique);
       EXPECT_EQ(scene.report().route, route) << technique << ": " << scene.report().routeReason;
     }
     scene.render();

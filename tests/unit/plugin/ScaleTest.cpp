@@ -54,11 +54,7 @@ void lookAtCorner(PassScene& scene)
   scene.lookDown(0.05);
 }
 
-class Scale
-  : public PassTest
-  , public testing::WithParamInterface<Way>
-{
-};
+using Scale = PassTestOf<Way>;
 
 INSTANTIATE_TEST_SUITE_P(Ways, Scale, fewWays, nameOf);
 
@@ -71,8 +67,7 @@ TEST_P(Scale, millionTrianglesTakeLessThanTheBound)
     PassScene scene(64, 64);
     scene.add(makeTerrain(708, 0.0, 0.0, 1.0, shared));
     lookAtCorner(scene);
-    scene.choose(GetParam());
-    scene.render();
+    scene.render(GetParam());
     const gnomon::FrameReport& report = scene.report();
     ASSERT_GE(report.triangles, 1000000u);
     const double each =

@@ -14,10 +14,8 @@ namespace
 
 void fillUnderSun(PassScene& scene)
 {
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSphereOverFloor();
   scene.addSun({ 1.0, 0.3, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
 }
 
 class Settings : public PassTest
@@ -47,10 +45,9 @@ INSTANTIATE_TEST_SUITE_P(OnPlanes, SettingsOfWay, testing::Values(planarWay), na
 
 TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
 {
-  this->scene.pass->SetTechnique("pcf");
-  const Picture shadowed = this->scene.render();
+  const Picture shadowed = this->scene.render("pcf");
   this->scene.pass->SetSetting("map_samples", "4");
-  vtkGnomonLightKeys::SetSetting(this->sun, "contour", "6");
+  set(this->sun, "contour", "6");
   for (int frame = 0; frame < 3; ++frame)
   {
     EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
@@ -63,11 +60,10 @@ TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
     HasSubstr("light 0 has the technique 'pcf', and the setting 'contour' is for: selective."));
   // A setting for another technique is no error, and takes effect with that technique.
   this->scene.pass->SetTechnique("vsm");
-  vtkGnomonLightKeys::SetSetting(this->sun, "contour", "");
+  set(this->sun, "contour", "");
   this->scene.render();
   EXPECT_EQ(this->scene.report().lights[0].mapSamples, 4);
-  this->scene.pass->SetTechnique("nsm");
-  this->scene.render();
+  this->scene.render("nsm");
   EXPECT_TRUE(this->scene.report().misfits.empty());
 }
 
@@ -143,8 +139,7 @@ TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyed)
   EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
   this->scene.renderer->UseShadowsOff();
   EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
-  this->scene.usePlain();
-  EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
+  EXPECT_EQ(differingPixels(unshadowed, this->scene.renderPlain()), 0u);
   EXPECT_GT(differingPixels(shadowed, unshadowed), 300u);
 }
 
@@ -230,15 +225,9 @@ TEST_P(SettingsOfWay, onePassForTwoRenderersSideBySide)
     rightSun->Modified();
     window->Render();
     const Picture both = readPicture(window);
-    std::size_t different = 0;
-    for (int y = 0; y < both.height; ++y)
-    {
-      for (int x = 0; x < 200; ++x)
-      {
-        different += both.at(x, y) != expectedLeft.at(x, y) ? 1 : 0;
-        different += both.at(x + 200, y) != expectedRight.at(x, y) ? 1 : 0;
-      }
-    }
+    const auto differs = [&](int x, int y)
+    { return both.at(x, y) != (x < 200 ? expectedLeft.at(x, y) : expectedRight.at(x - 200, y)); };
+    const std::size_t different = countPixels(both, differs);
     EXPECT_EQ(different, 0u) << "frame " << frame;
   }
 }
@@ -252,9 +241,6 @@ class OldOpenGL : public PassTest
 protected:
   OldOpenGL()
   {
-    this->scene.addFloor(10.0);
-    this->box = this->scene.addBox(hangingBox.lower, hangingBox.upper);
-    this->sun = this->scene.addSun(slantingSun);
     this->scene.lookDown(5.0, 1.0);
     this->scene.window->SetContextVersion(3, 2);
     this->scene.usePlain();
@@ -276,14 +262,13 @@ protected:
   void expectShadow(const char* technique, const char* taken)
   {
     SCOPED_TRACE(technique);
-    const ExactFloor exact = floorUnderSun(hangingBox, 10.0);
     this->scene.pass->SetTechnique(technique);
     for (const int route : { vtkGnomonShadowPass::ROUTE_IMAGE, vtkGnomonShadowPass::ROUTE_AUTO })
     {
       this->scene.pass->SetRoute(route);
       for (int frame = 0; frame < 3; ++frame)
       {
-        const FloorCheck check = checkFloor(this->scene, this->scene.render(), exact, 0.1);
+        const FloorCheck check = this->scene.check(this->scene.render(), 0.1);
         EXPECT_GT(check.counted, 10000u);
         EXPECT_EQ(check.wrong(), 0u);
         EXPECT_EQ(this->scene.report().lights.at(0).technique, taken);
@@ -291,9 +276,7 @@ protected:
     }
   }
 
-  PassScene scene{ 200, 150 };
-  vtkActor* box;
-  vtkLight* sun;
+  BoxScene scene{ 200, 150, hangingBox, 10.0 };
   std::pair<int, int> version;
 };
 
@@ -315,10 +298,8 @@ TEST_F(OldOpenGL, showsWhatTheCpuTraces)
     this->expectShadow("silhouette", "silhouette");
     EXPECT_EQ(this->takeErrors(), "") << bake;
   }
-  vtkGnomonLightKeys::SetSetting(this->sun, "light_radius", "1");
-  this->scene.pass->SetSetting("edge_samples", "1");
-  this->scene.pass->SetTechnique("penumbra");
-  this->scene.render();
+  set(this->scene.sun, "light_radius", "1");
+  this->scene.render("edge_samples=1 penumbra");
   EXPECT_EQ(this->takeErrors(), "") << "an area light";
   EXPECT_EQ(this->scene.report().lights.at(0).lightSamples, 64);
 }
@@ -337,7 +318,7 @@ TEST_F(OldOpenGL, hasRaysInPlaceOfWhatItCannotDraw)
 TEST_F(OldOpenGL, hasNoMapsForTranslucentReceivers)
 {
   this->scene.pass->SetTechnique("raytraced");
-  this->box->GetProperty()->SetOpacity(0.5);
+  this->scene.renderer->GetActors()->GetLastActor()->GetProperty()->SetOpacity(0.5);
   this->scene.render();
   EXPECT_THAT(this->scene.report().notes, testing::Contains(HasSubstr("take OpenGL 4.3")));
   EXPECT_EQ(this->takeErrors(), "");
@@ -348,7 +329,7 @@ TEST_F(OldOpenGL, isOneClearErrorOfLightSampling)
   this->scene.usePlain();
   const Picture plain = this->scene.render();
   vtkNew<vtkGnomonLightSamplingPass> sampling;
-  vtkGnomonLightKeys::SetSetting(this->sun, "light_radius", "2");
+  set(this->scene.sun, "light_radius", "2");
   this->scene.renderer->SetPass(sampling);
   EXPECT_EQ(differingPixels(plain, this->scene.render()), 0u);
   EXPECT_EQ(differingPixels(plain, this->scene.render()), 0u);

@@ -11,11 +11,7 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-class ShaderManager
-  : public PassTest
-  , public testing::WithParamInterface<Variant>
-{
-};
+using ShaderManager = PassTestOf<Variant>;
 
 /// One variant for each set of samplers.
 bool hasSamplersOfItsOwn(const Variant& variant)
@@ -30,15 +26,13 @@ bool hasSamplersOfItsOwn(const Variant& variant)
 TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersOfItsOwn)
 {
   PassScene scene(64, 48);
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(makeImage(2, 2, [](int, int) { return glm::dvec3(0.8); }));
-  scene.addFloor(4.0)->SetTexture(texture);
+  const auto texture = textureOf(makeImage(2, 2, [](int, int) { return glm::dvec3(0.8); }));
+  scene.addSphereOverFloor();
+  scene.floor()->SetTexture(texture);
   vtkActor* const pane = scene.addFloor(1.0);
   pane->SetPosition(0.5, 0.0, 2.5);
   pane->GetProperty()->SetOpacity(0.5);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
   scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
   GetParam().choose(scene);
   GetParam().set(scene.pass, "light_radius", "2");
   scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
@@ -57,22 +51,14 @@ TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersO
 TEST(ShaderManagerWithCode, ReadsVtksLightingByBothRoutes)
 {
   PassScene scene(64, 48);
-  scene.addFloor(4.0);
-  vtkActor* const sphere = scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  vtkActor* const sphere = scene.addSphereOverFloor();
   scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  const auto render = [&](const char* technique, int route)
-  {
-    scene.pass->SetTechnique(technique);
-    scene.pass->SetRoute(route);
-    return scene.render();
-  };
-  const Picture before = render("raytraced", vtkGnomonShadowPass::ROUTE_IMAGE);
+  const Picture before = scene.render(tracedWay);
   sphere->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
     "//VTK::Light::Impl\n"
     "  gl_FragData[0] = vec4(ambientColor + vec3(diffuse.r, 0.0, 0.0) + specular, 1.0);\n",
     false);
-  const Picture traced = render("raytraced", vtkGnomonShadowPass::ROUTE_IMAGE);
+  const Picture traced = scene.render(tracedWay);
   std::size_t red = 0;
   for (std::size_t i = 0; i < traced.pixels(); ++i)
   {
@@ -80,9 +66,9 @@ TEST(ShaderManagerWithCode, ReadsVtksLightingByBothRoutes)
     EXPECT_EQ(traced.rgb[3 * i], before.rgb[3 * i]); // shadows are the same
   }
   EXPECT_GT(red, 30u);
-  EXPECT_LE(differingPixels(render("nsm", vtkGnomonShadowPass::ROUTE_INLINE),
-              render("nsm", vtkGnomonShadowPass::ROUTE_IMAGE), 2),
-    1u);
+  const Picture inlined = scene.render({ "nsm", vtkGnomonShadowPass::ROUTE_INLINE });
+  const Picture image = scene.render({ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE });
+  EXPECT_LE(differingPixels(inlined, image, 2), 1u);
 }
 
 /// A user's whole shader has no marks for lighting. What it draws hides receivers, and has no rays.
@@ -103,14 +89,9 @@ TEST(ShaderManagerWithCode, LeavesNoReceiverWhereAWholeShaderDraws)
   scene.lookDown(3.0);
   scene.choose({ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
   const Picture picture = scene.render();
-  std::int64_t platePixels = 0;
-  for (std::size_t i = 0; i < picture.pixels(); ++i)
-  {
-    const int green = i % 64 < 32 ? 0 : 255; // the left half returns early
-    const bool isPlate =
-      picture.rgb[3 * i] == 255 && picture.rgb[3 * i + 1] == green && picture.rgb[3 * i + 2] == 255;
-    platePixels += isPlate ? 1 : 0;
-  }
+  const auto isPlate = [&](int x, int y)
+  { return picture.at(x, y) == glm::ivec3(255, x < 32 ? 0 : 255, 255); }; // the left returns early
+  const auto platePixels = static_cast<std::int64_t>(countPixels(picture, isPlate));
   EXPECT_GT(platePixels, 500);
   EXPECT_EQ(scene.report().lights.at(0).tracedPixels + platePixels,
     static_cast<std::int64_t>(picture.pixels()));

@@ -42,7 +42,7 @@ TEST_F(Skipping, leavesEachLampOfABuildingAsItIs)
   const BuiltinPass alone("building", side);
   for (const BuiltinPass* scene : { &all, &alone })
   {
-    scene->pass->SetSetting("technique", "raytraced");
+    scene->choose("raytraced");
     scene->pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
   }
   glm::dvec3 position;

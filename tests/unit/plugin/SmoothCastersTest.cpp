@@ -22,12 +22,6 @@ namespace
 
 using Mesh = vtkSmartPointer<vtkPolyData>;
 
-Mesh outputOf(vtkAlgorithm* algorithm)
-{
-  algorithm->Update();
-  return vtkPolyData::SafeDownCast(algorithm->GetOutputDataObject(0));
-}
-
 /// A caster.
 struct Shape
 {
@@ -48,14 +42,8 @@ struct Shape
     placed->Scale(this->half.x, this->half.y, this->half.z);
     vtkNew<vtkTransformPolyDataFilter> place;
     place->SetTransform(placed);
-    vtkNew<vtkSphereSource> ball;
-    ball->SetRadius(1.0);
-    ball->SetThetaResolution(60);
-    ball->SetPhiResolution(40);
-    vtkNew<vtkCubeSource> box;
-    box->SetXLength(2.0);
-    box->SetYLength(2.0);
-    box->SetZLength(2.0);
+    const auto ball = ballOf(glm::dvec3(0.0), 1.0, 60, 40);
+    const auto box = boxOf(glm::dvec3(-1.0), glm::dvec3(1.0));
     vtkNew<vtkCylinderSource> stick;
     stick->SetRadius(1.0);
     stick->SetHeight(2.0);
@@ -94,21 +82,12 @@ Mesh cube(const glm::dvec3& lower, const glm::dvec3& upper)
 template <typename Height>
 Mesh sheet(double half, double step, const Height& height)
 {
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-half, -half, 0.0);
-  plane->SetPoint1(half, -half, 0.0);
-  plane->SetPoint2(-half, half, 0.0);
-  const int parts = static_cast<int>(std::lround(2.0 * half / step));
-  plane->SetResolution(parts, parts);
   vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputConnection(plane->GetOutputPort());
+  triangles->SetInputConnection(
+    squareOf(half, 0.0, static_cast<int>(std::lround(2.0 * half / step)))->GetOutputPort());
   const Mesh mesh = outputOf(triangles);
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-  {
-    std::array<double, 3> at{};
-    mesh->GetPoint(i, at.data());
-    mesh->GetPoints()->SetPoint(i, at[0], at[1], height(at[0], at[1]));
-  }
+  movePoints(
+    mesh, [&](const glm::dvec3& at) { return glm::dvec3(at.x, at.y, height(at.x, at.y)); });
   return mesh;
 }
 
@@ -136,15 +115,6 @@ double heightOf(vtkPolyData* mesh, double x, double y)
     }
   }
   return 0.0;
-}
-
-Mesh globe(double radius, int resolution)
-{
-  vtkNew<vtkSphereSource> source;
-  source->SetRadius(radius);
-  source->SetThetaResolution(resolution);
-  source->SetPhiResolution(resolution);
-  return outputOf(source);
 }
 
 Scene slab()
@@ -175,7 +145,8 @@ Scene terrain()
 
 Scene spheresOnSpheres()
 {
-  Scene scene{ globe(1.0, 12), {}, true, { 0.9, -2.2, 1.6 }, { 0.0, 0.0, 0.2 }, { 1.0, 0.2, 0.8 } };
+  Scene scene{ outputOf(ballOf(glm::dvec3(0.0), 1.0, 12, 12)), {}, true, { 0.9, -2.2, 1.6 },
+    { 0.0, 0.0, 0.2 }, { 1.0, 0.2, 0.8 } };
   for (int i = 0; i < 12; ++i)
   {
     const double angle = 0.35 + 0.2 * (i % 4), azimuth = -2.2 + 0.9 * (i / 4);
@@ -235,11 +206,7 @@ void addTo(PassScene& view, const Scene& scene, bool averaged)
   view.pass->KeepVisibilityOn();
 }
 
-class SmoothCastersTest
-  : public PassTest
-  , public testing::WithParamInterface<Cell>
-{
-};
+using SmoothCastersTest = PassTestOf<Cell>;
 
 const auto scenes = testing::Values(NamedScene{ "slab", slab }, NamedScene{ "terrain", terrain },
   NamedScene{ "spheresOnSpheres", spheresOnSpheres });
@@ -308,11 +275,7 @@ Mesh rod()
   return outputOf(tube);
 }
 
-class TurnedFacesTest
-  : public PassTest
-  , public testing::WithParamInterface<Averaged>
-{
-};
+using TurnedFacesTest = PassTestOf<Averaged>;
 
 } // namespace
 
@@ -336,12 +299,9 @@ TEST_P(TurnedFacesTest, areDarkOnMapsInShaders)
     {
       continue;
     }
-    int lit = 0;
-    for (std::size_t i = 0; i < truth.pixels(); ++i)
-    {
-      lit += truth.rgb[3 * i] == 0 && picture.rgb[3 * i] > 20 ? 1 : 0;
-    }
-    EXPECT_LT(lit, 200) << technique.name; // at the edges of shadows
+    const std::size_t lit = countPixels(
+      truth, [&](int x, int y) { return truth.red(x, y) == 0 && picture.red(x, y) > 20; });
+    EXPECT_LT(lit, 200u) << technique.name; // at the edges of shadows
     ++techniques;
   }
   EXPECT_GE(techniques, 9);

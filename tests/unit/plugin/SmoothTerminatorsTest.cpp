@@ -43,10 +43,10 @@ public:
     this->sphere->GetProperty()->SetAmbient(1.0);
     const Picture picture = this->render();
     this->sphere->GetProperty()->SetAmbient(0.0);
-    std::vector<bool> shows(picture.pixels());
-    for (std::size_t i = 0; i < shows.size(); ++i)
+    std::vector<bool> shows;
+    for (std::size_t i = 0; i < picture.pixels(); ++i)
     {
-      shows[i] = picture.rgb[3 * i] > 0;
+      shows.push_back(picture.rgb[3 * i] > 0);
     }
     return shows;
   }
@@ -84,12 +84,7 @@ int largestStep(const Picture& picture, const Picture& plain, const std::vector<
 
 std::size_t litPixels(const Picture& picture)
 {
-  std::size_t lit = 0;
-  for (std::size_t i = 0; i < picture.pixels(); ++i)
-  {
-    lit += picture.rgb[3 * i] > 0 ? 1 : 0;
-  }
-  return lit;
+  return countPixels(picture, [&](int x, int y) { return picture.red(x, y) > 0; });
 }
 
 /// Return the mean over directions of the largest step.
@@ -101,9 +96,7 @@ double meanStep(SphereScene& scene, int directions)
   for (int i = 0; i < directions; ++i)
   {
     const Picture picture = scene.underSun(randomDirection(random));
-    scene.usePlain();
-    const Picture plain = scene.render();
-    scene.useGnomon();
+    const Picture plain = scene.renderPlain();
     sum += largestStep(picture, plain, covered);
   }
   return sum / directions;
@@ -125,22 +118,12 @@ Steps meanSteps(SphereScene& scene, int directions)
 /// Add an open sheet of coarse hills, which has one layer from above.
 void addHills(PassScene& scene, double height)
 {
-  vtkNew<vtkPlaneSource> plane;
+  const auto plane = squareOf(4.0, -0.8);
   plane->SetResolution(9, 7);
-  plane->SetOrigin(-4.0, -4.0, -0.8);
-  plane->SetPoint1(4.0, -4.0, -0.8);
-  plane->SetPoint2(-4.0, 4.0, -0.8);
-  plane->Update();
-  vtkNew<vtkPolyData> hills;
-  hills->DeepCopy(plane->GetOutput());
-  vtkPoints* points = hills->GetPoints();
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    std::array<double, 3> place{};
-    points->GetPoint(i, place.data());
-    points->SetPoint(i, place[0], place[1],
-      place[2] + height * std::sin(2.0 * place[0]) * std::cos(1.7 * place[1]));
-  }
+  const auto hills = copyOf(plane);
+  movePoints(hills,
+    [&](const glm::dvec3& at)
+    { return at + glm::dvec3(0.0, 0.0, height * std::sin(2.0 * at.x) * std::cos(1.7 * at.y)); });
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputData(hills);
   normals->SplittingOff();
@@ -173,9 +156,7 @@ TEST_F(SmoothTerminatorsTest, leaveABallAloneAsVtkShadesIt)
     spot->SetPosition(position.x, position.y, position.z);
     spot->SetConeAngle(i % 2 == 0 ? 90.0 : 20.0);
     const Picture picture = scene.render();
-    scene.usePlain();
-    EXPECT_EQ(differingPixels(picture, scene.render(), 1), 0u) << i;
-    scene.useGnomon();
+    EXPECT_EQ(differingPixels(picture, scene.renderPlain(), 1), 0u) << i;
   }
 }
 
@@ -227,13 +208,8 @@ TEST_F(SmoothTerminatorsTest, leaveFlatShadingAsItIs)
 TEST_F(SmoothTerminatorsTest, followNormalsThatChangeAlone)
 {
   SphereScene scene;
-  vtkNew<vtkSphereSource> source;
-  source->Update();
-  vtkNew<vtkPolyData> data;
-  data->DeepCopy(source->GetOutput());
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  scene.sphere->SetMapper(mapper);
+  const auto data = copyOf(vtkNew<vtkSphereSource>());
+  scene.sphere->SetMapper(mapperOf(data.Get()));
   const glm::dvec3 towards = glm::normalize(glm::dvec3(1.0, 0.4, 0.3));
   scene.pass->KeepVisibilityOn();
   scene.underSun(towards);
@@ -241,9 +217,7 @@ TEST_F(SmoothTerminatorsTest, followNormalsThatChangeAlone)
   vtkDataArray* normals = data->GetPointData()->GetNormals();
   for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
   {
-    std::array<double, 3> normal{};
-    normals->GetTuple(i, normal.data());
-    normals->SetTuple3(i, normal[0], normal[1], normal[2] + 0.3);
+    normals->SetComponent(i, 2, normals->GetComponent(i, 2) + 0.3);
   }
   normals->Modified();
   data->Modified();
@@ -265,12 +239,8 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
     scene.addFloor(0.5, 1.2); // only one layer lies above its shadow
     for (int ball = 0; ball < 6; ++ball)
     {
-      vtkNew<vtkSphereSource> source;
-      source->SetCenter(coordinate(random), coordinate(random), coordinate(random) - 0.2);
-      source->SetThetaResolution(3 + 3 * ball);
-      source->SetPhiResolution(4 + 2 * ball);
-      source->SetRadius(0.35);
-      scene.add(source);
+      const glm::dvec3 centre(coordinate(random), coordinate(random), coordinate(random) - 0.2);
+      scene.add(ballOf(centre, 0.35, 3 + 3 * ball, 4 + 2 * ball));
     }
     scene.lookFrom({ 2.0 * coordinate(random), -3.0, 1.5 });
     i % 3 == 0 ? scene.addSun({ coordinate(random), coordinate(random), -0.6 })
@@ -278,8 +248,7 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
                    i % 3 == 1 ? 60.0 : 40.0);
     const bool isArea = i % 2 == 1;
     scene.pass->SetSetting("light_radius", isArea ? "0.2" : "0");
-    scene.pass->SetTechnique("raytraced");
-    const Picture flat = scene.render();
+    const Picture flat = scene.render("raytraced");
     scene.pass->SmoothTerminatorsOn();
     const Picture truth = scene.render();
     differing += differingPixels(flat, truth) > 0 ? 1 : 0;
@@ -288,8 +257,7 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
       : std::vector<const char*>{ "crsm", "crsma", "silhouette" };
     for (const char* technique : others)
     {
-      scene.pass->SetTechnique(technique);
-      EXPECT_EQ(differingPixels(scene.render(), truth), 0u) << i << ", " << technique;
+      EXPECT_EQ(differingPixels(scene.render(technique), truth), 0u) << i << ", " << technique;
     }
   }
   EXPECT_GE(differing, 10);
@@ -301,28 +269,22 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgreeOnASheetSeenFromItsBack)
 {
   PassScene scene(400, 400);
   scene.pass->SetMapSize(16); // some receivers are then off their triangle by little of a texel
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetResolution(12, 12);
-  plane->Update();
-  vtkNew<vtkPolyData> square;
-  square->DeepCopy(plane->GetOutput());
+  const auto square = copyOf(squareOf(0.5, 0.0, 12));
   for (vtkIdType i = 0; i < square->GetNumberOfPoints(); ++i)
   {
     square->GetPointData()->GetNormals()->SetTuple3(i, 0.8, 0.0, 0.6);
   }
-  scene.add(square);
+  scene.add(square.Get());
   scene.lookFrom({ 0.6, -1.0, 1.4 });
   vtkLight* sun = scene.addSun({ 1.0, 0.0, 0.0 });
   scene.pass->SmoothTerminatorsOn();
   for (int i = 0; i < 10; ++i)
   {
     sun->SetPosition(100.0, 10.0, -10.0 * i);
-    scene.pass->SetTechnique("raytraced");
-    const Picture truth = scene.render();
+    const Picture truth = scene.render("raytraced");
     for (const char* technique : { "crsm", "crsma", "silhouette" })
     {
-      scene.pass->SetTechnique(technique);
-      EXPECT_EQ(differingPixels(scene.render(), truth), 0u) << i << ", " << technique;
+      EXPECT_EQ(differingPixels(scene.render(technique), truth), 0u) << i << ", " << technique;
     }
   }
 }
@@ -342,9 +304,7 @@ TEST_F(SmoothTerminatorsTest, mapsInShadersCutOffATenthAsMuch)
       {
         const Picture picture = scene.underSun(randomDirection(random));
         EXPECT_EQ(scene.report().route, "inline");
-        scene.usePlain();
-        pixels += differingPixels(picture, scene.render(), 8);
-        scene.useGnomon();
+        pixels += differingPixels(picture, scene.renderPlain(), 8);
       }
       return pixels;
     };

@@ -17,11 +17,9 @@ using Build = std::function<vtkLight*(PassScene&)>;
 /// A horizontal sheet.
 void addSheet(PassScene& scene, const glm::dvec2& lower, const glm::dvec2& upper, double z)
 {
-  vtkNew<vtkPlaneSource> sheet;
+  const auto sheet =
+    planeOf({ lower.x, lower.y, z }, { upper.x, lower.y, z }, { lower.x, upper.y, z });
   sheet->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  sheet->SetOrigin(lower.x, lower.y, z);
-  sheet->SetPoint1(upper.x, lower.y, z);
-  sheet->SetPoint2(lower.x, upper.y, z);
   scene.add(sheet);
 }
 
@@ -89,10 +87,7 @@ Build thingsAt(double unit, const glm::dvec3& offset)
 
 vtkActor* addBowl(PassScene& scene, double radius, double endDegrees)
 {
-  vtkNew<vtkSphereSource> bowl;
-  bowl->SetRadius(radius);
-  bowl->SetThetaResolution(24);
-  bowl->SetPhiResolution(24);
+  const auto bowl = ballOf(glm::dvec3(0.0), radius, 24, 24);
   bowl->SetEndPhi(endDegrees);
   return scene.add(bowl);
 }
@@ -263,19 +258,12 @@ struct SoftError
 /// True if all pixels around one have this visibility, over the width of montecarlo's filter.
 bool isAmong(const VisibilityImages& truth, int x, int y, float visibility)
 {
-  for (int dy = -6; dy <= 6; ++dy)
-  {
-    for (int dx = -6; dx <= 6; ++dx)
+  return holdsAround({ truth.width, truth.height }, x, y, 6,
+    [&](int column, int row)
     {
-      const int column = std::clamp(x + dx, 0, truth.width - 1);
-      const int row = std::clamp(y + dy, 0, truth.height - 1);
-      if (truth.visibility[0][static_cast<std::size_t>(row * truth.width + column)] != visibility)
-      {
-        return false;
-      }
-    }
-  }
-  return true;
+      return truth.visibility[0][static_cast<std::size_t>(row * truth.width + column)] ==
+        visibility;
+    });
 }
 
 SoftError errorOf(
@@ -304,20 +292,14 @@ SoftError errorOf(
   return error;
 }
 
-void PrintTo(const SoftCase& softCase, std::ostream* stream)
+std::ostream& operator<<(std::ostream& stream, const SoftCase& softCase)
 {
-  *stream << softCase.name;
+  return stream << softCase.name;
 }
 
-class SoftHardCases
-  : public PassTest
-  , public testing::WithParamInterface<SoftCase>
-{
-};
+using SoftHardCases = PassTestOf<SoftCase>;
 
-INSTANTIATE_TEST_SUITE_P(All, SoftHardCases, testing::ValuesIn(softCases()),
-  [](const testing::TestParamInfo<SoftCase>& softCase)
-  { return std::string(softCase.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, SoftHardCases, testing::ValuesIn(softCases()), byName);
 
 TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
 {
@@ -325,18 +307,11 @@ TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
   PassScene scene(120, 90);
   scene.pass->SetMapSize(512);
   vtkLight* const light = softCase.build(scene);
-  const auto draw = [&](const char* technique)
-  {
-    scene.pass->SetTechnique(technique);
-    return drawKept(scene); // checks that numbers are finite and in [0, 1]
-  };
-  scene.set("light_samples", "1024");
-  scene.set("light_seed", "1");
-  const VisibilityImages truth = draw("raytraced");
-  scene.set("light_samples", "64");
-  scene.set("light_seed", "0");
-  const std::vector<float> traced = draw("raytraced").visibility[0];
-  EXPECT_EQ(draw("penumbra").visibility[0], traced);
+  // drawKept() checks that numbers are finite and in [0, 1].
+  const VisibilityImages truth = drawKept(scene, "raytraced light_samples=1024 light_seed=1");
+  scene.choose("light_samples=64 light_seed=0");
+  const std::vector<float> traced = scene.visibilityBy("raytraced");
+  EXPECT_EQ(scene.visibilityBy("penumbra"), traced);
   const auto measure = [&](
                          const char* name, const std::vector<float>& visibility, const Bound& bound)
   {
@@ -348,7 +323,7 @@ TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
   for (std::size_t i = 0; i < std::size(mapTechniques); ++i)
   {
     const char* const technique = mapTechniques[i];
-    measure(technique, draw(technique).visibility[0], softCase.mapped[i]);
+    measure(technique, scene.visibilityBy(technique), softCase.mapped[i]);
   }
 }
 
@@ -358,25 +333,14 @@ TEST_P(SoftHardCases, showTheSameByBounds)
   PassScene scene(120, 90);
   scene.pass->SetMapSize(512);
   GetParam().build(scene);
-  const auto draw = [&](const char* technique, const char* setting, const char* value)
+  const std::vector<float> asked = scene.visibilityBy("pcss early_out=exact");
+  EXPECT_EQ(scene.visibilityBy("pcss early_out=none"), asked);
+  scene.choose("mc_filter=0");
+  const std::vector<float> searched = scene.visibilityBy("montecarlo mc_classify=off");
+  for (const char* classify : { "mc_classify=pixels", "mc_classify=rays" })
   {
-    scene.pass->SetTechnique(technique);
-    scene.set(setting, value);
-    return drawKept(scene).visibility[0];
-  };
-  const std::vector<float> asked = draw("pcss", "early_out", "exact");
-  EXPECT_EQ(draw("pcss", "early_out", "none"), asked);
-  scene.set("mc_filter", "0");
-  const std::vector<float> searched = draw("montecarlo", "mc_classify", "off");
-  for (const char* classify : { "pixels", "rays" })
-  {
-    const std::vector<float> decided = draw("montecarlo", "mc_classify", classify);
-    int different = 0;
-    for (std::size_t i = 0; i < searched.size(); ++i)
-    {
-      different += decided[i] != searched[i] ? 1 : 0;
-    }
-    EXPECT_LE(different, 1) << classify << ": rays that rounding cuts elsewhere, 1 in 10,000";
+    EXPECT_LE(countDifferences(scene.visibilityBy(classify), searched), 1u)
+      << classify << ": rays that rounding cuts elsewhere, 1 in 10,000";
   }
 }
 
@@ -385,9 +349,7 @@ TEST_P(SoftHardCases, showTheSameByBounds)
 TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
 {
   PassScene scene(60, 40);
-  scene.pass->SetMapSize(128);
-  scene.set("light_samples", 9);
-  scene.set("progressive", 4);
+  scene.choose("map_size=128 light_samples=9 progressive=4");
   scene.addFloor(4.0);
   scene.lookFrom({ 2.0, -6.0, 5.0 });
   const std::pair<glm::dvec3, glm::dvec3> places[] = { { { 0.5, 0.2, 4.0 }, down },

@@ -11,9 +11,7 @@ namespace
 constexpr const char* softTechniques[] = { "raytraced", "penumbra", "sampled", "coherence", "pcss",
   "montecarlo", "planar" };
 
-class SoftLights
-  : public PassTest
-  , public testing::WithParamInterface<AreaLight>
+class SoftLights : public PassTestOf<AreaLight>
 {
 protected:
   SoftLights()
@@ -71,8 +69,7 @@ TEST_P(SoftLights, areNearRaysByEachTechnique)
 /// `montecarlo` searches the same points of the light as jittered rays.
 TEST_P(SoftLights, areWhatRaysToTheSamePointsShow)
 {
-  this->scene.set("light_sampling", "jittered");
-  this->scene.set("light_samples", 9);
+  this->scene.choose("light_sampling=jittered light_samples=9");
   const std::vector<float> truth = this->scene.visibilityBy("raytraced");
   this->scene.set("mc_filter", 0);
   const std::vector<float> seen = this->scene.visibilityBy("montecarlo");
@@ -118,8 +115,7 @@ TEST_P(SoftLights, showEachChange)
 {
   vtkActor* caster = this->scene.addBox({ -2.5, 1.0, 0.5 }, { -1.5, 2.0, 1.5 });
   this->scene.window->SetSize(80, 60);
-  this->scene.pass->SetMapSize(128);
-  this->scene.set("light_samples", 16);
+  this->scene.choose("map_size=128 light_samples=16");
   const std::pair<const char*, std::function<void()>> changes[] = {
     { "at first", [] {} },
     { "a caster", [&] { caster->AddPosition(0.7, -0.6, 0.0); } },
@@ -226,9 +222,7 @@ const Estimate estimates[] = { { "raytraced", "light_samples", 256, 0.01, true }
   { "montecarlo", "mc_filter", 0, 0.017, false, false },
   { "montecarlo", "mc_filter", 5, 0.02, true, false } };
 
-class Penumbras : public testing::TestWithParam<PastEdge>
-{
-};
+using Penumbras = testing::TestWithParam<PastEdge>;
 std::ostream& operator<<(std::ostream& stream, const PastEdge& light)
 {
   return stream << light.name;
@@ -256,8 +250,7 @@ TEST_P(Penumbras, areThoseOfGeometry)
       continue;
     }
     SCOPED_TRACE(std::string(estimate.technique) + " " + std::to_string(estimate.value));
-    scene.set("light_samples", 256);
-    scene.pass->SetMapSize(1024);
+    scene.choose("light_samples=256 map_size=1024");
     scene.set(estimate.setting, estimate.value);
     scene.visibilityBy(estimate.technique);
     const std::vector<double> profile = columnMeans(scene.pass->GetVisibility());

@@ -34,35 +34,24 @@ protected:
   void show(const tool::Scene& scene)
   {
     this->lights_ = scene.lights;
-    this->renderer = tool::makeRenderer(scene, 1.0);
-    this->renderer->SetPass(this->pass);
-    this->window_->SetMultiSamples(0);
-    this->window_->SetSize(128, 128);
-    this->window_->AddRenderer(this->renderer);
-    this->pass->KeepVisibilityOn();
-    this->pass->SmoothTerminatorsOff();
-    if (GetParam().sunDegrees)
-    {
-      this->pass->SetSetting("light_radius", GetParam().sunDegrees);
-    }
+    this->shown = std::make_unique<BuiltinPass>(scene, 128);
+    this->shown->choose(radius().c_str());
     this->findTruth("1024");
   }
-  void findTruth(const char* samples)
+  /// Return the setting of the sun's size, if the scene has one.
+  static std::string radius()
   {
-    this->pass->SetSetting("light_samples", samples);
-    this->pass->SetSetting("light_seed", "1");
-    this->truth = this->draw("raytraced");
-    this->pass->SetSetting("light_seed", "0");
+    const char* const degrees = GetParam().sunDegrees;
+    return degrees ? std::string("light_radius=") + degrees : "";
   }
-  VisibilityImages draw(const char* technique)
+  void findTruth(const std::string& samples)
   {
-    this->pass->SetTechnique(technique);
-    this->window_->Render();
-    return this->pass->GetVisibility();
+    this->truth = this->shown->draw(("raytraced light_seed=1 light_samples=" + samples).c_str());
+    this->shown->choose("light_seed=0");
   }
   tool::VisibilityError errorOf(const char* technique)
   {
-    return tool::measureError(this->draw(technique), this->truth, this->lights_);
+    return tool::measureError(this->shown->draw(technique), this->truth, this->lights_);
   }
   /// Expect the mean error to be within a bound, and within a share of the hard shadow's, which may
   /// be small, too.
@@ -76,12 +65,10 @@ protected:
     return error.rootMeanSquare;
   }
 
-  vtkNew<vtkGnomonShadowPass> pass;
-  vtkSmartPointer<vtkRenderer> renderer;
+  std::unique_ptr<BuiltinPass> shown;
   VisibilityImages truth;
 
 private:
-  vtkNew<vtkGnomonEGLRenderWindow> window_;
   std::vector<tool::SceneLight> lights_;
 };
 
@@ -101,7 +88,7 @@ TEST_P(SoftScenes, areNearTheTruth)
 {
   this->show(tool::loadScene(GetParam().name));
   this->expectNearTheTruth("montecarlo", 0.02);
-  this->pass->SetSetting("light_samples", "256");
+  this->shown->choose("light_samples=256");
   const double sampled = this->expectNearTheTruth("sampled", 0.005);
   EXPECT_LE(sampled, GetParam().sampledRms);
   EXPECT_LT(sampled, this->errorOf("pcss").rootMeanSquare);
@@ -111,9 +98,7 @@ namespace
 {
 
 /// Scenes in which maps hint at light and shadow.
-class HintedScenes : public testing::TestWithParam<SoftScene>
-{
-};
+using HintedScenes = SoftSceneTest;
 INSTANTIATE_TEST_SUITE_P(Builtin, HintedScenes,
   testing::Values(SoftScene{ "soft-stack", nullptr, 0.0, 0.09, 0.0006 },
     SoftScene{ "soft-panels", nullptr, 0.0, 0.125, 0.00025 },
@@ -128,17 +113,9 @@ INSTANTIATE_TEST_SUITE_P(Builtin, HintedScenes,
 TEST_P(HintedScenes, areTracedWhereMapsDisagree)
 {
   const BuiltinPass scene(GetParam().name, 256);
-  scene.pass->SetSetting("light_samples", "64");
-  if (GetParam().sunDegrees)
-  {
-    scene.pass->SetSetting("light_radius", GetParam().sunDegrees);
-  }
-  scene.pass->SetTechnique("raytraced");
-  scene.window->Render();
-  const std::vector<float> truth = scene.pass->GetVisibility().visibility.at(0);
-  scene.pass->SetTechnique("coherence");
-  scene.window->Render();
-  const Hints hints = hintsOf(scene.pass->GetVisibility(), truth);
+  scene.choose(radius().c_str());
+  const std::vector<float> truth = scene.draw("raytraced light_samples=64").visibility.at(0);
+  const Hints hints = hintsOf(scene.draw("coherence"), truth);
   EXPECT_LE(hints.traced, GetParam().traced);
   EXPECT_LE(hints.wrong, GetParam().wrong);
 }
@@ -164,7 +141,7 @@ TEST_P(SoftScenesOnGrounds, areNearTheTruthByTwoLayersIfTheGroundCastsNothing)
   ASSERT_NE(ground, scene.models.end());
   ground->casts = false;
   this->show(scene);
-  this->pass->SetSetting("mc_layers", "near_far");
+  this->shown->choose("mc_layers=near_far");
   this->expectNearTheTruth("montecarlo", 0.02);
 }
 
@@ -183,15 +160,14 @@ TEST_P(MovingSoftScenes, keepTheErrorFromAllSides)
   this->show(tool::loadScene(GetParam().name));
   for (int side = 0; side < 12; ++side)
   {
-    this->renderer->GetActiveCamera()->Azimuth(30.0);
-    this->renderer->ResetCameraClippingRange();
+    this->shown->renderer->GetActiveCamera()->Azimuth(30.0);
+    this->shown->renderer->ResetCameraClippingRange();
     this->findTruth("256");
-    this->pass->SetSetting("light_samples", "64");
-    this->draw("auto"); // at rest
-    this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+    this->shown->draw("auto light_samples=64"); // at rest
+    this->shown->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
     EXPECT_LE(this->errorOf("auto").rootMeanSquare, 0.03) << side;
-    EXPECT_LT(this->pass->GetReport().lights[0].lightSamples, 64);
-    this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
+    EXPECT_LT(this->shown->report().lights[0].lightSamples, 64);
+    this->shown->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
   }
 }
 

@@ -37,61 +37,56 @@ struct Hit
 };
 using MaybeHit = std::optional<Hit>;
 
-MaybeHit meetBall(const glm::dvec3& o, const glm::dvec3& d, const glm::dvec3& centre, double radius)
+/// Return the first of two hits, if it is in front of the ray's origin.
+MaybeHit firstOf(const MaybeHit& a, const MaybeHit& b)
 {
-  const double a = glm::dot(d, d);
-  const double b = glm::dot(o - centre, d);
-  const double c = glm::dot(o - centre, o - centre) - radius * radius;
-  const double root = b * b - a * c;
-  const double t = root >= 0.0 ? (-b - std::sqrt(root)) / a : -1.0;
-  return t > 0.0 ? MaybeHit(Hit{ t, (o + t * d - centre) / radius }) : std::nullopt;
-}
-
-MaybeHit meetStick(const glm::dvec3& o, const glm::dvec3& d, const glm::dvec3& centre,
-  const glm::dvec3& axis, double length, double radius)
-{
-  MaybeHit first;
-  const auto take = [&](const Hit& hit)
-  {
-    if (hit.t > 0.0 && (!first || hit.t < first->t))
-    {
-      first = hit;
-    }
-  };
-  const auto off = [&](const glm::dvec3& v) { return v - glm::dot(v, axis) * axis; };
-  const glm::dvec3 oOff = off(o - centre);
-  const glm::dvec3 dOff = off(d);
-  const double a = glm::dot(dOff, dOff);
-  const double b = glm::dot(oOff, dOff);
-  const double root = b * b - a * (glm::dot(oOff, oOff) - radius * radius);
-  if (root >= 0.0)
-  {
-    const double t = (-b - std::sqrt(root)) / a;
-    if (std::abs(glm::dot(o + t * d - centre, axis)) <= 0.5 * length)
-    {
-      take({ t, (oOff + t * dOff) / radius });
-    }
-  }
-  for (const double side : { -1.0, 1.0 })
-  {
-    const double t = (side * 0.5 * length - glm::dot(o - centre, axis)) / glm::dot(d, axis);
-    if (glm::length(oOff + t * dOff) <= radius && side * glm::dot(d, axis) < 0.0)
-    {
-      take({ t, side * axis, true });
-    }
-  }
-  return first;
+  return !b || !(b->t > 0.0) || (a && a->t <= b->t) ? a : b;
 }
 
 struct Ball
 {
   glm::dvec3 centre;
   double radius;
+
+  MaybeHit meet(const glm::dvec3& o, const glm::dvec3& d) const
+  {
+    const double a = glm::dot(d, d);
+    const double b = glm::dot(o - this->centre, d);
+    const double c = glm::dot(o - this->centre, o - this->centre) - this->radius * this->radius;
+    const double t = (-b - std::sqrt(b * b - a * c)) / a; // no number beside the ball
+    return firstOf({}, Hit{ t, (o + t * d - this->centre) / this->radius });
+  }
 };
+
 struct Stick
 {
   glm::dvec3 centre, axis;
   double length, radius;
+
+  MaybeHit meet(const glm::dvec3& o, const glm::dvec3& d) const
+  {
+    const auto off = [&](const glm::dvec3& v) { return v - glm::dot(v, this->axis) * this->axis; };
+    const glm::dvec3 oOff = off(o - this->centre);
+    const glm::dvec3 dOff = off(d);
+    const double a = glm::dot(dOff, dOff);
+    const double b = glm::dot(oOff, dOff);
+    const double root = b * b - a * (glm::dot(oOff, oOff) - this->radius * this->radius);
+    const double side = (-b - std::sqrt(root)) / a;
+    const double along = glm::dot(o + side * d - this->centre, this->axis);
+    MaybeHit first = std::abs(along) <= 0.5 * this->length // false if there is no number
+      ? firstOf({}, Hit{ side, (oOff + side * dOff) / this->radius })
+      : MaybeHit();
+    for (const double end : { -1.0, 1.0 })
+    {
+      const double t = (end * 0.5 * this->length - glm::dot(o - this->centre, this->axis)) /
+        glm::dot(d, this->axis);
+      if (glm::length(oOff + t * dOff) <= this->radius && end * glm::dot(d, this->axis) < 0.0)
+      {
+        first = firstOf(first, Hit{ t, end * this->axis, true });
+      }
+    }
+    return first;
+  }
 };
 
 vtkFloatArray* addArray(vtkPolyData* data, const char* name, int components)
@@ -101,6 +96,16 @@ vtkFloatArray* addArray(vtkPolyData* data, const char* name, int components)
   array->SetNumberOfComponents(components);
   data->GetPointData()->AddArray(array);
   return array;
+}
+
+/// Give each point a colour. Without them VTK's sticks crash.
+void whiten(vtkPolyData* data)
+{
+  vtkNew<vtkUnsignedCharArray> white;
+  white->SetNumberOfComponents(3);
+  white->SetNumberOfTuples(data->GetNumberOfPoints());
+  white->Fill(255.0);
+  data->GetPointData()->SetScalars(white);
 }
 
 /// Add a point with a vertex: VTK takes a mapper's bounds from cells, and draws nothing without.
@@ -126,13 +131,6 @@ public:
     const auto round = [](double value) { return static_cast<double>(static_cast<float>(value)); };
     const auto place = [&]
     { return glm::dvec3(round(uniform(-5, 5)), round(uniform(-5, 5)), round(uniform(0.2, 4))); };
-    for (int i = 0; i < count; ++i)
-    {
-      this->balls.push_back({ place(), round(std::exp2(uniform(-3.0, 0.0))) });
-      this->sticks.push_back(
-        { place(), glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))),
-          round(uniform(0.3, 3.0)), round(std::exp2(uniform(-4.0, -1.0))) });
-    }
     for (vtkPolyData* data : { this->ballData.Get(), this->stickData.Get() })
     {
       data->SetPoints(vtkNew<vtkPoints>());
@@ -141,23 +139,21 @@ public:
     this->radii = addArray(this->ballData, "radii", 1);
     vtkFloatArray* sizes = addArray(this->stickData, "sizes", 3);
     vtkFloatArray* axes = addArray(this->stickData, "axes", 3);
-    for (const Ball& ball : this->balls)
+    for (int i = 0; i < count; ++i)
     {
+      const Ball ball{ place(), round(std::exp2(uniform(-3.0, 0.0))) };
       addPoint(this->ballData, ball.centre);
       this->radii->InsertNextTuple1(ball.radius);
-    }
-    for (const Stick& stick : this->sticks)
-    {
+      this->balls.push_back(ball);
+      const Stick stick{ place(),
+        glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))),
+        round(uniform(0.3, 3.0)), round(std::exp2(uniform(-4.0, -1.0))) };
       addPoint(this->stickData, stick.centre);
       sizes->InsertNextTuple3(stick.length, stick.radius, 0.0);
       axes->InsertNextTuple3(stick.axis.x, stick.axis.y, stick.axis.z);
+      this->sticks.push_back(stick);
     }
-    // Without colours of points VTK's sticks crash.
-    vtkNew<vtkUnsignedCharArray> white;
-    white->SetNumberOfComponents(3);
-    white->SetNumberOfTuples(count);
-    white->Fill(255.0);
-    this->stickData->GetPointData()->SetScalars(white);
+    whiten(this->stickData);
     this->ballMapper->SetInputData(this->ballData);
     this->ballMapper->SetScaleArray("radii");
     this->ballActor->SetMapper(this->ballMapper);
@@ -172,27 +168,18 @@ public:
 
   MaybeHit meet(const glm::dvec3& o, const glm::dvec3& d) const
   {
-    MaybeHit first;
-    const auto take = [&](const MaybeHit& hit)
-    {
-      if (hit && (!first || hit->t < first->t))
-      {
-        first = hit;
-      }
-    };
+    const double t = -o.z / d.z;
+    const glm::dvec3 onFloor = glm::abs(o + t * d);
+    MaybeHit first = std::max(onFloor.x, onFloor.y) <= floorSize
+      ? firstOf({}, Hit{ t, { 0.0, 0.0, d.z < 0.0 ? 1.0 : -1.0 } })
+      : MaybeHit();
     for (const Ball& ball : this->balls)
     {
-      take(meetBall(o, d, ball.centre, ball.radius));
+      first = firstOf(first, ball.meet(o, d));
     }
     for (const Stick& stick : this->sticks)
     {
-      take(meetStick(o, d, stick.centre, stick.axis, stick.length, stick.radius));
-    }
-    const double t = -o.z / d.z;
-    const glm::dvec3 onFloor = o + t * d;
-    if (t > 0.0 && std::max(std::abs(onFloor.x), std::abs(onFloor.y)) <= floorSize)
-    {
-      take(Hit{ t, { 0.0, 0.0, d.z < 0.0 ? 1.0 : -1.0 } });
+      first = firstOf(first, stick.meet(o, d));
     }
     return first;
   }
@@ -239,10 +226,7 @@ public:
       const glm::dvec2 clip(
         2.0 * (x + 0.5 + off.x) / size.x - 1.0, 2.0 * (size.y - y - 0.5 + off.y) / size.y - 1.0);
       const PixelTruth here = this->along(clip);
-      if (off == glm::dvec2(0.0))
-      {
-        middle = here;
-      }
+      middle = off == glm::dvec2(0.0) ? here : middle;
       middle.certain = middle.certain && here.certain && here.visibility == middle.visibility;
     }
     return middle;
@@ -268,8 +252,7 @@ private:
     {
       truth.position = origin + hit->t * direction;
       truth.normal = hit->normal;
-      const bool lit = this->isLit(truth);
-      truth.visibility = lit ? 1.0f : 0.0f;
+      truth.visibility = this->isLit(truth) ? 1.0f : 0.0f;
     }
     return truth;
   }
@@ -297,15 +280,15 @@ private:
 
 void setTechnique(SolidsScene& scene, const char* technique)
 {
-  scene.pass->SetTechnique(technique);
-  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  scene.choose({ technique, vtkGnomonShadowPass::ROUTE_IMAGE });
 }
 
 /// Compare the frame after each change with that of a pass without earlier frames.
-void expectFresh(PassScene& scene)
+std::vector<float> expectFresh(PassScene& scene)
 {
   const std::vector<float> seen = drawKept(scene).visibility[0];
   EXPECT_EQ(scene.drawAnew().visibility[0], seen);
+  return seen;
 }
 
 using SolidsTest = PassTest;
@@ -333,27 +316,19 @@ TEST_F(SolidsTest, agreeWithClosedForms)
       std::size_t dark = 0;
       std::size_t wrong = 0;
       std::size_t holes = 0;
-      for (int y = 0; y < kept.height; ++y)
+      for (std::size_t i = 0; i < kept.coverage.size(); ++i)
       {
-        for (int x = 0; x < kept.width; ++x)
+        const int pixel = static_cast<int>(i);
+        const PixelTruth expected =
+          truth.at(pixel % kept.width, pixel / kept.width, { kept.width, kept.height });
+        const bool isHole = glm::length(positionOf(kept, i) - expected.position) > 1e-3;
+        holes += expected.certain && isHole ? 1 : 0; // VTK's shader drops pixels of a stick's rim
+        if (expected.certain && !isHole)
         {
-          const PixelTruth expected = truth.at(x, y, { kept.width, kept.height });
-          if (!expected.certain)
-          {
-            continue;
-          }
-          const auto i = static_cast<std::size_t>(y * kept.width + x);
-          if (glm::length(positionOf(kept, i) - expected.position) > 1e-3)
-          {
-            ++holes; // VTK's shader drops pixels of a stick's rim
-            continue;
-          }
           ++certain;
           dark += expected.visibility == 0.0f ? 1 : 0;
           wrong += kept.visibility[0][i] != expected.visibility ? 1 : 0;
-          ASSERT_GT(glm::dot(expected.normal,
-                      glm::dvec3(kept.normalX[i], kept.normalY[i], kept.normalZ[i])),
-            0.999);
+          ASSERT_GT(glm::dot(expected.normal, normalOf(kept, i)), 0.999);
         }
       }
       EXPECT_GT(certain, 40000u);
@@ -457,9 +432,7 @@ TEST_F(SolidsTest, movingPicturesAreProbedOnSolids)
   {
     SolidsScene scene(8, 10);
     scene.addSun({ 0.5, 0.3, -1.0 });
-    vtkActorCollection* const actors = scene.renderer->GetActors();
-    actors->InitTraversal();
-    actors->GetNextActor()->SetVisibility(hasFloor);
+    scene.floor()->SetVisibility(hasFloor);
     scene.pass->SetTechnique("auto");
     scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
     scene.render();
@@ -482,9 +455,8 @@ TEST_F(SolidsTest, changesAreSeen)
   const auto expectChange = [&](const char* what)
   {
     SCOPED_TRACE(what);
-    const std::vector<float> after = drawKept(scene).visibility[0];
+    const std::vector<float> after = expectFresh(scene);
     EXPECT_NE(after, before);
-    EXPECT_EQ(scene.drawAnew().visibility[0], after);
     before = after;
   };
   scene.radii->SetValue(3, 1.5f);
@@ -521,9 +493,7 @@ TEST_F(SolidsTest, atomsAndBondsCast)
   vtkNew<vtkOpenGLMoleculeMapper> mapper;
   mapper->SetInputData(molecule);
   mapper->UseBallAndStickSettings();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  scene.renderer->AddActor(actor);
+  scene.add(mapper);
   // From the side, so the molecule hides none of its shadow.
   scene.lookFrom({ 0.0, -9.0, 2.0 }, { 0.0, 0.0, -2.0 });
   scene.pass->SetTechnique("raytraced");
@@ -622,16 +592,12 @@ struct FloorDifference
 
 FloorDifference differenceOnFloor(const VisibilityImages& a, const VisibilityImages& b)
 {
-  FloorDifference result;
-  for (std::size_t i = 0; i < a.coverage.size(); ++i)
-  {
-    if (positionOf(a, i).z < 0.1 && positionOf(b, i).z < 0.1)
-    {
-      result.dark += a.visibility[0][i] == 0.0f ? 1 : 0;
-      result.different += a.visibility[0][i] != b.visibility[0][i] ? 1 : 0;
-    }
-  }
-  return result;
+  const auto isFloor = [&](std::size_t i)
+  { return positionOf(a, i).z < 0.1 && positionOf(b, i).z < 0.1; };
+  const std::vector<float>& inA = a.visibility[0];
+  const std::vector<float>& inB = b.visibility[0];
+  return { countPixels(a, [&](std::size_t i) { return isFloor(i) && inA[i] == 0.0f; }),
+    countPixels(a, [&](std::size_t i) { return isFloor(i) && inA[i] != inB[i]; }) };
 }
 
 /// Draw the same points as spheres of these radii.
@@ -686,14 +652,10 @@ TEST_F(SolidsTest, pixelSizedSolidsOfBlocksAreThoseOfTheirData)
   scene.showPoints();
   scene.showTubes();
   const std::vector<float> truth = drawKept(scene).visibility[0];
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, scene.data);
-  vtkNew<vtkPolyData> empty;
-  blocks->SetBlock(1, empty);
   vtkNew<gnomon::SharedBlocksMapper> mapper;
   vtkNew<vtkCompositeDataDisplayAttributes> attributes;
   mapper->SetCompositeDataDisplayAttributes(attributes);
-  mapper->SetInputDataObject(blocks);
+  mapper->SetInputDataObject(blocksOf({ scene.data, vtkNew<vtkPolyData>() }));
   scene.actor->SetMapper(mapper);
   EXPECT_LE(countDifferences(drawKept(scene).visibility[0], truth), 5u); // outlines
   expectAllServed(scene, 120);
@@ -708,22 +670,24 @@ TEST_F(SolidsTest, linesAsTubesCastAsTubes)
   scene.lookDown(5.0);
   const VisibilityImages& kept = drawKept(scene);
   expectAllServed(scene, 60);
-  std::size_t dark = 0;
-  std::size_t wrong = 0;
   const double radius = scene.radiusAt(glm::dvec3(0.0), scene.lineWidth);
   EXPECT_NEAR(radius, 8.0 * 5.0 / 300.0, 1e-9);
-  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  /// Return the distance from the ring that shades a pixel, in radii; none near the shadow's edge.
+  const auto off = [&](std::size_t i)
   {
-    const glm::dvec3 at = positionOf(kept, i);
     // A tube is about as wide along the light, which is nearly upright, as across.
+    const glm::dvec3 at = positionOf(kept, i);
     const glm::dvec2 lifted = glm::dvec2(at) - glm::dvec2(0.4, 0.2) * RingScene::height;
-    const double off = std::abs(glm::length(lifted) - 3.0);
-    if (at.z < 0.1 && (off < 0.9 * radius || off > 1.25 * radius))
+    const double radii = std::abs(glm::length(lifted) - 3.0) / radius;
+    return at.z < 0.1 && (radii < 0.9 || radii > 1.25) ? radii : std::nan("");
+  };
+  const std::size_t dark = countPixels(kept, [&](std::size_t i) { return off(i) < 1.0; });
+  const std::size_t wrong = countPixels(kept,
+    [&](std::size_t i)
     {
-      dark += off < radius ? 1 : 0;
-      wrong += kept.visibility[0][i] != (off < radius ? 0.0f : 1.0f) ? 1 : 0;
-    }
-  }
+      return off(i) < 1.0 ? kept.visibility[0][i] != 0.0f
+                          : off(i) > 1.0 && kept.visibility[0][i] != 1.0f;
+    });
   EXPECT_GT(dark, 2000u);
   EXPECT_EQ(wrong, 0u);
 }
@@ -738,16 +702,12 @@ TEST_F(SolidsTest, pixelSizedSolidsHaveNoSpecks)
     for (const char* technique : { "raytraced", "nsm", "silhouette" })
     {
       SCOPED_TRACE(testing::Message() << tubes << technique);
-      scene.pass->SetTechnique(technique);
-      const VisibilityImages& kept = drawKept(scene);
-      std::size_t facing = 0;
-      std::size_t dark = 0;
-      for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-      {
-        const bool faces = positionOf(kept, i).z > 0.5 && cosineTowards(kept, i, scene.sun) > 0.02;
-        facing += faces ? 1 : 0;
-        dark += faces && kept.visibility[0][i] < 0.5f ? 1 : 0;
-      }
+      const VisibilityImages& kept = drawKept(scene, technique);
+      const auto faces = [&](std::size_t i)
+      { return positionOf(kept, i).z > 0.5 && cosineTowards(kept, i, scene.sun) > 0.02; };
+      const auto isDark = [&](std::size_t i) { return faces(i) && kept.visibility[0][i] < 0.5f; };
+      const std::size_t facing = countPixels(kept, faces);
+      const std::size_t dark = countPixels(kept, isDark);
       EXPECT_GT(facing, 1000u);
       // Neighbouring spheres shadow each other. At bends, a map cannot tell a tube from the next.
       const bool none = tubes && technique != std::string("nsm");
@@ -903,11 +863,7 @@ TEST_F(SolidsTest, castAlikeInAllRepresentations)
   sticks->SetScaleArray("size");
   scene.showSplats(scene.data);
   scene.splats->SetScaleArray(nullptr);
-  vtkNew<vtkUnsignedCharArray> white; // without colours VTK's sticks crash
-  white->SetNumberOfComponents(3);
-  white->SetNumberOfTuples(scene.data->GetNumberOfPoints());
-  white->Fill(255.0);
-  scene.data->GetPointData()->SetScalars(white);
+  whiten(scene.data);
   const std::vector<vtkMapper*> mappers = { scene.splats, spheres, sticks };
   for (vtkMapper* const mapper : mappers)
   {

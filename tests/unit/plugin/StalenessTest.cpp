@@ -1,6 +1,7 @@
 // A frame computes only values whose inputs changed since the last one.
 
 #include "PassScene.h"
+#include "Variant.h"
 
 #include "plugin/frame/ValueKey.h"
 #include "plugin/plan/BakeBackoff.h"
@@ -48,14 +49,8 @@ protected:
   StaleScene()
   {
     this->scene.addFloor(4.0);
-    vtkNew<vtkSphereSource> source;
-    source->SetCenter(0.0, 0.0, 1.5);
-    source->SetRadius(0.7);
-    source->SetThetaResolution(24);
-    source->SetPhiResolution(12);
-    source->Update();
-    this->sphereData->DeepCopy(source->GetOutput());
-    this->sphere = this->scene.add(this->sphereData);
+    this->sphereData = copyOf(ballOf({ 0.0, 0.0, 1.5 }, 0.7, 24, 12));
+    this->sphere = this->scene.add(this->sphereData.Get());
     this->sun = this->scene.addSun({ 1.0, 0.3, -1.5 });
     this->scene.lookFrom({ 0.0, -9.0, 7.0 });
   }
@@ -85,7 +80,7 @@ protected:
   }
 
   PassScene scene{ 96, 72 };
-  vtkNew<vtkPolyData> sphereData;
+  vtkSmartPointer<vtkPolyData> sphereData;
   vtkActor* sphere;
   vtkLight* sun;
   Picture picture; ///< the last frame's picture
@@ -128,13 +123,8 @@ TEST_P(Staleness, aChangeMakesWhatDependsOnIt)
   this->settle();
   const auto editPoints = [this]
   {
-    vtkPoints* points = this->sphereData->GetPoints();
-    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-    {
-      const glm::dvec3 point = glm::make_vec3(points->GetPoint(i));
-      points->SetPoint(i, point.x + 0.7, point.y, point.z);
-    }
-    points->Modified();
+    movePoints(
+      this->sphereData, [](const glm::dvec3& at) { return at + glm::dvec3(0.7, 0.0, 0.0); });
     this->sphereData->Modified();
   };
   const Change changes[] = {
@@ -238,19 +228,14 @@ TEST_P(Staleness, withoutACastingLightNothingIsDone)
 TEST_F(PassTest, aLightThatCannotBeServedLeavesTheOthersMapsAsTheyAre)
 {
   PassScene scene(200, 150);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSphereOverFloor();
   scene.addSun({ 1.0, 0.3, -1.5 });
   vtkLight* const second = scene.addSun({ -1.0, 0.3, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  scene.usePlain();
-  const Picture plain = scene.render();
-  scene.useGnomon();
-  scene.pass->SetTechnique("pcf");
-  scene.pass->SetSetting("kernel", "castano");
+  const Picture plain = scene.renderPlain();
+  scene.choose("pcf kernel=castano");
   const auto render = [&](const char* kernelSize)
   {
-    vtkGnomonLightKeys::SetSetting(second, "kernel_size", kernelSize);
+    set(second, "kernel_size", kernelSize);
     return scene.render();
   };
   const Picture shadowed = render("3");
@@ -299,33 +284,17 @@ TEST_F(StaleScene, settingsOfMapsBakeOnce)
 namespace
 {
 
-std::vector<std::string> allTechniques()
-{
-  std::vector<std::string> names;
-  for (int i = 0; i < vtkGnomonShadowPass::GetNumberOfTechniques(); ++i)
-  {
-    names.emplace_back(vtkGnomonShadowPass::GetTechniqueName(i));
-  }
-  return names;
-}
-
 class RenderManager : public StaleScene
 {
 protected:
-  RenderManager()
-  {
-    this->scene.pass->SetMapSize(128);
-    this->scene.set("light_samples", 4);
-    this->scene.set("light_radius", 2);
-    this->scene.set("mc_rays", 2);
-  }
+  RenderManager() { this->scene.choose("map_size=128 light_samples=4 light_radius=2 mc_rays=2"); }
 };
 class RenderManagerByTechnique
   : public RenderManager
-  , public testing::WithParamInterface<std::string>
+  , public testing::WithParamInterface<Variant>
 {
 protected:
-  RenderManagerByTechnique() { this->scene.pass->SetTechnique(GetParam().c_str()); }
+  RenderManagerByTechnique() { GetParam().choose(this->scene); }
   /// Expect a frame like the last one to compute nothing, and to show the same.
   void expectRest()
   {
@@ -338,8 +307,9 @@ protected:
     }
   }
 };
-INSTANTIATE_TEST_SUITE_P(Techniques, RenderManagerByTechnique, testing::ValuesIn(allTechniques()),
-  [](const auto& technique) { return technique.param; });
+INSTANTIATE_TEST_SUITE_P(Techniques, RenderManagerByTechnique,
+  testing::ValuesIn(variantsThat([](const Variant& variant) { return variant.isDefault(); })),
+  testing::PrintToStringParamName());
 
 } // namespace
 
@@ -354,7 +324,8 @@ TEST_P(RenderManagerByTechnique, aFrameLikeTheLastOneMakesNothing)
   ASSERT_FALSE(after.visibility.empty());
   EXPECT_EQ(after.visibility, before.visibility);
   EXPECT_EQ(after.positionX, before.positionX);
-  EXPECT_EQ(this->scene.report().lights.at(0).technique, GetParam()) << "the report stays true";
+  EXPECT_EQ(this->scene.report().lights.at(0).technique, GetParam().text)
+    << "the report stays true";
 }
 
 TEST_P(RenderManagerByTechnique, severalViewsKeepTheirOwn)
@@ -448,12 +419,9 @@ TEST(ValueKey, NamesWhatChanged)
 TEST(OptionalMaps, areBakedOnceNothingMoves)
 {
   PassScene scene(200, 150);
-  scene.addFloor(4.0);
-  vtkActor* const sphere = scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  vtkActor* const sphere = scene.addSphereOverFloor();
   vtkLight* const sun = scene.addSun({ 1.0, 0.3, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  scene.pass->SetTechnique("silhouette");
-  scene.pass->SetSetting("bake", "settled");
+  scene.choose("silhouette bake=settled");
   // Two cameras take turns: from a camera at rest, no visibility would be computed.
   int frames = 0;
   const auto render = [&]
@@ -516,8 +484,7 @@ TEST(OptionalMaps, areBakedOnceNothingMoves)
 TEST(OptionalMaps, areNotBakedByAutoWhileThePictureMoves)
 {
   PassScene scene(200, 150);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSphereOverFloor();
   vtkLight* const sun = scene.addSun({ 1.0, 0.3, -1.5 });
   scene.pass->SetTechnique("auto");
   scene.pass->SetMaximumError(1e-5); // no probe shows it: rays

@@ -76,15 +76,12 @@ protected:
     plane->SetResolution(3, 2);
     vtkNew<vtkDataSetMapper> mapper;
     mapper->SetInputConnection(plane->GetOutputPort());
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
+    const auto actor = actorOf(mapper);
     actor->SetPosition(0.4, 0.3, 2.0);
     this->scene.renderer->AddActor(actor);
 
-    vtkNew<vtkPolyDataMapper> partMapper;
-    partMapper->SetInputConnection(plane->GetOutputPort());
-    vtkNew<vtkActor> part;
-    part->SetMapper(partMapper);
+    const auto partMapper = mapperOf(plane);
+    const auto part = actorOf(partMapper);
     vtkNew<vtkAssembly> assembly;
     assembly->AddPart(part);
     assembly->SetPosition(2.0, 0.0, 1.0);

@@ -34,20 +34,13 @@ class TextureMemory : public PassTest
 
 void fillRoundLamp(PassScene& scene)
 {
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSphere({ 0.0, 0.0, 6.0 }, 0.7);
-  scene.addSphere({ 3.0, 0.0, 3.5 }, 0.7);
-  scene.addSphere({ -3.0, 0.0, 3.5 }, 0.7);
-  scene.addSphere({ 0.0, 3.0, 3.5 }, 0.7);
-  scene.addSphere({ 0.0, -3.0, 3.5 }, 0.7);
-  vtkNew<vtkLight> lamp;
-  lamp->SetLightTypeToSceneLight();
-  lamp->PositionalOn();
-  lamp->SetConeAngle(90.0);
-  lamp->SetPosition(0.0, 0.0, 3.5);
-  scene.renderer->AddLight(lamp);
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.addSphereOverFloor();
+  for (const glm::dvec3& place : { glm::dvec3(0.0, 0.0, 6.0), { 3.0, 0.0, 3.5 }, { -3.0, 0.0, 3.5 },
+         { 0.0, 3.0, 3.5 }, { 0.0, -3.0, 3.5 } })
+  {
+    scene.addSphere(place, 0.7);
+  }
+  scene.addSpot({ 0.0, 0.0, 3.5 }, glm::dvec3(0.0), 90.0);
 }
 
 /// Maps of a technique.
@@ -55,7 +48,7 @@ struct MapsOf
 {
   const char* name;
   Way way;
-  std::vector<std::pair<const char*, const char*>> settings;
+  const char* settings;
   /// The rest of the error; anything where that depends on which of several images has no room.
   const char* asks;
 };
@@ -76,18 +69,18 @@ constexpr const char* sixOnCpu = " in 6 layers needs 33822 MB of memory, which i
 
 INSTANTIATE_TEST_SUITE_P(TextureMemory, MapsWithoutRoom,
   testing::Values(
-    MapsOf{ "depthsInline", { "nsm", vtkGnomonShadowPass::ROUTE_INLINE }, {}, sixDepths },
-    MapsOf{ "depthsByTheImage", { "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, {}, sixDepths },
-    MapsOf{ "momentsBlurred", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO },
-      { { "blur", "box" }, { "mip_maps", "off" } }, "" },
-    MapsOf{ "momentsSummed", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO },
-      { { "blur", "sat" }, { "mip_maps", "off" } }, "" },
-    MapsOf{ "momentsInMipMaps", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO },
-      { { "blur", "box" }, { "mip_maps", "on" } }, "" },
-    MapsOf{ "depthLayers", { "montecarlo", vtkGnomonShadowPass::ROUTE_AUTO },
-      { { "light_radius", "0.2" } }, "" },
-    MapsOf{ "cellsOnTheCpu", { "crsm", vtkGnomonShadowPass::ROUTE_AUTO }, {}, sixOnCpu }),
-  [](const testing::TestParamInfo<MapsOf>& maps) { return std::string(maps.param.name); });
+    MapsOf{ "depthsInline", { "nsm", vtkGnomonShadowPass::ROUTE_INLINE }, "", sixDepths },
+    MapsOf{ "depthsByTheImage", { "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, "", sixDepths },
+    MapsOf{
+      "momentsBlurred", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO }, "blur=box mip_maps=off", "" },
+    MapsOf{
+      "momentsSummed", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO }, "blur=sat mip_maps=off", "" },
+    MapsOf{
+      "momentsInMipMaps", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO }, "blur=box mip_maps=on", "" },
+    MapsOf{
+      "depthLayers", { "montecarlo", vtkGnomonShadowPass::ROUTE_AUTO }, "light_radius=0.2", "" },
+    MapsOf{ "cellsOnTheCpu", { "crsm", vtkGnomonShadowPass::ROUTE_AUTO }, "", sixOnCpu }),
+  byName);
 
 /// Leaves this process so much address space beside what it has, in bytes, for as long as it lives.
 class AddressSpace
@@ -127,10 +120,7 @@ TEST_P(MapsWithoutRoom, areAnErrorThatOffersSmallerOnesAndLeaveNothingBehind)
   }
   scene.useGnomon();
   scene.choose(GetParam().way);
-  for (const auto& [setting, value] : GetParam().settings)
-  {
-    scene.pass->SetSetting(setting, value);
-  }
+  scene.choose(GetParam().settings);
   scene.pass->SetMapSize(64);
   const Picture shadowed = scene.render();
   EXPECT_GT(differingPixels(plain, shadowed), 100u);
@@ -188,14 +178,10 @@ TEST_F(TextureMemory, mapsThatAreDrawnWithThePictureNameTheirLight)
   GTEST_SKIP() << "the address sanitizer ends a program whose address space ends";
 #endif
   PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.addSphereOverFloor();
   scene.addSun({ 0.3, 0.3, -1.0 });
-  vtkGnomonLightKeys::SetSetting(scene.addSun({ -0.3, 0.3, -1.0 }), "technique", "sampled");
-  scene.pass->SetSetting("light_radius", "5");
-  scene.pass->SetMapSize(64);
-  const Picture coarse = scene.render();
+  set(scene.addSun({ -0.3, 0.3, -1.0 }), "technique", "sampled");
+  const Picture coarse = scene.render("light_radius=5 map_size=64");
   {
     const AddressSpace scarce(300u << 20);
     scene.pass->SetMapSize(4096); // 67 MB, ten of them
@@ -216,16 +202,12 @@ TEST_F(TextureMemory, mapsThatHaveNoRoomTogetherAreAnErrorThatNamesTheFirstLight
   constexpr int large = 4096; // 67 MB
   constexpr int lights = 8;
   PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.addSphereOverFloor();
   for (int i = 0; i < lights; ++i)
   {
     scene.addSun({ 0.2 * i - 0.8, 0.3, -1.0 })->SetIntensity(0.1);
   }
-  scene.usePlain();
-  const Picture plain = scene.render();
-  scene.useGnomon();
+  const Picture plain = scene.renderPlain();
   scene.pass->SetMapSize(64);
   const Picture coarse = scene.render();
   EXPECT_GT(differingPixels(plain, coarse), 100u);

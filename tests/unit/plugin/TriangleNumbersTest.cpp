@@ -35,23 +35,13 @@ protected:
 /// Two squares above each other, 0.2 apart: triangles 0 and 1, 2 and 3.
 vtkSmartPointer<vtkPolyData> makeSquares()
 {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> triangles;
-  for (vtkIdType square = 0; square < 2; ++square)
+  std::vector<glm::dvec3> corners;
+  for (const double z : { 1.5, 1.3 })
   {
-    const double z = 1.5 - 0.2 * static_cast<double>(square);
-    const vtkIdType first = 4 * square;
-    points->InsertNextPoint(-1.0, -1.0, z);
-    points->InsertNextPoint(1.0, -1.0, z);
-    points->InsertNextPoint(1.0, 1.0, z);
-    points->InsertNextPoint(-1.0, 1.0, z);
-    triangles->InsertNextCell({ first, first + 1, first + 2 });
-    triangles->InsertNextCell({ first, first + 2, first + 3 });
+    corners.insert(
+      corners.end(), { { -1.0, -1.0, z }, { 1.0, -1.0, z }, { 1.0, 1.0, z }, { -1.0, 1.0, z } });
   }
-  const auto squares = vtkSmartPointer<vtkPolyData>::New();
-  squares->SetPoints(points);
-  squares->SetPolys(triangles);
-  return squares;
+  return meshOf(corners, { { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 }, { 4, 6, 7 } });
 }
 
 struct Garbling
@@ -66,9 +56,7 @@ void PrintTo(const Garbling& garbling, std::ostream* out)
 }
 
 /// The squares over a floor, from straight above.
-class TriangleNumbers
-  : public PassTest
-  , public testing::WithParamInterface<Garbling>
+class TriangleNumbers : public PassTestOf<Garbling>
 {
 protected:
   TriangleNumbers()
@@ -119,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, TriangleNumbers,
   testing::Values(Garbling{ "neighbours", "gl_PrimitiveID ^ 1" },
     Garbling{ "behind", "(gl_PrimitiveID + 2) % 4" }, Garbling{ "beyond", "gl_PrimitiveID + 1000" },
     Garbling{ "negative", "-1 - gl_PrimitiveID" }, Garbling{ "huge", "gl_PrimitiveID + 20000000" }),
-  [](const testing::TestParamInfo<Garbling>& garbling) { return garbling.param.name; });
+  byName);
 
 TEST_P(TriangleNumbers, areReplacedWhereReceiversAreDrawnAlone)
 {
@@ -137,13 +125,7 @@ TEST_P(TriangleNumbers, areReplacedWherePropsBlend)
   for (PassScene* scene : { &this->right, &this->garbled })
   {
     vtkActor* const veil = scene->addFloor(0.5, 2.0); // over a part of the squares
-    vtkNew<vtkImageData> texels;
-    texels->SetDimensions(2, 2, 1);
-    texels->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-    std::fill_n(static_cast<unsigned char*>(texels->GetScalarPointer()), 16, 128);
-    vtkNew<vtkTexture> half;
-    half->SetInputData(texels);
-    veil->SetTexture(half);
+    veil->SetTexture(textureOf(makeVeil(2, 2, [](int, int) { return 128; })));
     veil->ForceOpaqueOn();
   }
   this->expectSamePictures(vtkGnomonShadowPass::ROUTE_DEFERRED);
@@ -259,11 +241,7 @@ TEST_F(RightNumbers, areReadOnceTheyAreDrawn)
 }
 
 /// All ways to draw receivers, in turn with all looks, with wrong numbers from one mapper.
-class NumberedKinds
-  : public PassTest
-  , public testing::WithParamInterface<std::size_t>
-{
-};
+using NumberedKinds = PassTestOf<std::size_t>;
 
 INSTANTIATE_TEST_SUITE_P(KindsAndLooks, NumberedKinds,
   testing::Range(std::size_t(0), std::max(matrixKinds().size(), imageBasedLook())),

@@ -143,11 +143,7 @@ const TechniqueInfo& Variant::info() const
 
 void Variant::choose(vtkGnomonShadowPass* pass) const
 {
-  pass->SetTechnique(this->technique().c_str());
-  for (const auto& [name, value] : settingsOf(*this))
-  {
-    pass->SetSetting(name.c_str(), value.c_str());
-  }
+  test::choose(pass, this->text.c_str());
 }
 
 void Variant::set(vtkGnomonShadowPass* pass, const char* name, const std::string& value) const
@@ -224,7 +220,7 @@ std::vector<Variant> someVariants(
   return variantsThat(
     [&](const Variant& variant)
     {
-      const bool isDefault = variant.text == variant.technique();
+      const bool isDefault = variant.isDefault();
       return isFor(variant) && (isDefault ? ++placeOfDefault % 2 == 0 : ++placeOfOther % 8 == 0);
     });
 }

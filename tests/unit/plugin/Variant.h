@@ -24,6 +24,8 @@ struct Variant
   std::vector<int> mapSizes(std::vector<int> sizes) const;
   /// True if lights that see all around can have it; warps and splits need a single view.
   bool takesCubes() const;
+  /// True if it has no settings.
+  bool isDefault() const { return this->text == this->technique(); }
   bool isPointwise() const { return this->info().isPointwise(); }
   bool isMoments() const { return has(this->info(), "bleeding"); }
   bool hasSetting(const std::string& nameAndValue) const;

@@ -55,34 +55,22 @@ ExactFloor floorUnderLamp(const Box& box, const glm::dvec3& lamp)
 }
 
 /// A box over a floor under a slanting sun, seen from above.
-struct BoxScene : PassScene
+struct SeenBox : BoxScene
 {
-  BoxScene(const Box& of, double halfSize, double halfHeight, int width = 200, int height = 200)
-    : PassScene(width, height)
-    , box(of)
-    , extent(halfSize)
-    , floor(this->addFloor(halfSize))
+  SeenBox(const Box& of, double halfSide, double halfHeight, int side = 200)
+    : BoxScene(side, side, of, halfSide)
   {
-    this->addBox(of.lower, of.upper);
-    this->sun = this->addSun(slantingSun);
     this->lookDown(halfHeight);
   }
   /// Count the wrong pixels, except in a band beside edges.
-  std::size_t wrong(double band)
-  {
-    return checkFloor(*this, this->render(), floorUnderSun(this->box, this->extent), band).wrong();
-  }
-  Box box;
-  double extent;
-  vtkActor* floor;
-  vtkLight* sun;
+  std::size_t wrong(double band) { return this->check(this->render(), band).wrong(); }
 };
 
 /// A box on a floor under a lamp.
-struct LampScene : BoxScene
+struct LampScene : SeenBox
 {
   explicit LampScene(double coneAngleDegrees)
-    : BoxScene(standingBox, 10.0, 4.0)
+    : SeenBox(standingBox, 10.0, 4.0)
     , lamp(this->addSpot(place, glm::dvec3(0.0), coneAngleDegrees))
   {
     this->renderer->RemoveLight(this->sun);
@@ -100,7 +88,7 @@ struct LampScene : BoxScene
 
 TEST_F(Wishes, anyWindowShape)
 {
-  BoxScene scene(hangingBox, 10.0, 5.0);
+  SeenBox scene(hangingBox, 10.0, 5.0);
   for (const auto& [width, height] :
     { std::pair(300, 150), { 640, 200 }, { 120, 360 }, { 301, 299 }, { 1920, 1080 } })
   {
@@ -111,7 +99,7 @@ TEST_F(Wishes, anyWindowShape)
 
 TEST_F(Wishes, darkAtContact)
 {
-  BoxScene scene(standingBox, 100.0, 4.0);
+  SeenBox scene(standingBox, 100.0, 4.0);
   judge(
     scene, [&] { return scene.wrong(0.3); }, 2048);
 }
@@ -119,8 +107,8 @@ TEST_F(Wishes, darkAtContact)
 /// A long strip across the sun's direction, which makes the texels of a map of all of it coarse.
 TEST_F(Wishes, resolutionWhereTheCameraLooks)
 {
-  BoxScene scene(hangingBox, 6.0, 5.0);
-  scene.floor->SetScale(1.0, 400.0 / 6.0, 1.0);
+  SeenBox scene(hangingBox, 6.0, 5.0);
+  scene.floor()->SetScale(1.0, 400.0 / 6.0, 1.0);
   judge(
     scene, [&] { return scene.wrong(0.15); }, 1024, "pssm");
 }
@@ -128,7 +116,7 @@ TEST_F(Wishes, resolutionWhereTheCameraLooks)
 TEST_F(Wishes, physicallyBasedUnderASpot)
 {
   LampScene scene(60.0);
-  for (vtkActor* actor : { scene.floor, scene.renderer->GetActors()->GetLastActor() })
+  for (vtkActor* actor : { scene.floor(), scene.renderer->GetActors()->GetLastActor() })
   {
     actor->GetProperty()->SetInterpolationToPBR();
     actor->GetProperty()->SetRoughness(1.0);
@@ -149,7 +137,7 @@ TEST_F(Wishes, lampsOfAnyConeCast)
 
 TEST_F(Wishes, lightsThatAreOffShiftNoOthers)
 {
-  BoxScene scene(hangingBox, 10.0, 10.0);
+  SeenBox scene(hangingBox, 10.0, 10.0);
   scene.renderer->RemoveLight(scene.sun);
   scene.addSun({ 0.0, 1.0, -1.0 })->SwitchOff();
   scene.addSun(slantingSun);
@@ -158,14 +146,14 @@ TEST_F(Wishes, lightsThatAreOffShiftNoOthers)
 
 TEST_F(Wishes, invisiblePropsChangeNothing)
 {
-  BoxScene scene(hangingBox, 10.0, 10.0);
+  SeenBox scene(hangingBox, 10.0, 10.0);
   scene.addBox(glm::dvec3(-1000.0), glm::dvec3(1000.0))->VisibilityOff();
   judge(scene, [&] { return scene.wrong(0.2); });
 }
 
 TEST_F(Wishes, severalShadowsOfChosenDirections)
 {
-  BoxScene scene(standingBox, 10.0, 5.0);
+  SeenBox scene(standingBox, 10.0, 5.0);
   scene.renderer->RemoveAllLights();
   const std::vector<glm::dvec3> directions = { { 1.0, 0.0, -1.0 }, { -1.0, 1.0, -1.0 },
     { 0.0, -1.0, -1.0 } };
@@ -190,7 +178,7 @@ TEST_F(Wishes, severalShadowsOfChosenDirections)
 /// On the sun's side, the floor darkens towards the box by occlusion alone.
 TEST_F(Wishes, ambientOcclusionStaysOn)
 {
-  BoxScene scene(standingBox, 10.0, 4.0);
+  SeenBox scene(standingBox, 10.0, 4.0);
   scene.usePlain();
   const Picture plain = scene.render();
   scene.renderer->UseSSAOOn();
@@ -201,18 +189,14 @@ TEST_F(Wishes, ambientOcclusionStaysOn)
   const auto wrong = [&]
   {
     const Picture picture = scene.render();
-    std::size_t count = 0;
-    for (int y = 0; y < picture.height; ++y)
-    {
-      for (int x = 0; x < picture.width; ++x)
+    return countPixels(picture,
+      [&](int x, int y)
       {
         const glm::dvec2 floor = scene.floorAt(x, y);
         const bool isUmbra = floor.x > 1.2 && floor.x < 2.8 && std::abs(floor.y) < 0.8;
         const int off = std::abs(picture.red(x, y) - occluded.red(x, y));
-        count += (isUmbra && picture.red(x, y) > 64) || (floor.x < -1.1 && off > 4) ? 1 : 0;
-      }
-    }
-    return count;
+        return (isUmbra && picture.red(x, y) > 64) || (floor.x < -1.1 && off > 4);
+      });
   };
   judge(scene, wrong);
 }
@@ -220,14 +204,12 @@ TEST_F(Wishes, ambientOcclusionStaysOn)
 /// A ground a hundred times as wide as the model, with lines drawn on it.
 TEST_F(Wishes, gridReceives)
 {
-  BoxScene scene(standingBox, 100.0, 4.0);
-  vtkPlaneSource::SafeDownCast(scene.floor->GetMapper()->GetInputAlgorithm())
+  SeenBox scene(standingBox, 100.0, 4.0);
+  vtkPlaneSource::SafeDownCast(scene.floor()->GetMapper()->GetInputAlgorithm())
     ->SetResolution(100, 100);
-  scene.floor->GetProperty()->EdgeVisibilityOn();
-  scene.floor->GetProperty()->SetEdgeColor(1.0, 0.0, 0.0);
-  scene.usePlain();
-  const Picture plain = scene.render();
-  scene.useGnomon();
+  scene.floor()->GetProperty()->EdgeVisibilityOn();
+  scene.floor()->GetProperty()->SetEdgeColor(1.0, 0.0, 0.0);
+  const Picture plain = scene.renderPlain();
   const ExactFloor exact = [&](const glm::dvec2& floor)
   {
     const glm::dvec2 cell = glm::abs(floor / 2.0 - glm::round(floor / 2.0)) * 2.0;
@@ -237,15 +219,9 @@ TEST_F(Wishes, gridReceives)
   const auto wrong = [&]
   {
     const Picture picture = scene.render();
-    std::size_t count = checkFloor(scene, picture, exact, 0.3).wrong();
-    for (int y = 0; y < picture.height; ++y) // including the lines, on the sun's side
-    {
-      for (int x = 0; x < 60; ++x)
-      {
-        count += std::abs(picture.red(x, y) - plain.red(x, y)) > 2 ? 1 : 0;
-      }
-    }
-    return count;
+    const auto differs = [&](int x, int y) // including the lines, on the sun's side
+    { return x < 60 && std::abs(picture.red(x, y) - plain.red(x, y)) > 2; };
+    return checkFloor(scene, picture, exact, 0.3).wrong() + countPixels(picture, differs);
   };
   judge(scene, wrong, 2048);
 }
@@ -253,9 +229,8 @@ TEST_F(Wishes, gridReceives)
 /// World points in shadow: they lie in the box's shadow, and cover its area.
 TEST_F(Wishes, coordinatesOfTheShadow)
 {
-  BoxScene scene(hangingBox, 10.0, 10.0);
-  scene.pass->SetTechnique("raytraced");
-  const VisibilityImages& kept = drawKept(scene);
+  SeenBox scene(hangingBox, 10.0, 10.0);
+  const VisibilityImages& kept = drawKept(scene, "raytraced");
   std::size_t dark = 0;
   for (std::size_t i = 0; i < kept.coverage.size(); ++i)
   {
@@ -275,7 +250,7 @@ TEST_F(Wishes, coordinatesOfTheShadow)
 TEST_F(Wishes, headLess)
 {
   unsetenv("DISPLAY");
-  BoxScene scene(hangingBox, 10.0, 10.0, 100, 100);
+  SeenBox scene(hangingBox, 10.0, 10.0, 100);
   EXPECT_EQ(scene.wrong(0.4), 0u);
 }
 

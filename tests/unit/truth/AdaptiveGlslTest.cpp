@@ -42,10 +42,8 @@ struct BakedDiscs
         byPoint.push_back(byDisc[static_cast<std::size_t>(disc * points + point)]);
       }
     }
-    glBindTexture(GL_TEXTURE_2D_ARRAY, this->discs.create());
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG32F, light.adaptive.discSets, light.adaptive.discSets,
-      points, 0, GL_RG, GL_FLOAT, byPoint.data());
-    nearest(GL_NEAREST);
+    const int across = light.adaptive.discSets;
+    fillTexture(this->discs, GL_RG, { across, across, points }, byPoint.data());
     glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds.create());
     int level = 0;
     for (int size = 2; size <= mapSize; size *= 2, ++level)
@@ -67,12 +65,7 @@ struct BakedDiscs
       glTexImage3D(
         GL_TEXTURE_2D_ARRAY, level, GL_RG32F, side, side, 1, 0, GL_RG, GL_FLOAT, blocks.data());
     }
-    nearest(GL_NEAREST_MIPMAP_NEAREST);
-  }
-
-  static void nearest(GLint filter)
-  {
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   }
 

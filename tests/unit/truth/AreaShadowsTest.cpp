@@ -79,9 +79,7 @@ std::ostream& operator<<(std::ostream& stream, const Penumbra& penumbra)
   return stream << penumbra.name;
 }
 
-class Penumbras : public testing::TestWithParam<Penumbra>
-{
-};
+using Penumbras = testing::TestWithParam<Penumbra>;
 
 std::vector<Penumbra> penumbras()
 {
@@ -106,7 +104,7 @@ std::vector<Penumbra> penumbras()
 }
 
 INSTANTIATE_TEST_SUITE_P(OfHalfPlane, Penumbras, testing::ValuesIn(penumbras()),
-  [](const testing::TestParamInfo<Penumbra>& penumbra) { return penumbra.param.name; });
+  [](const auto& penumbra) { return penumbra.param.name; });
 
 TEST_P(Penumbras, areThoseOfGeometry)
 {

@@ -126,9 +126,7 @@ std::vector<Cell> drawnInBands(
     : std::vector<Cell>();
 }
 
-class RandomCells : public testing::TestWithParam<const char*>
-{
-};
+using RandomCells = testing::TestWithParam<const char*>;
 
 TEST_P(RandomCells, areThoseOfShapesOneByOne)
 {
@@ -152,8 +150,7 @@ TEST_P(RandomCells, areThoseOfShapesOneByOne)
   EXPECT_GT(filled, 10000u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, RandomCells, testing::ValuesIn(randomSceneNames()),
-  [](const testing::TestParamInfo<const char*>& scene) { return lettersOf(scene.param); });
+INSTANTIATE_TEST_SUITE_P(Scenes, RandomCells, testing::ValuesIn(randomSceneNames()), byLetters);
 
 /// Split each triangle into four in its plane. Triangles that met still do.
 void subdivide(Occluders& occluders)

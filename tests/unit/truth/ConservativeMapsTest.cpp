@@ -75,6 +75,14 @@ Tally compareWithTruth(const std::string& what, const ShadowLight& light, const 
     Receivers(view.images, view.drawnSurfaces, occluders, stored), rule);
 }
 
+/// Compare by the map of all casters.
+template <typename Seen>
+Tally compareWithTruth(const std::string& what, const ShadowLight& light,
+  const Occluders& occluders, const Seen& seen, const MapRule& rule = bySilhouette)
+{
+  return compareWithTruth(what, light, viewsOf(light, occluders), occluders, seen, rule);
+}
+
 /// One picture of one scene in one light, by maps of one size.
 Tally run(const std::string& name, unsigned int seed, const MapRule& rule,
   const glm::dmat4& world = glm::dmat4(1.0))
@@ -111,9 +119,7 @@ const auto nameOfRule = [](const testing::TestParamInfo<Covering>& rule)
 const auto allCoverings =
   testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette);
 
-class ConservativeMapsIn : public testing::TestWithParam<std::tuple<const char*, Covering>>
-{
-};
+using ConservativeMapsIn = testing::TestWithParam<std::tuple<const char*, Covering>>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ConservativeMapsIn,
   testing::Combine(testing::ValuesIn(randomSceneNames()), allCoverings),
@@ -133,15 +139,11 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
   EXPECT_LT(sum.traced, sum.receivers * 3 / 4); // the map decides some
 }
 
-class ConservativeMapsBy : public testing::TestWithParam<Covering>
-{
-};
+using ConservativeMapsBy = testing::TestWithParam<Covering>;
 
 INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsBy, allCoverings, nameOfRule);
 
-class ConservativeMapsAnywhere : public testing::TestWithParam<Covering>
-{
-};
+using ConservativeMapsAnywhere = testing::TestWithParam<Covering>;
 
 INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsAnywhere, allCoverings, nameOfRule);
 
@@ -195,11 +197,10 @@ protected:
     this->receivers_.push_back(
       { world - this->occluders_.frame.centre, glm::normalize(normal), offset });
   }
-  Tally compare(ShadowLight light, int mapSize, double shape)
+  Tally compare(const ShadowLight& light, int mapSize, double shape)
   {
-    light.mapSizeTexels = mapSize;
-    const Tally tally = compareWithTruth(std::to_string(shape), light,
-      viewsOf(light, this->occluders_), this->occluders_, rowOf(this->receivers_));
+    const Tally tally = compareWithTruth(
+      std::to_string(shape), withMap(light, mapSize), this->occluders_, rowOf(this->receivers_));
     this->receivers_.clear();
     return tally;
   }
@@ -275,8 +276,7 @@ TEST(ConservativeMaps, knowNothingOfLinesWhoseRaysMayStartAboveASheet)
   const double height = 1e-3;
   const Occluders occluders =
     makeOccluders({ { makePlane(8.0) }, { makePlane(7.0), at({ 0.0, 0.0, height }) } });
-  ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
-  light.mapSizeTexels = 16;
+  const ShadowLight light = withMap(directionalLight({ 0.0, 0.0, -1.0 }), 16);
   ConservativeMaps maps;
   maps.bake(light, viewsOf(light, occluders), occluders, bySilhouette);
   const auto known = [&](float mostOffset)
@@ -294,8 +294,7 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
 {
   // A row of plates whose edges lie exactly between texels, high above receivers that lie there,
   // too. The light's direction is rounded for shadow rays, which matters over the distance.
-  ShadowLight light = directionalLight({ 0.3, -0.2, -1.0 });
-  light.mapSizeTexels = 64;
+  const ShadowLight light = withMap(directionalLight({ 0.3, -0.2, -1.0 }), 64);
   const std::vector<Prop> corners{ { makeBox(glm::dvec3(-500.0), glm::dvec3(-499.0)) },
     { makeBox(glm::dvec3(499.0), glm::dvec3(500.0)) } };
   const Occluders frame = makeOccluders(corners);
@@ -346,8 +345,7 @@ TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
   for (int i = 0; i < 16; ++i)
   {
     const glm::dvec3 lamp(uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5), 1.0);
-    ShadowLight light = pointLight(lamp);
-    light.mapSizeTexels = 32;
+    const ShadowLight light = withMap(pointLight(lamp), 32);
     Mesh plates;
     for (unsigned int k = 0; k < 3 * 400; k += 3)
     {
@@ -366,15 +364,13 @@ TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
       const glm::dvec3 place(uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), 0.0);
       receivers.push_back({ place - occluders.frame.centre, { 0.0f, 0.0f, 1.0f }, 4e-6f });
     }
-    const LightViews views = viewsOf(light, occluders);
-    sum.add(compareWithTruth(std::to_string(i), light, views, occluders, rowOf(receivers), rule));
+    sum.add(compareWithTruth(std::to_string(i), light, occluders, rowOf(receivers), rule));
 
     // Also by triangles and lines, for a camera above the floor.
-    Camera camera;
-    camera.width = camera.height = 96;
-    camera.position = { uniform(random, -1.0, 1.0), -3.0, 2.0 };
-    seen.add(compareWithTruth(
-      std::to_string(i), light, views, occluders, makeView(occluders, camera), rule));
+    const Camera camera{ { uniform(random, -1.0, 1.0), -3.0, 2.0 }, {}, { 0.0, 0.0, 1.0 }, 40.0,
+      0.0, 96, 96 };
+    seen.add(
+      compareWithTruth(std::to_string(i), light, occluders, makeView(occluders, camera), rule));
   }
   EXPECT_LT(sum.traced, sum.receivers);
   EXPECT_GT(seen.leftOut, 0u) << "triangles and lines are asked about";
@@ -392,10 +388,8 @@ TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
     const Occluders occluders =
       makeOccluders({ { makePlane(4.0), world }, { makePlane(3.0), world * at({ 0.0, 0.0, 2.0 }) },
         { makeSphere(8, 12), world * at({ 0.4, 0.3, 0.7 }, 0.3) } });
-    Camera camera;
-    camera.width = camera.height = 96;
-    camera.position = glm::dvec3(world * glm::dvec4(0.5, -5.0, 1.5, 1.0));
-    camera.target = floor;
+    const Camera camera{ glm::dvec3(world * glm::dvec4(0.5, -5.0, 1.5, 1.0)), floor,
+      { 0.0, 0.0, 1.0 }, 40.0, 0.0, 96, 96 };
     const ReceiverPixels receivers = makeReceivers(occluders, camera);
     std::vector<ShadowLight> lights{ pointLight(lamp), spotLight(lamp, floor, 30.0),
       spotLight(lamp, floor, 75.0) };
@@ -406,11 +400,10 @@ TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
       lights.push_back(boxLight(normal, lamp - before * normal, { 2.0, 2.0, 3.0 }));
       lights.back().box->upWorld = glm::dvec3(world * glm::dvec4(0.0, 1.0, 0.0, 0.0));
     }
-    for (ShadowLight light : lights)
+    for (const ShadowLight& light : lights)
     {
-      light.mapSizeTexels = 128;
       const Tally tally = compareWithTruth("light " + std::to_string(static_cast<int>(light.kind)),
-        light, viewsOf(light, occluders), occluders, receivers);
+        withMap(light, 128), occluders, receivers);
       EXPECT_GT(tally.receivers, 500u);
     }
   }
@@ -468,16 +461,15 @@ TEST(ConservativeMaps, areNeverWrongAboutTrianglesThatALampIsBeside)
     const std::pair<ShadowLight, std::vector<Prop>> cases[] = { { point, { ring, opposite } },
       { spot, { ring, opposite, behind } }, { point, { ring, opposite, behind } } };
     camera.target = lamp;
-    for (auto [light, props] : cases)
+    for (const auto& [light, props] : cases)
     {
-      light.mapSizeTexels = 64;
       const Occluders occluders = makeOccluders(props);
       for (const double height : { -2.0, 2.0 })
       {
         camera.position = lamp + glm::dvec3(0.0, 0.0, height);
         compareWithTruth("light " + std::to_string(static_cast<int>(light.kind)) + ", props " +
             std::to_string(props.size()),
-          light, viewsOf(light, occluders), occluders, makeView(occluders, camera));
+          withMap(light, 64), occluders, makeView(occluders, camera));
       }
     }
   }
@@ -491,18 +483,12 @@ TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
   constexpr int size = 16;
   constexpr double side = 8.0;
   constexpr double texel = side / size;
-  ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
-  light.mapSizeTexels = size;
-  std::vector<Camera> cameras(3);
-  cameras[0].position = { 0.3, 0.1, 2.0 };
-  cameras[0].target = { 0.3, 0.1, 0.0 };
-  cameras[0].up = { 0.0, 1.0, 0.0 };
-  cameras[0].fovDegrees = 120.0;
-  cameras[1].position = { -0.8, 0.1, 0.5 };
-  cameras[1].target = { 2.0, 0.0, 0.0 };
-  cameras[1].fovDegrees = 60.0;
-  cameras[2] = cameras[0];
-  cameras[2].parallelHeight = 4.0;
+  const ShadowLight light = withMap(directionalLight({ 0.0, 0.0, -1.0 }), size);
+  const Camera above{ { 0.3, 0.1, 2.0 }, { 0.3, 0.1, 0.0 }, { 0.0, 1.0, 0.0 }, 120.0 };
+  Camera parallel = above;
+  parallel.parallelHeight = 4.0;
+  const Camera cameras[] = { above,
+    { { -0.8, 0.1, 0.5 }, { 2.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, 60.0 }, parallel };
   Tally sum;
   for (const double texels : { 0.3, 0.5, 0.7, 1.1, 1.25, 1.5, 2.0, 4.0 })
   {
@@ -516,7 +502,7 @@ TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
       {
         camera.width = camera.height = pixels;
         sum.add(compareWithTruth(std::to_string(texels) + ", " + std::to_string(pixels), light,
-          viewsOf(light, occluders), occluders, viewOfFirstTriangle(occluders, camera)));
+          occluders, viewOfFirstTriangle(occluders, camera)));
       }
     }
   }
@@ -530,20 +516,17 @@ TEST(ConservativeMaps, areNeverWrongBelowThinSheets)
   const glm::dmat4 turn =
     glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(0.6, 0.7, 0.1)));
   const Mesh triangle = oneTriangle({ -0.1, -0.09, 0.0 }, { 0.1, 0.09, 0.0 }, { 0.1, 0.0901, 0.0 });
-  ShadowLight light = directionalLight(glm::dvec3(turn * glm::dvec4(0.0, 0.0, -1.0, 0.0)));
-  light.mapSizeTexels = 512;
-  Camera camera;
-  camera.width = camera.height = 64;
-  camera.fovDegrees = 1.0;
-  camera.position = glm::dvec3(turn * glm::dvec4(0.0, 0.0, 3.0, 1.0));
-  camera.target = glm::dvec3(0.0);
+  const ShadowLight light =
+    withMap(directionalLight(glm::dvec3(turn * glm::dvec4(0.0, 0.0, -1.0, 0.0))), 512);
+  const Camera camera{ glm::dvec3(turn * glm::dvec4(0.0, 0.0, 3.0, 1.0)), {}, { 0.0, 0.0, 1.0 },
+    1.0, 0.0, 64, 64 };
   Tally sum;
   for (const double height : { 2e-5, 5e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3 })
   {
     const Occluders occluders = makeOccluders(
       { { triangle, turn, false }, { makePlane(3.0), turn * at({ 0.0, 0.0, height }) } });
-    sum.add(compareWithTruth(std::to_string(height), light, viewsOf(light, occluders), occluders,
-      viewOfFirstTriangle(occluders, camera)));
+    sum.add(compareWithTruth(
+      std::to_string(height), light, occluders, viewOfFirstTriangle(occluders, camera)));
   }
   EXPECT_GT(sum.receivers, 1000u);
 }
@@ -569,7 +552,6 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
     {
       light.box->upWorld = beside;
     }
-    light.mapSizeTexels = 8;
     const double side = isSpot ? 80.0 * std::tan(glm::radians(30.0)) : 40.0;
     const double from = uniform(random, -20.0, 20.0);
     const auto below = [&](double out, double across, double down)
@@ -585,14 +567,11 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
       makeOccluders({ { triangle, glm::dmat4(1.0), false }, opposite, ground, shade });
     // Most rays pass beside the corner.
     const glm::dvec3 corner = triangle.points[0];
-    Camera camera;
-    camera.width = camera.height = 32;
-    camera.target = corner + 0.003 * (corner - triangle.points[1]);
-    camera.position = camera.target + glm::dvec3(0.1, 0.2, 3.0);
-    camera.up = { 0.0, 1.0, 0.0 };
-    camera.fovDegrees = 4.0;
-    sum.add(compareWithTruth(std::to_string(i), light, viewsOf(light, occluders), occluders,
-      viewOfFirstTriangle(occluders, camera)));
+    const glm::dvec3 target = corner + 0.003 * (corner - triangle.points[1]);
+    const Camera camera{ target + glm::dvec3(0.1, 0.2, 3.0), target, { 0.0, 1.0, 0.0 }, 4.0, 0.0,
+      32, 32 };
+    sum.add(compareWithTruth(
+      std::to_string(i), withMap(light, 8), occluders, viewOfFirstTriangle(occluders, camera)));
   }
   EXPECT_GT(sum.leftOut, 100000u);
 }
@@ -603,11 +582,8 @@ TEST(ConservativeMaps, areNeverWrongOfWhatDoesNotCastOrOnOneSide)
   // the scene, where it has no rounding, as if all rays started far off it.
   const Prop plate{ makePlane(1.5), at({ 0.0, 0.0, 0.5 }) };
   const Prop tower{ makeBox({ 2.0, 2.0, 0.9 }, { 2.5, 2.5, 1.0 }) };
-  ShadowLight light = directionalLight({ 0.1, 0.2, -1.0 });
-  light.mapSizeTexels = 64;
-  Camera camera;
-  camera.position = { 0.3, -4.0, 2.0 };
-  camera.target = { 0.0, 0.0, 0.0 };
+  const ShadowLight light = withMap(directionalLight({ 0.1, 0.2, -1.0 }), 64);
+  const Camera camera{ { 0.3, -4.0, 2.0 } };
   for (const int cells : { 1, 64 })
   {
     for (const bool casts : { false, true })
@@ -620,8 +596,7 @@ TEST(ConservativeMaps, areNeverWrongOfWhatDoesNotCastOrOnOneSide)
         casts ? glm::rotate(glm::dmat4(1.0), 3.14159265358979, { 1.0, 0.0, 0.0 }) : glm::dmat4(1.0);
       const Occluders occluders = makeOccluders({ floor, plate, tower });
       const std::string what = std::to_string(cells) + (casts ? ", on one side" : "");
-      const Tally tally = compareWithTruth(
-        what, light, viewsOf(light, occluders), occluders, makeView(occluders, camera));
+      const Tally tally = compareWithTruth(what, light, occluders, makeView(occluders, camera));
       EXPECT_GT(tally.leftOut, 1000u) << what;
     }
   }

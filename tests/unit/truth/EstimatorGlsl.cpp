@@ -11,6 +11,24 @@ namespace gnomon::test
 {
 
 //------------------------------------------------------------------------------
+void fillTexture(GlTexture& texture, GLenum format, const glm::ivec3& size, const void* texels)
+{
+  const GLenum target = size.z > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
+  const GLint stored = format == GL_RED ? GL_R32F : format == GL_RG ? GL_RG32F : GL_RGBA32F;
+  glBindTexture(target, texture.create());
+  if (size.z > 0)
+  {
+    glTexImage3D(target, 0, stored, size.x, size.y, size.z, 0, format, GL_FLOAT, texels);
+  }
+  else
+  {
+    glTexImage2D(target, 0, stored, size.x, size.y, 0, format, GL_FLOAT, texels);
+  }
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+//------------------------------------------------------------------------------
 void fillDepths(GlTexture& texture, const Depths& depths)
 {
   std::vector<float> texels;
@@ -21,11 +39,7 @@ void fillDepths(GlTexture& texture, const Depths& depths)
       texels.push_back(depths({ x, y }));
     }
   }
-  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.create());
-  glTexImage3D(
-    GL_TEXTURE_2D_ARRAY, 0, GL_R32F, mapSize, mapSize, 1, 0, GL_RED, GL_FLOAT, texels.data());
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  fillTexture(texture, GL_RED, { mapSize, mapSize, 1 }, texels.data());
 }
 
 //------------------------------------------------------------------------------

@@ -30,6 +30,11 @@ using Map = std::function<bool(const glm::ivec2&)>;
 /// A map's depths, texel by texel.
 using Depths = std::function<float(const glm::ivec2&)>;
 
+/// Fill a texture of floats, which is read without interpolation.
+/// @param format GL_RED, GL_RG or GL_RGBA
+/// @param size width, height, and the number of layers if it is an array; else 0
+void fillTexture(GlTexture& texture, GLenum format, const glm::ivec3& size, const void* texels);
+
 /// A map's layer of depths.
 void fillDepths(GlTexture& texture, const Depths& depths);
 
@@ -138,6 +143,9 @@ double litShare(const Map& map, const Weight& weight)
   return lit / all;
 }
 
+/// Return the name of a test's value of any type with a member `name`.
+inline constexpr auto byName = [](const auto& info) { return std::string(info.param.name); };
+
 class GlslTest : public testing::Test
 {
 protected:
@@ -147,6 +155,12 @@ protected:
     this->window_->MakeCurrent();
   }
   vtkNew<vtkGnomonEGLRenderWindow> window_;
+};
+template <typename Parameter>
+class GlslTestOf
+  : public GlslTest
+  , public testing::WithParamInterface<Parameter>
+{
 };
 
 } // namespace gnomon::test

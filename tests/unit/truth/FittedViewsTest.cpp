@@ -86,11 +86,7 @@ void makeBoth(ShadowLight light, const Occluders& occluders, const CameraView& c
     rows[count + i] = glm::vec4(fit.scale, 0.5 * fittedSide * (fit.offset + 1.0 - fit.scale));
   }
   ASSERT_GT(count, 0u);
-  glBindTexture(GL_TEXTURE_2D, both.found.create());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, static_cast<GLsizei>(count),
-    static_cast<GLsizei>(rows.size() / count), 0, GL_RGBA, GL_FLOAT, rows.data());
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  fillTexture(both.found, GL_RGBA, { count, rows.size() / count, 0 }, rows.data());
 }
 
 Occluders floorAndBoxes()
@@ -132,9 +128,7 @@ std::vector<ShadowLight> lightsOfAllLayouts()
   return result;
 }
 
-class FittedViews
-  : public GlslTest
-  , public testing::WithParamInterface<Way>
+class FittedViews : public GlslTestOf<Way>
 {
 protected:
   /// Bake, then compute visibility.
@@ -188,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, FittedViews,
     Way{ "single_exponential", { { "estimator", "single_exponential" }, { "kernel_size", "5" } } },
     Way{ "exponential", { { "estimator", "exponential" }, { "kernel_size", "5" } } },
     Way{ "moments", { { "estimator", "moments" } } }),
-  [](const testing::TestParamInfo<Way>& way) { return std::string(way.param.name); });
+  byName);
 
 } // namespace
 
@@ -214,13 +208,10 @@ TEST_P(FittedViews, matchViewsWithTheFitApplied)
     light.fittedToReceivers = false;
     const std::vector<float> byView =
       this->visibility(light, both.fitted, occluders, {}, centredFromView);
-    std::size_t dark = 0;
-    std::size_t differing = 0;
-    for (std::size_t i = 0; i < byView.size(); ++i)
-    {
-      dark += byView[i] < 0.5f ? 1 : 0;
-      differing += std::abs(byView[i] - byTexture[i]) > 0.02f ? 1 : 0;
-    }
+    const std::size_t dark =
+      countBelow(byView.size(), [&](std::size_t i) { return byView[i] < 0.5f; });
+    const std::size_t differing = countBelow(
+      byView.size(), [&](std::size_t i) { return std::abs(byView[i] - byTexture[i]) > 0.02f; });
     EXPECT_GT(dark, points / 100);
     EXPECT_LT(dark, points / 2);
     // A point on the border of texels, or a disc that the place turns, may round either way.
@@ -241,10 +232,7 @@ protected:
     buffers.update(occluders);
     GlTexture picture;
     GlFramebuffer framebuffer;
-    glBindTexture(GL_TEXTURE_2D, picture.create());
-    glTexImage2D(
-      GL_TEXTURE_2D, 0, GL_RGBA32F, fittedSide, fittedSide, 0, GL_RGBA, GL_FLOAT, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    fillTexture(picture, GL_RGBA, { fittedSide, fittedSide, 0 }, nullptr);
     std::vector<glm::vec4> result(static_cast<std::size_t>(fittedSide) * fittedSide);
     const GlStateGuard guard;
     const glm::vec4 nothing(0.0f);
@@ -280,22 +268,17 @@ TEST_F(FittedCasters, matchViewsWithTheFitApplied)
       const std::vector<glm::vec4> byTexture =
         this->drawn(shown, light, both.awaiting, occluders, { GL_TEXTURE_2D, both.found.name() });
       const std::vector<glm::vec4> byView = this->drawn(shown, light, both.fitted, occluders, {});
-      float largest = 0.0f;
+      glm::vec4 largest(0.0f);
       for (const glm::vec4& value : byView)
       {
-        for (int i = 0; i < 3; ++i)
-        {
-          largest = std::max(largest, std::abs(value[i]));
-        }
+        largest = glm::max(largest, glm::abs(value));
       }
-      std::size_t differing = 0;
-      std::size_t covered = 0;
-      for (std::size_t i = 0; i < byView.size(); ++i)
-      {
-        covered += byView[i] != glm::vec4(0.0f) ? 1 : 0;
-        const glm::vec4 difference = glm::abs(byTexture[i] - byView[i]);
-        differing += glm::all(glm::lessThanEqual(difference, glm::vec4(1e-4f * largest))) ? 0 : 1;
-      }
+      const glm::vec4 most(1e-4f * std::max({ largest.x, largest.y, largest.z }));
+      const std::size_t differing = countBelow(byView.size(),
+        [&](std::size_t i)
+        { return !glm::all(glm::lessThanEqual(glm::abs(byTexture[i] - byView[i]), most)); });
+      const std::size_t covered =
+        countBelow(byView.size(), [&](std::size_t i) { return byView[i] != glm::vec4(0.0f); });
       EXPECT_GT(covered, byView.size() / 4);
       EXPECT_LE(differing, byView.size() / 500); // where a caster's edge takes another texel
     }

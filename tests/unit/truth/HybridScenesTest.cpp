@@ -158,12 +158,8 @@ public:
     : light_(directionalLight(direction))
     , occluders_(makeOccluders(props))
   {
-    Camera camera;
-    camera.width = camera.height = 256;
-    camera.position = { 2.0, -1.2, 3.2 };
-    camera.target = { 0.0, 0.0, 0.4 };
-    camera.fovDegrees = 36.0;
-    this->receivers_ = makeReceivers(this->occluders_, camera);
+    this->receivers_ = makeReceivers(
+      this->occluders_, { { 2.0, -1.2, 3.2 }, { 0.0, 0.0, 0.4 }, { 0.0, 0.0, 1.0 }, 36.0 });
     this->tracer_.update(this->occluders_);
   }
 
@@ -179,33 +175,24 @@ public:
 
   Verdict ask(const MapRule& rule, int size)
   {
-    ShadowLight light = this->light_;
-    light.mapSizeTexels = size;
+    const ShadowLight light = withMap(this->light_, size);
     ConservativeMaps maps;
-    maps.bake(light,
-      fitLightViews(light,
-        { this->occluders_.frame.centre, this->occluders_.castersCentred, {}, { size, 1 }, {} }),
-      this->occluders_, rule);
+    maps.bake(light, viewsOf(light, this->occluders_), this->occluders_, rule);
     Verdict verdict;
     std::vector<float> visibility;
     const std::vector<float> truth = this->truth();
     const std::size_t traced = this->tracer_.trace(
       light, this->occluders_, this->receivers_, visibility, &maps, &verdict.classes);
-    std::size_t all = 0, uncertain = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i)
-    {
-      const bool asked =
-        !verdict.is(i, TracedClass::Unreached) && !verdict.is(i, TracedClass::NoReceiver);
-      all += asked ? 1 : 0;
-      uncertain += verdict.is(i, TracedClass::Traced) ? 1 : 0;
-    }
-    EXPECT_EQ(traced, uncertain) << "a ray for each of them, and no other";
+    const auto count = [&](const auto& holds) { return countBelow(truth.size(), holds); };
+    const std::size_t all = count(
+      [&](std::size_t i) {
+        return !verdict.is(i, TracedClass::Unreached) && !verdict.is(i, TracedClass::NoReceiver);
+      });
+    EXPECT_EQ(traced, count([&](std::size_t i) { return verdict.is(i, TracedClass::Traced); }))
+      << "a ray for each of them, and no other";
     verdict.uncertain = static_cast<double>(traced) / static_cast<double>(all);
-    for (std::size_t i = 0; i < truth.size(); ++i)
-    {
-      verdict.falseLight += visibility[i] > truth[i] ? 1 : 0;
-      verdict.falseShadow += visibility[i] < truth[i] ? 1 : 0;
-    }
+    verdict.falseLight = count([&](std::size_t i) { return visibility[i] > truth[i]; });
+    verdict.falseShadow = count([&](std::size_t i) { return visibility[i] < truth[i]; });
     return verdict;
   }
 
@@ -234,14 +221,9 @@ const NamedScene closedScenes[] = { { "two triangles", [] { return makePlate(fal
 
 bool sameLight(const Verdict& a, const Verdict& b)
 {
-  for (std::size_t i = 0; i < a.classes.size(); ++i)
-  {
-    if (a.is(i, TracedClass::Lit) != b.is(i, TracedClass::Lit))
-    {
-      return false;
-    }
-  }
-  return true;
+  return countBelow(a.classes.size(),
+           [&](std::size_t i)
+           { return a.is(i, TracedClass::Lit) != b.is(i, TracedClass::Lit); }) == 0;
 }
 
 TEST(HybridScenes, areRightWithBoundsAndLessUncertainTheMoreIsKnownOfNeighbours)
@@ -252,14 +234,14 @@ TEST(HybridScenes, areRightWithBoundsAndLessUncertainTheMoreIsKnownOfNeighbours)
     for (const int size : mapSizes)
     {
       const std::string what = std::string(named.name) + ", map " + std::to_string(size);
-      const Verdict alone = scene.ask(crsm, size);
-      const Verdict ring = scene.ask(crsma, size);
-      const Verdict corners = scene.ask(fan, size);
-      const Verdict edges = scene.ask(silhouette, size);
-      EXPECT_EQ(alone.wrong(), 0u) << what;
-      EXPECT_EQ(ring.wrong(), 0u) << what;
-      EXPECT_EQ(corners.wrong(), 0u) << what;
-      EXPECT_EQ(edges.wrong(), 0u) << what;
+      const auto askExact = [&](const MapRule& rule)
+      {
+        const Verdict verdict = scene.ask(rule, size);
+        EXPECT_EQ(verdict.wrong(), 0u) << what;
+        return verdict;
+      };
+      const Verdict alone = askExact(crsm), ring = askExact(crsma), corners = askExact(fan),
+                    edges = askExact(silhouette);
       EXPECT_LE(ring.uncertain, alone.uncertain) << what;
       EXPECT_LE(corners.uncertain, ring.uncertain) << what;
       EXPECT_LE(edges.uncertain, ring.uncertain) << what;
@@ -293,13 +275,9 @@ TEST(HybridScenes, ofSpheresAreMuchLessUncertainByTheirSilhouette)
   HybridScene scene(makeSpheres());
   const auto uncertainOnGround = [&](const Verdict& verdict)
   {
-    std::size_t uncertain = 0;
-    for (std::size_t i = 0; i < verdict.classes.size(); ++i)
-    {
-      const bool onGround = scene.receivers().surface[i] == 0;
-      uncertain += onGround && verdict.is(i, TracedClass::Traced) ? 1 : 0;
-    }
-    return static_cast<double>(uncertain);
+    return static_cast<double>(countBelow(verdict.classes.size(),
+      [&](std::size_t i)
+      { return scene.receivers().surface[i] == 0 && verdict.is(i, TracedClass::Traced); }));
   };
   const Verdict edges = scene.ask(silhouette, 64);
   const Verdict alone = scene.ask(crsm, 64);
@@ -339,15 +317,13 @@ TEST(HybridScenes, withAPoleThinnerThanATexelHaveItsShadowTraced)
   {
     const Verdict verdict = scene.ask(rule, 64);
     EXPECT_EQ(verdict.wrong(), 0u);
-    std::size_t shadow = 0, certain = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i)
+    const auto countOnGround = [&](const auto& holds)
     {
-      const bool onGround = scene.receivers().surface[i] == 0;
-      shadow += onGround && truth[i] == 0.0f ? 1 : 0;
-      certain += onGround && verdict.is(i, TracedClass::Shadow) ? 1 : 0;
-    }
-    EXPECT_GT(shadow, 50u);
-    EXPECT_EQ(certain, 0u);
+      return countBelow(
+        truth.size(), [&](std::size_t i) { return scene.receivers().surface[i] == 0 && holds(i); });
+    };
+    EXPECT_GT(countOnGround([&](std::size_t i) { return truth[i] == 0.0f; }), 50u);
+    EXPECT_EQ(countOnGround([&](std::size_t i) { return verdict.is(i, TracedClass::Shadow); }), 0u);
   }
 }
 
@@ -363,24 +339,17 @@ std::size_t uncertainUnder(HybridScene& scene, const MapRule& rule, int size, do
     const glm::dvec3 centred = glm::dvec3(0.8 * (static_cast<double>(i % count) / count - 0.5),
                                  0.8 * (static_cast<double>(i / count) / count - 0.5), 0.0) -
       scene.occluders().frame.centre;
-    receivers.positionX[i] = static_cast<float>(centred.x);
-    receivers.positionY[i] = static_cast<float>(centred.y);
-    receivers.positionZ[i] = static_cast<float>(centred.z);
-    receivers.normalX[i] = receivers.normalY[i] = 0.0f;
-    receivers.normalZ[i] = 1.0f;
-    receivers.offset[i] = 1e-6f;
-    receivers.surface[i] = 0;
+    place(receivers, i, { centred, { 0.0f, 0.0f, 1.0f }, 1e-6f });
   }
   const Verdict verdict = scene.ask(rule, size);
   EXPECT_EQ(verdict.wrong(), 0u);
-  std::size_t uncertain = 0;
-  for (std::size_t i = 0; i < receivers.size(); ++i)
-  {
-    const double x = receivers.positionX[i] + scene.occluders().frame.centre.x - 0.013;
-    const double y = receivers.positionY[i] + scene.occluders().frame.centre.y - 0.021;
-    uncertain += std::hypot(x, y) <= within && verdict.is(i, TracedClass::Traced) ? 1 : 0;
-  }
-  return uncertain;
+  return countBelow(receivers.size(),
+    [&](std::size_t i)
+    {
+      const glm::dvec3 at = glm::dvec3(positionOf(receivers, i)) + scene.occluders().frame.centre;
+      return glm::distance(glm::dvec2(at), { 0.013, 0.021 }) <= within &&
+        verdict.is(i, TracedClass::Traced);
+    });
 }
 
 TEST(HybridScenes, haveNoSeamBetweenTwoTrianglesThatKnowEachOther)

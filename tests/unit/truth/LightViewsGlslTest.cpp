@@ -21,9 +21,7 @@ namespace gnomon::test
 namespace
 {
 
-class LightViewsGlsl : public GlslTest
-{
-};
+using LightViewsGlsl = GlslTest;
 
 /// The results of light_views.glsl for a point.
 struct FoundView

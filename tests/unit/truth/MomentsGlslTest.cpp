@@ -78,11 +78,7 @@ glm::dvec4 warpedMean(const CoveredDepths& depths)
 
 using MomentMapsGlsl = GlslTest;
 
-class MomentsGlsl
-  : public GlslTest
-  , public testing::WithParamInterface<MomentsTwin>
-{
-};
+using MomentsGlsl = GlslTestOf<MomentsTwin>;
 
 INSTANTIATE_TEST_SUITE_P(Techniques, MomentsGlsl,
   testing::Values(MomentsTwin{ singleExponential(), warpedMean }, MomentsTwin{ variance(), powers },
@@ -93,9 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Techniques, MomentsGlsl,
 GlTexture layersTexture(const std::vector<glm::vec4>& texels, int size, int layers, GLint filter)
 {
   GlTexture texture;
-  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.create());
-  glTexImage3D(
-    GL_TEXTURE_2D_ARRAY, 0, GL_RGBA32F, size, size, layers, 0, GL_RGBA, GL_FLOAT, texels.data());
+  fillTexture(texture, GL_RGBA, { size, size, layers }, texels.data());
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, filter);
   return texture;

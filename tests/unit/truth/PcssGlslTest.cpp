@@ -163,10 +163,7 @@ std::vector<float> run(const PointwiseTechnique& technique, const ShadowLight& l
   bounds.bake(map.name(), mapSize, 1, library);
   const std::vector<glm::vec2> lightPoints = pcssPoints(light.pcss.samples, light.area->shape);
   GlTexture pointTexture;
-  glBindTexture(GL_TEXTURE_2D, pointTexture.create());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, static_cast<GLsizei>(lightPoints.size()), 1, 0, GL_RG,
-    GL_FLOAT, lightPoints.data());
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  fillTexture(pointTexture, GL_RG, { lightPoints.size(), 1, 0 }, lightPoints.data());
   const glm::dmat3 lightFromUnit = glm::dmat3(views.lightFromCentred) * light.area->worldFromUnit;
   std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, {});
   uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, map.name() } });
@@ -183,14 +180,9 @@ std::vector<float> run(const PointwiseTechnique& technique, const ShadowLight& l
     glm::vec3(receivers.front().normal), std::move(uniforms));
 }
 
-class PcssGlsl
-  : public GlslTest
-  , public testing::WithParamInterface<AreaCase>
-{
-};
+using PcssGlsl = GlslTestOf<AreaCase>;
 
-INSTANTIATE_TEST_SUITE_P(Lights, PcssGlsl, testing::ValuesIn(areaCases()),
-  [](const testing::TestParamInfo<AreaCase>& each) { return std::string(each.param.name); });
+INSTANTIATE_TEST_SUITE_P(Lights, PcssGlsl, testing::ValuesIn(areaCases()), byName);
 
 /// The last one's plane cuts through the light.
 const glm::dvec2 tilts[] = { { 0.0, 0.0 }, { 0.4, -0.2 }, { -1.5, 0.7 }, { -9.0, 0.5 } };

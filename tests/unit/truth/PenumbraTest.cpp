@@ -70,12 +70,10 @@ LightArea makeRandomArea(const ShadowLight& light, double scale, Random& random)
   }
 }
 
-class RandomPenumbras : public testing::TestWithParam<const char*>
-{
-};
+using RandomPenumbras = testing::TestWithParam<const char*>;
 
-INSTANTIATE_TEST_SUITE_P(OfScenes, RandomPenumbras, testing::ValuesIn(randomSceneNames()),
-  [](const testing::TestParamInfo<const char*>& name) { return lettersOf(name.param); });
+INSTANTIATE_TEST_SUITE_P(
+  OfScenes, RandomPenumbras, testing::ValuesIn(randomSceneNames()), byLetters);
 
 TEST_P(RandomPenumbras, areThoseOfAllRays)
 {

@@ -71,9 +71,7 @@ double texelsOf(const LightView& view, const std::array<glm::dvec3, 4>& corners)
   return 0.5 * std::abs(a.x * b.y - a.y * b.x);
 }
 
-class PixelArea : public GlslTest
-{
-};
+using PixelArea = GlslTest;
 
 TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
 {

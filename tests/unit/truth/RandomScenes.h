@@ -31,6 +31,7 @@ const std::vector<const char*>& randomSceneNames();
 
 /// Return a kind's name as a part of a test's name: letters alone.
 std::string lettersOf(std::string name);
+inline constexpr auto byLetters = [](const auto& info) { return lettersOf(info.param); };
 
 /// Return a scene of that kind, a few units large.
 std::vector<Prop> makeRandomScene(const std::string& name, Random& random);

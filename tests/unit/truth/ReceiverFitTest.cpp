@@ -103,19 +103,10 @@ protected:
     GlTexture fragments;
     GlTexture points;
     const glm::ivec2 size(image.width, image.height);
-    allocate(fragments, size, image.fragments.data());
-    allocate(points, size, image.points.data());
+    fillTexture(fragments, GL_RGBA, { size, 0 }, image.fragments.data());
+    fillTexture(points, GL_RGBA, { size, 0 }, image.points.data());
     fit.compute(light, views, { fragments.name(), points.name(), size.x, size.y }, centredFromView,
       this->library_);
-  }
-
-  /// Bind a texture of four floats.
-  static void allocate(GlTexture& texture, const glm::ivec2& size, const glm::vec4* texels)
-  {
-    glBindTexture(GL_TEXTURE_2D, texture.create());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, size.x, size.y, 0, GL_RGBA, GL_FLOAT, texels);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   }
 
   ShaderLibrary library_;

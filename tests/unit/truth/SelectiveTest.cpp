@@ -351,8 +351,7 @@ struct ChainRun
 
   std::size_t count(std::initializer_list<ChainClass> of) const
   {
-    return static_cast<std::size_t>(std::count_if(this->classes.begin(), this->classes.end(),
-      [&](ChainClass pixel) { return std::find(of.begin(), of.end(), pixel) != of.end(); }));
+    return countBelow(this->classes.size(), [&](std::size_t i) { return this->isAnyOf(i, of); });
   }
   bool isAnyOf(std::size_t i, std::initializer_list<ChainClass> of) const
   {
@@ -373,13 +372,9 @@ struct ChainRun
   /// Count the pixels of a traced class whose texel is wrong.
   std::size_t countWrong(ChainClass of, const std::vector<float>& truth) const
   {
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i)
-    {
-      wrong +=
-        this->classes[i] == of && (truth[i] == 0.0f) == (of == ChainClass::TracedLit) ? 1 : 0;
-    }
-    return wrong;
+    return countBelow(truth.size(),
+      [&](std::size_t i)
+      { return this->classes[i] == of && (truth[i] == 0.0f) == (of == ChainClass::TracedLit); });
   }
   bool isConfirmed(std::size_t i) const
   {
@@ -482,12 +477,9 @@ ChainStages provenStages(int contourPixels)
   return stages;
 }
 
-class ChainIn : public testing::TestWithParam<const char*>
-{
-};
+using ChainIn = testing::TestWithParam<const char*>;
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ChainIn, testing::ValuesIn(randomSceneNames()),
-  [](const testing::TestParamInfo<const char*>& scene) { return lettersOf(scene.param); });
+INSTANTIATE_TEST_SUITE_P(Scenes, ChainIn, testing::ValuesIn(randomSceneNames()), byLetters);
 
 TEST_P(ChainIn, withoutCoherenceIsNeverWrong)
 {
@@ -657,10 +649,8 @@ TEST(Chain, leavesPixelsLitBetterThanAsTheirTexels)
       const ChainRun traced = chained.run(provenStages(4));
       wrongByMap += traced.countWrong(ChainClass::TracedLit, chained.truth()) +
         traced.countWrong(ChainClass::TracedShadow, chained.truth());
-      for (std::size_t i = 0; i < traced.classes.size(); ++i)
-      {
-        wrongLit += traced.isTraced(i) && chained.truth()[i] == 0.0f ? 1 : 0;
-      }
+      wrongLit += countBelow(traced.classes.size(),
+        [&](std::size_t i) { return traced.isTraced(i) && chained.truth()[i] == 0.0f; });
     });
   EXPECT_LT(wrongLit, wrongByMap);
 }
@@ -693,12 +683,10 @@ TEST(Chain, hasNoAcneOnSmoothSurfaces)
       { { makePlane(8.0, 16) }, { ball, at({ 0.0, 1.5, 1.0 }) }, { bowl, at({ 0.0, -1.5, 1.2 }) } },
       direction, 256, { -6.0, -2.0, 7.0 });
     const ChainRun run = chained.run(provenStages(6));
-    std::size_t falseShadow = 0;
-    for (std::size_t i = 0; i < run.classes.size(); ++i)
-    {
-      falseShadow += run.isOutside(i) && run.visibility[i] < chained.truth()[i] ? 1 : 0;
-    }
-    EXPECT_EQ(falseShadow, 0u);
+    EXPECT_EQ(
+      countBelow(run.classes.size(),
+        [&](std::size_t i) { return run.isOutside(i) && run.visibility[i] < chained.truth()[i]; }),
+      0u);
     // Little except shadows' edges is traced.
     EXPECT_LT(
       run.count({ ChainClass::TracedLit, ChainClass::TracedShadow }), chained.needRays() / 8);

@@ -133,9 +133,7 @@ TEST(ShadowRay, ConesAreSharpAtAnyAngle)
   }
 }
 
-class ShadowRayGlsl : public GlslTest
-{
-};
+using ShadowRayGlsl = GlslTest;
 
 TEST_F(ShadowRayGlsl, AgreesWithItsTwin)
 {

@@ -97,9 +97,7 @@ Occluders occludersOf(const std::vector<std::pair<Solid, std::vector<glm::mat4x3
   return occluders;
 }
 
-class Solids : public testing::TestWithParam<Solid>
-{
-};
+using Solids = testing::TestWithParam<Solid>;
 INSTANTIATE_TEST_SUITE_P(Of, Solids, testing::Values(Solid::Sphere, Solid::Cylinder, Solid::Tube),
   [](const testing::TestParamInfo<Solid>& kind)
   {
@@ -210,9 +208,7 @@ TEST_P(Solids, noneShadowsItself)
 }
 
 /// Molecules show a bond as two sticks, one for each atom's colour, each rounded separately.
-class SolidPairs : public testing::TestWithParam<Solid>
-{
-};
+using SolidPairs = testing::TestWithParam<Solid>;
 INSTANTIATE_TEST_SUITE_P(Of, SolidPairs, testing::Values(Solid::Cylinder, Solid::Tube));
 
 TEST_P(SolidPairs, halvesOfABondDoNotShadowEachOther)

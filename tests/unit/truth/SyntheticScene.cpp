@@ -415,6 +415,13 @@ ShadowLight boxLight(
 }
 
 //------------------------------------------------------------------------------
+ShadowLight withMap(ShadowLight light, int sizeTexels)
+{
+  light.mapSizeTexels = sizeTexels;
+  return light;
+}
+
+//------------------------------------------------------------------------------
 ShadowLight withArea(ShadowLight light, const LightArea& area, int samples)
 {
   light.area = area;

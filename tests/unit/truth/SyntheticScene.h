@@ -109,6 +109,7 @@ ShadowLight boxLight(
   const glm::dvec3& direction, const glm::dvec3& position, const glm::dvec3& size);
 
 ShadowLight withArea(ShadowLight light, const LightArea& area, int samples = 64);
+ShadowLight withMap(ShadowLight light, int sizeTexels);
 
 /// A triangle that casts, with its corners centred.
 struct CastingTriangle
@@ -147,6 +148,18 @@ ReceiverPixels withOffset(const ReceiverPixels& receivers, float factor);
 
 /// Return a matrix of a place and a size.
 glm::dmat4 at(const glm::dvec3& position, double scale = 1.0);
+
+/// Count the numbers below `end` for which holds() is true.
+template <typename Holds>
+std::size_t countBelow(std::size_t end, const Holds& holds)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < end; ++i)
+  {
+    count += holds(i) ? 1 : 0;
+  }
+  return count;
+}
 
 /// Count the pixels whose visibilities differ.
 std::size_t countDifferent(const std::vector<float>& a, const std::vector<float>& b);
