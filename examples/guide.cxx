@@ -101,6 +101,11 @@ void addLights(vtkRenderer* renderer)
   vtkGnomonLightKeys::SetBox(sun, 2.0, 2.0, 5.0, up); // width, height, depth
 }
 
+void addSky(vtkGnomonShadowPass* shadows)
+{
+  shadows->SetSkyIntensity(0.4);
+}
+
 /// which_technique.md
 void chooseTechnique(vtkGnomonShadowPass* shadows, vtkLight* light)
 {
@@ -224,6 +229,7 @@ int main(int argc, char* argv[])
   renderer->SetPass(shadows);
 
   addLights(renderer);
+  addSky(shadows);
   vtkNew<vtkLight> light;
   renderer->AddLight(light);
   chooseTechnique(shadows, light);

@@ -286,20 +286,22 @@ public:
 
   ///@{
   /**
-   * The light of a sky, in units of a light's intensity; 0, the default: there is none. It adds
-   * SkyColor times the material's diffuse colour, and what each point sees of the sky scales that
-   * sum with the material's ambient term, and the diffuse light of an environment on physically
-   * based materials. Other light, highlights and unlit props stay as they are. Surfaces that show
-   * no shadows, and translucent ones, have all of the sky's light. Negative numbers are an error
+   * The intensity of a sky: 1 shows a white surface below the open sky as white. 0, the default,
+   * is no sky. Its light is SkyColor times the material's diffuse colour. What each point sees of
+   * the sky scales the sum of that and the material's ambient term, and the diffuse light of an
+   * environment on physically based materials. Other light, highlights and unlit props stay as they
+   * are: where no light is switched on, VTK shows all props unlit. Surfaces that show no shadows,
+   * and translucent ones, see all of the sky. Negative numbers, and those above 1e6, are an error
    * and change nothing.
    *
-   * Rays find the view, so all receivers are drawn first (the image route). At rest it is complete
-   * after SkyDirections rays from each pixel, on screen in steps (GetProgress()); moving pictures
-   * have a sixteenth of them. Several processes have no sky.
+   * Rays find the view, so receivers are drawn first (the image route). At rest it is complete
+   * after SkyDirections rays from each pixel, on screen in steps (GetProgress()). Moving pictures
+   * have two rays from each pixel, and those of its neighbours. Several processes have no sky.
    */
   virtual void SetSkyIntensity(double intensity);
   vtkGetMacro(SkyIntensity, double);
-  vtkSetVector3Macro(SkyColor, double);
+  virtual void SetSkyColor(double red, double green, double blue);
+  void SetSkyColor(const double rgb[3]) { this->SetSkyColor(rgb[0], rgb[1], rgb[2]); }
   vtkGetVector3Macro(SkyColor, double);
   ///@}
 
@@ -327,8 +329,8 @@ public:
 
   ///@{
   /**
-   * The distance from which on nothing hides the sky, in world coordinates. 0, the default: there
-   * is none. Negative numbers are an error and change nothing.
+   * The distance, in world coordinates, beyond which nothing hides the sky. 0, the default, is no
+   * limit. Negative numbers are an error and change nothing.
    */
   virtual void SetSkyDistance(double distance);
   vtkGetMacro(SkyDistance, double);

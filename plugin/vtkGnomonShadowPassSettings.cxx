@@ -49,7 +49,24 @@ void vtkGnomonShadowPass::SetMemoryBudget(double mebibytes)
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetSkyIntensity(double intensity)
 {
-  this->SetNumber("SkyIntensity", intensity, VTK_DOUBLE_MAX, this->SkyIntensity);
+  this->SetNumber("SkyIntensity", intensity, 1e6, this->SkyIntensity);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetSkyColor(double red, double green, double blue)
+{
+  const double rgb[3] = { red, green, blue };
+  if (!std::all_of(rgb, rgb + 3, [](double value) { return value >= 0.0 && value <= 1.0; }))
+  {
+    vtkErrorMacro(<< "SkyColor was to be " << red << ", " << green << ", " << blue
+                  << ", expected numbers in [0, 1].");
+    return;
+  }
+  if (!std::equal(rgb, rgb + 3, this->SkyColor))
+  {
+    std::copy_n(rgb, 3, this->SkyColor);
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------

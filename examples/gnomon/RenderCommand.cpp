@@ -41,6 +41,13 @@ namespace gnomon::tool
 namespace
 {
 
+/// The names of vtkGnomonShadowPass::SkyModelType, in its order.
+const std::vector<std::string>& skyModels()
+{
+  static const std::vector<std::string> models = { "uniform", "dome", "overcast" };
+  return models;
+}
+
 /// The options of the command line.
 struct RenderOptions
 {
@@ -56,6 +63,8 @@ struct RenderOptions
   bool parallel = false;
   std::optional<bool> ground;    ///< none: the scene decides
   std::optional<double> ambient; ///< none: the surfaces decide
+  double sky = 0.0;              ///< intensity; 0: none
+  std::string skyModel = skyModels().front();
   std::string visibility;
   std::string stats;
   std::string classes;
@@ -374,6 +383,10 @@ void render(const RenderOptions& options)
   const bool givesVisibility = !options.visibility.empty() || !options.classes.empty();
   shadows->SetKeepVisibility(givesVisibility);
   shadows->SetSmoothTerminators(!givesVisibility); // visibility files compare triangles
+  shadows->SetSkyIntensity(options.sky);
+  shadows->SetSkyUp(0.0, 1.0, 0.0);
+  shadows->SetSkyModel(static_cast<int>(
+    std::find(skyModels().begin(), skyModels().end(), options.skyModel) - skyModels().begin()));
   // The only frame should show techniques with their maps.
   shadows->SetSetting("bake", "always");
   shadows->SetTechnique(vtkGnomonShadowPass::GetDefaultTechnique());
@@ -514,6 +527,24 @@ void addRenderCommand(CLI::App& app)
           ? ""
           : "found \"" + text + "\", expected a number between 0 and 1";
       });
+  command
+    ->add_option("--sky", options->sky,
+      "The intensity of a sky, which lights surfaces as far as they see it; 0.4 brightens what is "
+      "in shadow, but for corners")
+    ->check(
+      [](const std::string& text)
+      {
+        const std::optional<double> intensity = parseNumber<double>(text);
+        return intensity && *intensity >= 0.0 && std::isfinite(*intensity)
+          ? ""
+          : "found \"" + text + "\", expected a number of at least 0";
+      });
+  command
+    ->add_option("--sky-model", options->skyModel,
+      "The sky: as bright from everywhere, from below, too; none below the horizon; CIE's overcast "
+      "one. Up is y")
+    ->check(CLI::IsMember(skyModels()))
+    ->capture_default_str();
   command->add_option("--visibility", options->visibility,
     "Also write every light's visibility and the receivers, .exr");
   command->add_option("--stats", options->stats,

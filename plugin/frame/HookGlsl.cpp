@@ -188,7 +188,7 @@ HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& l
   this->addLights(lights);
   if (variant.skyLayer != noSkyLayer)
   {
-    this->addSky();
+    this->declarations_ += frameShaders().at("plugin/frame/hook_sky.glsl");
   }
 }
 
@@ -254,13 +254,25 @@ void HookGlsl::addLights(const std::vector<ShadedLight>& lights)
 }
 
 //------------------------------------------------------------------------------
-void HookGlsl::addSky()
+/// Return statements that light a fragment by the sky, before VTK's lights; empty if VTK does not
+/// light it.
+std::string HookGlsl::lightOfSky(const std::string& fragmentShader) const
 {
-  this->declarations_ += frameShaders().at("plugin/frame/hook_sky.glsl");
-  this->multiplications_ += "  gnomonSkyView = gnomonReceives == 0 || gnomonTranslucent == 1\n"
-                            "    ? 1.0 : gnomonLayer(" +
+  // Its colour is in no shader of unlit props.
+  if (this->variant_.skyLayer == noSkyLayer ||
+    fragmentShader.find("lightColor") == std::string::npos)
+  {
+    return "";
+  }
+  // Edges of meshes have their colour in the ambient term, and are unlit.
+  static const std::regex edges(R"(mix\(\s*ambientColor, edgeColor, emix\))");
+  const std::string share = std::regex_search(fragmentShader, edges) ? "emix" : "0.0";
+  return "  gnomonSkyView = gnomonReceives == 0 || gnomonTranslucent == 1\n"
+         "    ? 1.0 : gnomonLayer(" +
     std::to_string(this->variant_.skyLayer) +
-    ");\n  ambientColor = gnomonSkyView * (ambientColor + gnomonSkyLight * diffuseColor);\n";
+    ");\n  ambientColor = mix(\n"
+    "    gnomonSkyView * (ambientColor + gnomonSkyLight * diffuseColor), ambientColor, " +
+    share + ");\n";
 }
 
 //------------------------------------------------------------------------------
@@ -269,7 +281,8 @@ bool HookGlsl::operator==(const HookGlsl& other) const
   const auto parts = [](const HookGlsl& of)
   {
     return std::tie(of.variant_.route, of.variant_.receiverPoints, of.variant_.namesTriangles,
-      of.variant_.anySeenThrough, of.declarations_, of.multiplications_, of.darkenings_);
+      of.variant_.anySeenThrough, of.variant_.skyLayer, of.declarations_, of.multiplications_,
+      of.darkenings_);
   };
   return parts(*this) == parts(other);
 }
@@ -344,6 +357,7 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
   std::string uniformFlow;
   std::string begin;
   std::string end;
+  bool lightsBySky = false;
   if (receives)
   {
     declarations = this->declarations_;
@@ -353,7 +367,9 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
     {
       begin += "  vec3 gnomonCurve = " + curveNormal(fragmentShader, declarations) + ";\n";
     }
-    begin += this->multiplications_;
+    const std::string sky = this->lightOfSky(fragmentShader);
+    begin += this->multiplications_ + sky;
+    lightsBySky = !sky.empty();
   }
   if (this->variant_.route != Route::Inline && drawsReceivers)
   {
@@ -394,7 +410,7 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
   replace(fragmentShader, uniformFlowMarker, uniformFlow);
   replace(fragmentShader, beginMarker, begin);
   replace(fragmentShader, endMarker, end);
-  if (receives && this->variant_.skyLayer != noSkyLayer)
+  if (lightsBySky)
   {
     // Of physically based materials; other shaders have no such lines.
     replace(fragmentShader, "vec3 Lo = vec3(0.0);",

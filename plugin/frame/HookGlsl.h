@@ -55,8 +55,8 @@ std::string litOf(const ShadedLight& shaded, int light);
 ///
 /// A sky lights by the material's own terms, before VTK's lights:
 ///     ambientColor = (view of the sky) * (ambientColor + (light of the sky) * diffuseColor);
-/// Physically based materials have neither, but `Lo` for lights and `iblDiffuse` for an
-/// environment.
+/// Physically based materials use neither. There the hook changes two of VTK's lines, with `Lo` for
+/// lights and `iblDiffuse` for an environment.
 ///
 /// On the image route the same programs also serve the receivers stage. A uniform selects the
 /// stage, so VTK rebuilds no shader between stages. On the deferred route they light each fragment
@@ -85,7 +85,7 @@ public:
 private:
   void addImages(const std::vector<ShadedLight>& lights);
   void addLights(const std::vector<ShadedLight>& lights);
-  void addSky();
+  std::string lightOfSky(const std::string& fragmentShader) const;
   std::string lightInShadow(const std::string& fragmentShader) const;
   std::string writeReceiver(bool receives, const std::string& primitive) const;
 

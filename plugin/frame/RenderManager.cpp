@@ -106,7 +106,7 @@ bool RenderManager::readLights(
   const LightSet& lights = frame.scene.lights.set;
   frame.ranks->requireSame([&] { return hashOf(lights, true); }, "lights");
   frame.endStage("lights");
-  return !lights.lights.empty() || frame.wishes.sky.intensity > 0.0 || frame.wishes.keepVisibility;
+  return !lights.lights.empty() || frame.wishes.sky.shines() || frame.wishes.keepVisibility;
 }
 
 //------------------------------------------------------------------------------
@@ -232,7 +232,7 @@ void RenderManager::makeRoomForLayers()
   if (count + bits > 0 && !layers.have(size.x, size.y, count, bits))
   {
     this->frame_.view->visibility.clear();
-    this->frame_.view->sky.key.reset();
+    this->frame_.view->sky.layer.reset();
     layers.resize(size.x, size.y, count, bits);
   }
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, layers.texture() };

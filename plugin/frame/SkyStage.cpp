@@ -22,13 +22,11 @@ void SkyStage::compute()
     return;
   }
   ValueKey key = *this->frame_.view->receivers.key;
-  key.add(
-    "the sky", std::tuple(plan->sky.model, plan->sky.farthest, plan->directions, plan->layer));
+  key.add("the sky", std::tuple(plan->sky.model, plan->sky.farthest, plan->directions));
   key.add("up", std::tuple(plan->sky.up.x, plan->sky.up.y, plan->sky.up.z));
   std::string changes = value.key ? key.changesFrom(*value.key) : "there was none";
   if (!changes.empty())
   {
-    value.key.reset(); // in case of an error
     if (!value.image || value.image->directions() != plan->directions)
     {
       value.image.emplace(plan->directions);
@@ -42,9 +40,16 @@ void SkyStage::compute()
   this->frame_.noteReuse("the view of the sky", changes);
   if (!changes.empty())
   {
+    value.key.reset(); // in case of an error
+    value.layer.reset();
     this->trace(*plan, *value.image);
-    this->frame_.view->layers.upload(plan->layer, this->view_);
     value.key = std::move(key);
+  }
+  if (value.layer != plan->layer)
+  {
+    value.image->view(this->view_);
+    this->frame_.view->layers.upload(plan->layer, this->view_);
+    value.layer = plan->layer;
     this->frame_.endStage("sky: upload");
   }
   this->frame_.counts.skyProgress =
@@ -62,13 +67,12 @@ void SkyStage::trace(const SkyPlan& plan, SkyImage& image)
   std::size_t rays = 0;
   if (plan.few)
   {
-    rays = image.viewFew(plan.sky, receivers.all(), occluders, tracer, this->view_);
+    rays = image.traceFew(plan.sky, receivers.all(), occluders, tracer);
   }
   else
   {
     rays = image.trace(plan.sky, receivers, occluders, tracer,
       std::min(image.batches() + plan.batchesOfFrame, SkyDirections::batches));
-    image.view(this->view_);
   }
   this->frame_.counts.raysTraced += static_cast<std::int64_t>(rays);
   this->frame_.endStage("sky: trace");

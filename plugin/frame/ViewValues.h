@@ -81,6 +81,7 @@ struct SkyValue
 {
   std::optional<ValueKey> key; ///< none: there is no value
   std::optional<SkyImage> image;
+  std::optional<int> layer; ///< that has its view; none: no layer has
 };
 
 /// One view's values, cached from frame to frame.

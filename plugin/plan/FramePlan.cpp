@@ -116,7 +116,7 @@ std::optional<SkyPlan> planSky(
   const Scene& scene, const FrameWishes& wishes, std::vector<std::string>& notes)
 {
   const SkyWish& wish = wishes.sky;
-  if (!(wish.intensity > 0.0))
+  if (!wish.shines())
   {
     return std::nullopt;
   }

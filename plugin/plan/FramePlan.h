@@ -21,7 +21,7 @@ struct SkyPlan
   glm::vec3 light{ 0.0f }; ///< colour times intensity
   int directions = 0;
   int layer = 0;    ///< of its view
-  bool few = false; ///< views are of few directions and of neighbours (SkyImage::viewFew())
+  bool few = false; ///< views are of few directions and of neighbours (SkyImage::traceFew())
   std::size_t batchesOfFrame = 0; ///< of directions that a frame adds (SkyDirections)
 };
 

@@ -29,6 +29,8 @@ struct SkyWish
   glm::dvec3 upWorld{ 0.0, 0.0, 1.0 }; ///< of any length but 0
   double distanceWorld = 0.0;          ///< from which on nothing hides it; 0: there is none
   int directions = 256;
+
+  bool shines() const { return this->intensity > 0.0; }
 };
 
 /// The pass's settings for a frame.

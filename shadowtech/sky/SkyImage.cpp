@@ -17,6 +17,9 @@ namespace gnomon
 namespace
 {
 
+/// In place of openView() where a pixel shows no receiver.
+constexpr float noOpenView = -1.0f;
+
 /// Adds neighbours' sums to pixels along a line, where they show the same surface.
 /// @param step from a pixel to its neighbour in the arrays
 #ifdef __x86_64__
@@ -206,7 +209,7 @@ std::size_t SkyImage::traceAll(const Sky& sky, const Receivers& receivers,
     const std::size_t pixels = receivers.width() * receivers.height();
     this->all_.assign(pixels, 0.0f);
     this->seen_.assign(pixels, 0.0f);
-    this->open_.assign(pixels, 1.0f);
+    this->open_.assign(pixels, noOpenView);
   }
   std::vector<std::vector<glm::vec3>> directions;
   for (std::size_t place = 0; place < sideOfBlock * sideOfBlock; ++place)
@@ -251,14 +254,15 @@ void SkyImage::view(std::vector<float>& view) const
   view.resize(this->all_.size());
   for (std::size_t i = 0; i < view.size(); ++i)
   {
-    // A pixel may face no direction that is bright.
-    view[i] = this->open_[i] * (this->all_[i] > 0.0f ? this->seen_[i] / this->all_[i] : 1.0f);
+    view[i] = this->open_[i] == noOpenView ? 1.0f
+      : this->all_[i] > 0.0f               ? this->open_[i] * this->seen_[i] / this->all_[i]
+                                           : 0.0f; // it faces no direction that is bright
   }
 }
 
 //------------------------------------------------------------------------------
-std::size_t SkyImage::viewFew(const Sky& sky, const ReceiverPixels& receivers,
-  const Occluders& occluders, const EmbreeTracer& tracer, std::vector<float>& view)
+std::size_t SkyImage::traceFew(const Sky& sky, const ReceiverPixels& receivers,
+  const Occluders& occluders, const EmbreeTracer& tracer)
 {
   this->clear();
   // Four blocks side by side have directions of eight batches, two different ones for each pixel.
@@ -282,8 +286,10 @@ std::size_t SkyImage::viewFew(const Sky& sky, const ReceiverPixels& receivers,
   const auto height = static_cast<std::size_t>(receivers.height);
   const auto addLines = [&](bool alongRows)
   {
-    std::vector<float> all(this->all_.size(), 0.0f);
-    std::vector<float> seen(this->seen_.size(), 0.0f);
+    std::vector<float>& all = this->allOfLines_;
+    std::vector<float>& seen = this->seenOfLines_;
+    all.assign(this->all_.size(), 0.0f);
+    seen.assign(this->seen_.size(), 0.0f);
     tbb::parallel_for(std::size_t(0), height,
       [&](std::size_t y)
       {
@@ -307,14 +313,15 @@ std::size_t SkyImage::viewFew(const Sky& sky, const ReceiverPixels& receivers,
   };
   addLines(true);
   addLines(false);
-  this->view(view);
   return rays;
 }
 
 //------------------------------------------------------------------------------
 std::size_t SkyImage::bytes() const
 {
-  return bytesOf(this->all_) + bytesOf(this->seen_) + bytesOf(this->open_);
+  return bytesOf(this->all_) + bytesOf(this->seen_) + bytesOf(this->open_) +
+    bytesOf(this->allOfLines_) + bytesOf(this->seenOfLines_) +
+    bytesOfAll(this->pattern_, bytesOf<glm::vec3>);
 }
 
 } // namespace gnomon

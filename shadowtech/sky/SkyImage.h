@@ -44,12 +44,13 @@ public:
   /// Compute each pixel's view: 1 where it shows no receiver.
   void view(std::vector<float>& view) const;
 
-  /// Compute a view from two directions of each pixel and from neighbours' on the same surface: of
-  /// 8 x 8 pixels, those near its plane whose normals differ little. Forgets what was traced.
+  /// Trace two directions of each pixel, and give it the sums of its neighbours, too: of 8 x 8
+  /// pixels, those near its plane whose normals differ little. Forgets what was traced; batches()
+  /// is 0 then.
   /// @param receivers of the whole picture
   /// @return the number of rays
-  std::size_t viewFew(const Sky& sky, const ReceiverPixels& receivers, const Occluders& occluders,
-    const EmbreeTracer& tracer, std::vector<float>& view);
+  std::size_t traceFew(const Sky& sky, const ReceiverPixels& receivers, const Occluders& occluders,
+    const EmbreeTracer& tracer);
 
   std::size_t bytes() const;
 
@@ -69,7 +70,8 @@ private:
   /// receiver have none.
   std::vector<float> all_, seen_;
   ///@}
-  std::vector<float> open_; ///< openView()
+  std::vector<float> open_;                     ///< openView()
+  std::vector<float> allOfLines_, seenOfLines_; ///< kept, as new memory costs more than old
 };
 
 } // namespace gnomon

@@ -567,6 +567,17 @@ class Shadows(unittest.TestCase):
         self.assertEqual(table.GetValueByName(0, "casts").ToDouble(), 1.0)
 
 
+    def test_a_sky(self):
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer, sky=0.4)
+        self.assertEqual(shadows.GetSkyIntensity(), 0.4)
+        scene.window.Render()
+        self.assertEqual(gnomon.report(shadows)["sky_progress"], 1)
+        with self.assertRaisesRegex(ValueError, "SkyIntensity"):
+            gnomon.add_shadows(scene.renderer, sky=-1)
+        self.assertIs(scene.renderer.GetPass(), shadows)
+
+
 class Data(unittest.TestCase):
     """A square of two triangles under a smaller, higher one that shades one of its middles."""
 

@@ -157,6 +157,17 @@ TEST_F(RenderCommand, AmbientIsTheShareOfColourInShadow)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(RenderCommand, TheSkyBrightensShadows)
+{
+  const int black = darkest(this->pictureOf(this->model, "--ambient 0"));
+  const int even = darkest(this->pictureOf(this->model, "--ambient 0 --sky 0.5"));
+  const int dome = darkest(this->pictureOf(this->model, "--ambient 0 --sky 0.5 --sky-model dome"));
+  EXPECT_EQ(black, 0);
+  EXPECT_GT(even, 20);
+  EXPECT_LE(dome, even);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(RenderCommand, ParallelCameraShowsSizesAsTheyAre)
 {
   // The picture is 4 high: the pyramid, 2 wide where it stands, takes half of a row there.
@@ -200,6 +211,9 @@ TEST_F(RenderCommand, RefusesWhatMakesNoSense)
     { this->model, "--camera parallel_scale=-1", { "--camera", "parallel_scale", "-1" } },
     { this->model, "--ambient 1.5", { "--ambient", "1.5", "between 0 and 1" } },
     { this->model, "--ambient nan", { "--ambient", "nan", "between 0 and 1" } },
+    { this->model, "--sky -1", { "--sky", "-1", "at least 0" } },
+    { this->model, "--sky nan", { "--sky", "nan", "at least 0" } },
+    { this->model, "--sky-model cloudy", { "--sky-model", "cloudy", "overcast" } },
   };
   for (const Case& wrong : cases)
   {

@@ -108,6 +108,7 @@ def add_shadows(
     target: vtkRenderer | _HasRenderer,
     technique: str | None = None,
     light: str | None = "auto",
+    sky: float = 0.0,
     **settings: str | float | bool,
 ) -> vtkGnomonShadowPass:
     """Have a renderer show shadows.
@@ -120,6 +121,8 @@ def add_shadows(
         A name of vtkGnomonShadowPass.GetTechniqueName(), or "auto", the default.
     light : str, optional
         "auto", the default, exchanges default lights; None leaves all lights as they are.
+    sky : float, optional
+        vtkGnomonShadowPass.SetSkyIntensity(): 0.4 brightens what is in shadow, but for corners.
     **settings
         What lights fall back on: any setting of vtkGnomonLightKeys, as `light_radius=0.5`.
 
@@ -153,6 +156,8 @@ def add_shadows(
         _set(shadows, "technique", technique)
     for name, value in settings.items():
         _set(shadows, name, value)
+    with raising(shadows):
+        shadows.SetSkyIntensity(sky)
     remove_shadows(renderer)
     address = _address_of(renderer)
     replaced = renderer.GetPass()

@@ -128,11 +128,13 @@ def _numbers_of(light):
 
 
 def _view_of(renderer):
-    """Return what the placing depends on: the camera and the box around visible props."""
+    """Return what the placing depends on: the camera, the picture's shape, the box of props."""
     camera = renderer.GetActiveCamera()
+    window = renderer.GetRenderWindow()
     matrix = camera.GetViewTransformMatrix()
     return (
         [matrix.GetElement(row, column) for row in range(3) for column in range(4)],
         (camera.GetViewAngle(), camera.GetParallelProjection(), camera.GetParallelScale()),
         renderer.ComputeVisiblePropBounds(),
+        window and window.GetSize(),
     )

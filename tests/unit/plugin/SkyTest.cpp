@@ -102,6 +102,14 @@ TEST_F(SkyTest, OnlyDiffuseAndAmbientTermsChange)
   };
   const std::vector<Kind> kinds = {
     { "unlit", [](vtkActor* actor) { actor->GetProperty()->LightingOff(); } },
+    { "unlit tubes",
+      [](vtkActor* actor)
+      {
+        actor->GetProperty()->LightingOff();
+        actor->GetProperty()->SetRepresentationToWireframe();
+        actor->GetProperty()->RenderLinesAsTubesOn();
+        actor->GetProperty()->SetLineWidth(3.0);
+      } },
     { "highlights alone",
       [](vtkActor* actor)
       {
@@ -128,6 +136,42 @@ TEST_F(SkyTest, OnlyDiffuseAndAmbientTermsChange)
     of.pass->SetSkyIntensity(0.5);
     EXPECT_EQ(of.render().rgb, before.rgb) << kind.name;
   }
+}
+
+/// The edges of a mesh are drawn on its surface, unlit.
+TEST_F(SkyTest, DrawnEdgesKeepTheirColour)
+{
+  vtkActor* const floor = this->addDarkFloor();
+  this->scene.lookDown(4.5);
+  floor->GetProperty()->EdgeVisibilityOn();
+  floor->GetProperty()->SetEdgeColor(0.0, 1.0, 0.0);
+  floor->GetProperty()->SetLineWidth(6.0);
+  const auto onEdge = [this] { return this->scene.render().at(44, 24); };
+  ASSERT_EQ(onEdge(), glm::ivec3(0, 255, 0));
+  this->scene.pass->SetSkyIntensity(0.4);
+  EXPECT_EQ(onEdge(), glm::ivec3(0, 255, 0));
+  EXPECT_EQ(this->middle(), 102);
+}
+
+TEST_F(SkyTest, AnotherLayerIsNoReasonToTrace)
+{
+  this->scene.addThings();
+  this->scene.addSun({ -1.0, -0.4, -1.5 });
+  this->scene.choose(tracedWay);
+  this->scene.pass->SetSkyIntensity(0.5);
+  this->scene.render();
+  this->scene.set("light_radius", "5"); // takes a layer instead of a bit
+  const Picture moved = this->scene.render();
+  const std::vector<ValueReport>& values = this->scene.report().values;
+  const auto sky = std::find_if(values.begin(), values.end(),
+    [](const ValueReport& value) { return value.name == "the view of the sky"; });
+  ASSERT_NE(sky, values.end());
+  EXPECT_TRUE(sky->reused) << sky->changes;
+  EXPECT_EQ(this->scene.report().skyProgress, 1.0);
+  this->scene.pass->SetSkyDirections(32);
+  this->scene.render();
+  this->scene.pass->SetSkyDirections(64); // traces
+  EXPECT_EQ(this->scene.render().rgb, moved.rgb);
 }
 
 TEST_F(SkyTest, LightsKeepTheirShadows)
@@ -195,26 +239,29 @@ TEST_F(SkyTest, StaleViewsAreTracedAgain)
 
 TEST_F(SkyTest, MovingPicturesHaveFewDirections)
 {
-  this->scene.addThings();
-  this->scene.addSun({ -1.0, -0.4, -1.5 });
-  this->scene.choose(tracedWay);
-  this->scene.pass->SetSkyIntensity(0.5);
-  const Picture rests = this->scene.render();
-  EXPECT_EQ(this->scene.report().skyProgress, 1.0);
-  this->scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
-  this->scene.renderer->GetActiveCamera()->Roll(1e-9); // the same picture
-  const Picture moves = this->scene.render();
-  EXPECT_EQ(this->scene.report().skyProgress, 0.0);
-  EXPECT_LT(this->scene.report().raysTraced, 3 * 48 * 48);
+  PassScene large(320, 320);
+  large.addThings();
+  large.addSun({ 0.0, 0.0, 1.0 }); // from below
+  large.choose(tracedWay);
+  large.pass->SetSkyIntensity(1.0);
+  const Picture rests = large.render();
+  EXPECT_EQ(large.report().skyProgress, 1.0);
+  large.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+  large.renderer->GetActiveCamera()->Roll(1e-9); // the same picture
+  const Picture moves = large.render();
+  EXPECT_EQ(large.report().skyProgress, 0.0);
+  EXPECT_LT(large.report().raysTraced, 3 * 320 * 320);
   double squares = 0.0;
+  double seen = 0.0; // channels that are not black
   for (std::size_t i = 0; i < rests.rgb.size(); ++i)
   {
+    seen += rests.rgb[i] > 0 ? 1.0 : 0.0;
     const double off = (double(rests.rgb[i]) - moves.rgb[i]) / 255.0;
     squares += off * off;
   }
-  EXPECT_LT(std::sqrt(squares / rests.rgb.size()), 0.03);
-  this->scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_OFF);
-  EXPECT_EQ(this->scene.render().rgb, rests.rgb);
+  EXPECT_LT(std::sqrt(squares / seen), 0.03);
+  large.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_OFF);
+  EXPECT_EQ(large.render().rgb, rests.rgb);
 }
 
 TEST_F(SkyTest, EachMistakeIsAnErrorThatChangesNothing)
@@ -224,6 +271,9 @@ TEST_F(SkyTest, EachMistakeIsAnErrorThatChangesNothing)
   const std::vector<std::function<void()>> wrong = {
     [&] { pass->SetSkyIntensity(-0.1); },
     [&] { pass->SetSkyIntensity(std::nan("")); },
+    [&] { pass->SetSkyIntensity(1e300); },
+    [&] { pass->SetSkyColor(0.5, -0.1, 0.5); },
+    [&] { pass->SetSkyColor(std::nan(""), 0.5, 0.5); },
     [&] { pass->SetSkyUp(0.0, 0.0, 0.0); },
     [&] { pass->SetSkyUp(0.0, std::nan(""), 1.0); },
     [&] { pass->SetSkyDistance(-1.0); },
