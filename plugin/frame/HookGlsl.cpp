@@ -258,9 +258,9 @@ void HookGlsl::addLights(const std::vector<ShadedLight>& lights)
 /// light it.
 std::string HookGlsl::lightOfSky(const std::string& fragmentShader) const
 {
-  // Its colour is in no shader of unlit props.
+  // VTK may declare lights for unlit props, and computes nothing with them.
   if (this->variant_.skyLayer == noSkyLayer ||
-    fragmentShader.find("lightColor") == std::string::npos)
+    fragmentShader.find("lightColor", fragmentShader.find(beginMarker)) == std::string::npos)
   {
     return "";
   }

@@ -100,12 +100,17 @@ TEST_F(SkyTest, OnlyDiffuseAndAmbientTermsChange)
     const char* name;
     std::function<void(vtkActor*)> make;
   };
-  const std::vector<Kind> kinds = {
-    { "unlit", [](vtkActor* actor) { actor->GetProperty()->LightingOff(); } },
+  const std::vector<Kind> kinds = { { "unlit",
+                                      [](vtkActor* actor)
+                                      {
+                                        actor->GetProperty()->LightingOff();
+                                        actor->GetProperty()->SetColor(0.5, 0.4, 0.3);
+                                      } },
     { "unlit tubes",
       [](vtkActor* actor)
       {
         actor->GetProperty()->LightingOff();
+        actor->GetProperty()->SetColor(0.5, 0.4, 0.3);
         actor->GetProperty()->SetRepresentationToWireframe();
         actor->GetProperty()->RenderLinesAsTubesOn();
         actor->GetProperty()->SetLineWidth(3.0);
@@ -123,8 +128,7 @@ TEST_F(SkyTest, OnlyDiffuseAndAmbientTermsChange)
         actor->GetProperty()->SetInterpolationToPBR();
         actor->GetProperty()->SetMetallic(1.0);
         actor->GetProperty()->SetRoughness(0.4);
-      } }
-  };
+      } } };
   for (const Kind& kind : kinds)
   {
     PassScene of(40, 40);
@@ -142,6 +146,7 @@ TEST_F(SkyTest, OnlyDiffuseAndAmbientTermsChange)
 TEST_F(SkyTest, DrawnEdgesKeepTheirColour)
 {
   vtkActor* const floor = this->addDarkFloor();
+  this->scene.addBox({ 4.3, -9.0, 0.0 }, { 4.4, 9.0, 9.0 }); // hides half of the sky
   this->scene.lookDown(4.5);
   floor->GetProperty()->EdgeVisibilityOn();
   floor->GetProperty()->SetEdgeColor(0.0, 1.0, 0.0);
@@ -150,7 +155,7 @@ TEST_F(SkyTest, DrawnEdgesKeepTheirColour)
   ASSERT_EQ(onEdge(), glm::ivec3(0, 255, 0));
   this->scene.pass->SetSkyIntensity(0.4);
   EXPECT_EQ(onEdge(), glm::ivec3(0, 255, 0));
-  EXPECT_EQ(this->middle(), 102);
+  EXPECT_LT(this->middle(), 102);
 }
 
 TEST_F(SkyTest, AnotherLayerIsNoReasonToTrace)
