@@ -17,6 +17,8 @@ gallery()
   for scene in terrain atrium bench-side office soft-window cups; do
     $programs/gnomon render "$scene" -o "$figures/$scene.png" --size 400x300
   done
+  $programs/gnomon render bunny -o $figures/no_sky.png --size 400x300
+  $programs/gnomon render bunny -o $figures/sky.png --size 400x300 --sky 0.5
   $programs/gnomon render props -o $figures/props.png --size 900x560 --camera "fov=32"
 }
 
