@@ -24,6 +24,7 @@ def draw(
     path: str | os.PathLike[str],
     seen_from: ArrayLike = (0.8, -1.0, 0.6),
     size: tuple[int, int] = (640, 480),
+    sky: float = 0.0,
     **settings: str | float | bool,
 ) -> None:
     """Draw triangles under one sun with their shadows, as a PNG file. It needs no display.
@@ -40,6 +41,8 @@ def draw(
         Towards the camera, in world coordinates. z is up; y, if it looks along z.
     size : (int, int)
         Width and height in pixels.
+    sky : float, optional
+        As add_shadows() takes it.
     **settings
         Those of `add_shadows`, `technique` included.
 
@@ -78,7 +81,7 @@ def draw(
     window.SetSize(*size)
     window.AddRenderer(renderer)
     name = None if technique is None else str(technique)
-    shadows = add_shadows(renderer, name, None, **settings)
+    shadows = add_shadows(renderer, name, None, sky, **settings)
     with raising(window, shadows):
         picture = _pixels(window)
     _write(picture, str(path))
