@@ -296,7 +296,9 @@ public:
    *
    * Rays find the view, so receivers are drawn first (the image route). At rest it is complete
    * after SkyDirections rays from each pixel, on screen in steps (GetProgress()). Moving pictures
-   * have two rays from each pixel, and those of its neighbours. Several processes have no sky.
+   * have two rays from each pixel, and those of its neighbours. Where these do not keep the rate
+   * that the window asks for (SetTimeBudget()), all surfaces see all of the sky until the picture
+   * rests. Several processes have no sky.
    */
   virtual void SetSkyIntensity(double intensity);
   vtkGetMacro(SkyIntensity, double);

@@ -150,7 +150,7 @@ void FramePlanner::look()
 void FramePlanner::remember(double milliseconds, bool isUsual)
 {
   MotionTimes& times = this->history_.times;
-  double rest = milliseconds - this->milliseconds_;
+  double rest = milliseconds - this->milliseconds_ - this->frame_.counts.skyMilliseconds;
   bool byRays = false;
   for (const CastingLight& casting : this->frame_.lights)
   {
@@ -174,6 +174,7 @@ void FramePlanner::remember(double milliseconds, bool isUsual)
   if (isUsual && isLimited && this->frame_.plan.moves)
   {
     times.add(byRays, rest);
+    times.addSky(this->frame_.counts.skyMilliseconds);
   }
 }
 

@@ -25,6 +25,7 @@ public:
   void compute();
 
 private:
+  void showAll(const SkyPlan& plan, SkyValue& value);
   void trace(const SkyPlan& plan, SkyImage& image);
 
   Frame& frame_;

@@ -111,9 +111,10 @@ void planSamples(LightPlan& plan, bool areSeveral, int inTime)
 }
 
 /// Plan the sky. Of several views all directions are traced at once: the pass's progress is that of
-/// the last view alone.
-std::optional<SkyPlan> planSky(
-  const Scene& scene, const FrameWishes& wishes, std::vector<std::string>& notes)
+/// the last view alone. A moving picture has no view of the sky if that does not fit into the time
+/// that the window has.
+std::optional<SkyPlan> planSky(const Scene& scene, const FrameWishes& wishes,
+  const MotionTimes& times, std::vector<std::string>& notes)
 {
   const SkyWish& wish = wishes.sky;
   if (!wish.shines())
@@ -134,7 +135,15 @@ std::optional<SkyPlan> planSky(
   }
   plan.light = static_cast<float>(wish.intensity) * wish.colour;
   plan.directions = wish.directions;
-  plan.few = scene.picture.moves;
+  if (scene.picture.moves)
+  {
+    plan.rays = skyIsInTime(wishes, times) ? SkyPlan::Rays::Few : SkyPlan::Rays::None;
+    if (plan.rays == SkyPlan::Rays::None)
+    {
+      notes.emplace_back(
+        "the sky is not shadowed while the picture moves, to keep the window's rate");
+    }
+  }
   plan.batchesOfFrame =
     scene.picture.mayRefine && !scene.picture.severalViews ? 1 : SkyDirections::batches;
   return plan;
@@ -178,7 +187,9 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   plan.moves = scene.picture.moves && !wishes.isShared;
   plan.history = history;
 
-  plan.sky = planSky(scene, wishes, plan.notes);
+  plan.sky = planSky(scene, wishes, history.times, plan.notes);
+  const bool takesTime = plan.sky && plan.sky->rays == SkyPlan::Rays::Few;
+  plan.history.times.reserved = takesTime ? history.times.sky : 0.0;
   plan.isApproximate = plan.sky && plan.moves;
 
   plan.hasShadows = !plan.lights.empty() || plan.sky || wishes.keepVisibility;
@@ -202,8 +213,8 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
     planFit(light, picture.route.route, picture.shadesTranslucent, scene.lights);
     planSamples(light, scene.picture.severalViews || wishes.isShared,
       !plan.moves ? light.light.lightSamples
-                  : samplesInTime(wishes, history.times, light.light.sceneIndex, plan.lights.size(),
-                      light.light.lightSamples));
+                  : samplesInTime(wishes, plan.history.times, light.light.sceneIndex,
+                      plan.lights.size(), light.light.lightSamples));
   }
   placeVisibility(plan);
   plan.namesSurfaces = wishes.isShared || wishes.keepVisibility;

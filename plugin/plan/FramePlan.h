@@ -20,8 +20,15 @@ struct SkyPlan
   Sky sky;
   glm::vec3 light{ 0.0f }; ///< colour times intensity
   int directions = 0;
-  int layer = 0;    ///< of its view
-  bool few = false; ///< views are of few directions and of neighbours (SkyImage::traceFew())
+  int layer = 0; ///< of its view
+  /// How a frame finds views.
+  enum class Rays
+  {
+    None, ///< everything sees all of the sky
+    Few,  ///< few directions and neighbours (SkyImage::traceFew())
+    All
+  };
+  Rays rays = Rays::All;
   std::size_t batchesOfFrame = 0; ///< of directions that a frame adds (SkyDirections)
 };
 

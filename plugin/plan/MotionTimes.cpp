@@ -1,6 +1,7 @@
 #include "plugin/plan/MotionTimes.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace gnomon
 {
@@ -53,6 +54,17 @@ void MotionTimes::addImage(int sceneIndex, double samples, double milliseconds)
 }
 
 //------------------------------------------------------------------------------
+void MotionTimes::addSky(double milliseconds)
+{
+  if (milliseconds > 0.0)
+  {
+    mix(this->sky, milliseconds);
+    return;
+  }
+  this->sky *= forgetting;
+}
+
+//------------------------------------------------------------------------------
 double limitOf(const FrameWishes& wishes, const MotionTimes& times)
 {
   if (wishes.windowTime == 0.0)
@@ -65,6 +77,16 @@ double limitOf(const FrameWishes& wishes, const MotionTimes& times)
 }
 
 //------------------------------------------------------------------------------
+bool skyIsInTime(const FrameWishes& wishes, const MotionTimes& times)
+{
+  const double limit = limitOf(wishes, times);
+  const double images = std::accumulate(times.sample.begin(), times.sample.end(), 0.0,
+    [](double sum, const auto& sample) { return sum + sample.second; });
+  const double rest = std::max(times.restByRays, times.restByMaps);
+  return limit == 0.0 || times.sky == 0.0 || rest + images + times.sky <= spared * limit;
+}
+
+//------------------------------------------------------------------------------
 int samplesInTime(
   const FrameWishes& wishes, const MotionTimes& times, int sceneIndex, std::size_t lights, int most)
 {
@@ -74,7 +96,7 @@ int samplesInTime(
   {
     return most;
   }
-  const double share = std::max(spared * limit - times.restByRays, 0.0) /
+  const double share = std::max(spared * limit - times.restByRays - times.reserved, 0.0) /
     static_cast<double>(std::max<std::size_t>(lights, 1));
   return static_cast<int>(std::min<double>(most, share / sample->second));
 }

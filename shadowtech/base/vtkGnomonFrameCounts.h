@@ -91,6 +91,7 @@ struct FrameCounts
   int visibilityComputed = 0;    ///< lights whose visibility was computed for the picture's pixels
   std::int64_t raysTraced = 0;   ///< for these lights
   double skyProgress = 1.0;      ///< share of the sky's directions that pixels show; 1 without
+  double skyMilliseconds = 0.0;  ///< time of tracing the view of the sky
   int mapBakes = 0;              ///< baked maps
   int programCompiles = 0;       ///< shader programs built, including VTK's with the hook
   int newPrograms = 0;           ///< of these, compiled by OpenGL; VTK caches earlier ones

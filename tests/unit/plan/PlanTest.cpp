@@ -439,7 +439,7 @@ TEST(FramePlans, letTheSkyShine)
   EXPECT_EQ(alone.sky->light, glm::vec3(0.5f, 0.25f, 0.0f));
   EXPECT_EQ(alone.sky->sky.up, glm::vec3(0.0f, 1.0f, 0.0f));
   EXPECT_EQ(alone.sky->sky.farthest, 3.0f);
-  EXPECT_FALSE(alone.sky->few);
+  EXPECT_EQ(alone.sky->rays, SkyPlan::Rays::All);
   EXPECT_EQ(alone.sky->batchesOfFrame, SkyDirections::batches);
   EXPECT_FALSE(alone.isApproximate);
 
@@ -460,13 +460,46 @@ TEST(FramePlans, letTheSkyShine)
   scene.picture.severalViews = true;
   EXPECT_EQ(planFrame(scene, wishes, {}, {}).sky->batchesOfFrame, SkyDirections::batches);
   scene.picture.moves = true;
-  EXPECT_TRUE(planFrame(scene, wishes, {}, {}).sky->few);
+  EXPECT_EQ(planFrame(scene, wishes, {}, {}).sky->rays, SkyPlan::Rays::Few);
   EXPECT_TRUE(planFrame(scene, wishes, {}, {}).isApproximate);
 
   wishes.isShared = true;
   const FramePlan shared = planFrame(sceneOf({ "raytraced" }), wishes, {}, {});
   EXPECT_FALSE(shared.sky);
   EXPECT_THAT(shared.notes, Contains(HasSubstr("the sky")));
+}
+
+TEST(FramePlans, leaveTheSkyOpenToKeepTheWindowsRate)
+{
+  FrameWishes wishes;
+  wishes.sky.intensity = 0.5;
+  wishes.windowTime = 100.0;
+  Scene scene = sceneOf({});
+  scene.picture.moves = true;
+  AutoHistory history;
+  const auto rays = [&] { return planFrame(scene, wishes, history, {}).sky->rays; };
+  EXPECT_EQ(rays(), SkyPlan::Rays::Few) << "nothing is known yet";
+  history.times.restByRays = 40.0;
+  history.times.sky = 49.0;
+  EXPECT_EQ(rays(), SkyPlan::Rays::Few);
+  EXPECT_EQ(planFrame(scene, wishes, history, {}).history.times.reserved, 49.0);
+  history.times.sample[3] = 2.0; // of a light
+  EXPECT_EQ(rays(), SkyPlan::Rays::None);
+  const FramePlan open = planFrame(scene, wishes, history, {});
+  EXPECT_THAT(open.notes, Contains(HasSubstr("the sky")));
+  EXPECT_EQ(open.history.times.reserved, 0.0);
+  EXPECT_TRUE(open.isApproximate);
+  for (int frame = 0; frame < 4; ++frame)
+  {
+    history.times.addSky(0.0);
+  }
+  EXPECT_EQ(rays(), SkyPlan::Rays::Few) << "tried again";
+  history.times.sky = 1000.0;
+  wishes.windowTime = 0.0;
+  EXPECT_EQ(rays(), SkyPlan::Rays::Few) << "no rate is asked for";
+  scene.picture.moves = false;
+  wishes.windowTime = 100.0;
+  EXPECT_EQ(rays(), SkyPlan::Rays::All);
 }
 
 TEST(FramePlans, haveNoShadowsWithoutLights)
@@ -557,6 +590,18 @@ TEST(FramePlans, takeMapsOfAnyErrorToKeepTheWindowsRate)
   wishes.keepVisibility = false;
   scene.picture.moves = false;
   EXPECT_EQ(planFrame(scene, wishes, history, {}).lights.at(0).estimator, &rays());
+}
+
+TEST(MotionTimes, reserveWhatTheSkyTakes)
+{
+  FrameWishes wishes;
+  wishes.windowTime = 100.0;
+  MotionTimes times;
+  times.restByRays = 30.0;
+  times.sample[0] = 1.0;
+  EXPECT_EQ(samplesInTime(wishes, times, 0, 1, 1000), 60);
+  times.reserved = 20.0;
+  EXPECT_EQ(samplesInTime(wishes, times, 0, 1, 1000), 40);
 }
 
 TEST(MotionTimes, forgetRaysThatAreNotTaken)
