@@ -117,8 +117,9 @@ public:
    * Add the light of a sky, or replace it: 1/pi times the integral of its radiance and the cosine,
    * over the directions that nothing hides. Of `directions` rays from each element their density is
    * in proportion to the cosine; they start at its Samples by chance. A point has the mean of the
-   * cells that meet in it. With ReceivingSide BOTH, the side counts that sees more. The error falls
-   * with about the 0.75th power of the number: 64 give 0.014 (RMS), 1,024 give 0.002.
+   * cells that meet in it. With ReceivingSide BOTH, the side that sees more counts. Beside a wall,
+   * 64 directions have a true error of 0.015 (RMS), 1,024 of 0.0023. SkyViewError is larger: 2 to 7
+   * times that, with 16 to 4,096 directions.
    *
    * @param model a SkyModelType; DOME and OVERCAST need an Up
    * @param directions a power of two in [16, 65536]; GetSkyDirections gives 0 without a sky
@@ -130,7 +131,7 @@ public:
 
   ///@{
   /**
-   * Set the distance from which on nothing hides the sky, in world coordinates; 0: there is none.
+   * Set the distance, in world coordinates, beyond which nothing hides the sky; 0: no limit.
    * Default: 0.
    */
   virtual void SetSkyDistance(double distance);

@@ -38,7 +38,7 @@ struct LightShares
 ///
 /// The *ground* is what lies below or behind: planes that the rest of the picture lies in front of.
 /// The *subject* is the rest. Only ground near the subject counts: within 1.5 radii of the box
-/// around what is seen of the subject. Without ground, shade on the subject is its shadow.
+/// around the subject's visible points. Without ground, the subject's unlit part counts as shadow.
 class CoarsePicture
 {
 public:

@@ -1,39 +1,21 @@
 #include "plugin/data/SkyRun.h"
 
-#include "plugin/data/VisibilityRun.h"
+#include "plugin/data/VisibilityTile.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 
 namespace gnomon
 {
-/// The rays of an element.
-struct SkyRun::Rays
-{
-  std::array<std::vector<float>, 3> origins;
-  std::array<std::vector<float>, 3> directions;
-  std::vector<std::uint8_t> blocked;
 
-  explicit Rays(std::size_t count)
-    : blocked(count)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      this->origins[axis].resize(count);
-      this->directions[axis].resize(count);
-    }
-  }
-  void set(std::size_t i, const glm::vec3& origin, const glm::vec3& direction)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      this->origins[axis][i] = origin[static_cast<glm::length_t>(axis)];
-      this->directions[axis][i] = direction[static_cast<glm::length_t>(axis)];
-    }
-  }
+/// A thread's memory, shared by its elements.
+struct SkyRun::Scratch
+{
+  SampleStarts starts;
+  std::vector<std::uint8_t> isFree; ///< by direction
+  std::vector<float> radiance;      ///< likewise
 };
 
 //------------------------------------------------------------------------------
@@ -67,11 +49,11 @@ bool SkyRun::go(const std::function<bool(double)>& goOn)
     tbb::parallel_for(tbb::blocked_range<std::size_t>(this->done_, end, 4),
       [&](const tbb::blocked_range<std::size_t>& range)
       {
-        SampleStarts starts; // their memory and the rays' is shared
-        Rays rays(count);
+        Scratch scratch;
+        scratch.radiance.resize(count);
         for (std::size_t i = range.begin(); i != range.end(); ++i)
         {
-          this->see(this->order_[i], starts, rays);
+          this->see(this->order_[i], scratch);
         }
       });
     this->done_ = end;
@@ -85,8 +67,9 @@ bool SkyRun::go(const std::function<bool(double)>& goOn)
 }
 
 //------------------------------------------------------------------------------
-void SkyRun::see(std::size_t element, SampleStarts& starts, Rays& rays) const
+void SkyRun::see(std::size_t element, Scratch& scratch) const
 {
+  SampleStarts& starts = scratch.starts;
   starts.clear();
   this->receivers_.append(element, starts);
   this->arrays_.view[element] = -1.0f;
@@ -97,7 +80,7 @@ void SkyRun::see(std::size_t element, SampleStarts& starts, Rays& rays) const
     {
       open += openView(this->sky_, side * normal) / static_cast<double>(starts.normal.size());
     }
-    const SkySums sums = this->trace(element, starts, side, rays);
+    const SkySums sums = this->trace(element, side, scratch);
     const auto view = static_cast<float>(sums.view(open));
     if (view > this->arrays_.view[element])
     {
@@ -113,10 +96,14 @@ void SkyRun::see(std::size_t element, SampleStarts& starts, Rays& rays) const
 
 //------------------------------------------------------------------------------
 /// Trace an element's rays, each from one of its starts by chance.
-SkySums SkyRun::trace(std::size_t element, const SampleStarts& starts, float side, Rays& rays) const
+SkySums SkyRun::trace(std::size_t element, float side, Scratch& scratch) const
 {
+  const SampleStarts& starts = scratch.starts;
   const SamplePixel pixel = pixelOf(this->directions_.points(), element);
   const int count = this->directions_.count();
+  scratch.isFree.assign(static_cast<std::size_t>(count), 0);
+  WaitingRays rays(this->tracer_, scratch.isFree.data());
+  rays.setFar(this->sky_.farthest);
   glm::mat3 rotation(1.0f);
   std::size_t from = starts.normal.size(); // none
   for (int i = 0; i < count; ++i)
@@ -129,22 +116,17 @@ SkySums SkyRun::trace(std::size_t element, const SampleStarts& starts, float sid
       from = chosen;
       rotation = rotationFromZ(normal);
     }
-    rays.set(static_cast<std::size_t>(i), starts.position[chosen] + starts.offset[chosen] * normal,
-      rotation * this->directions_.local(i, pixel));
+    const glm::vec3 direction = rotation * this->directions_.local(i, pixel);
+    const auto number = static_cast<std::size_t>(i);
+    rays.add({ starts.position[chosen] + starts.offset[chosen] * normal, direction, true }, number);
+    scratch.radiance[number] = radianceOf(this->sky_, direction);
   }
-  const auto arrays = [](const std::array<std::vector<float>, 3>& of) {
-    return PointArrays{ of[0].data(), of[1].data(), of[2].data() };
-  };
-  this->tracer_.areBlocked(static_cast<std::size_t>(count), arrays(rays.origins),
-    arrays(rays.directions), this->sky_.farthest, rays.blocked.data());
+  rays.flush();
   SkySums sums;
   for (int i = 0; i < count; ++i)
   {
-    const auto ray = static_cast<std::size_t>(i);
-    const glm::vec3 direction(
-      rays.directions[0][ray], rays.directions[1][ray], rays.directions[2][ray]);
-    sums.add(
-      this->directions_.batchOf(i), radianceOf(this->sky_, direction), rays.blocked[ray] == 0);
+    const auto number = static_cast<std::size_t>(i);
+    sums.add(this->directions_.batchOf(i), scratch.radiance[number], scratch.isFree[number] != 0);
   }
   return sums;
 }

@@ -38,9 +38,9 @@ public:
   std::uint64_t rays() const;
 
 private:
-  struct Rays;
-  SkySums trace(std::size_t element, const SampleStarts& starts, float side, Rays& rays) const;
-  void see(std::size_t element, SampleStarts& starts, Rays& rays) const;
+  struct Scratch;
+  SkySums trace(std::size_t element, float side, Scratch& scratch) const;
+  void see(std::size_t element, Scratch& scratch) const;
 
   const ReceiverStarts& receivers_;
   const EmbreeTracer& tracer_;

@@ -106,7 +106,7 @@ bool RenderManager::readLights(
   const LightSet& lights = frame.scene.lights.set;
   frame.ranks->requireSame([&] { return hashOf(lights, true); }, "lights");
   frame.endStage("lights");
-  return !lights.lights.empty() || frame.wishes.sky.shines() || frame.wishes.keepVisibility;
+  return !lights.lights.empty() || frame.wishes.showsSky() || frame.wishes.keepVisibility;
 }
 
 //------------------------------------------------------------------------------

@@ -117,13 +117,12 @@ std::optional<SkyPlan> planSky(const Scene& scene, const FrameWishes& wishes,
   const MotionTimes& times, std::vector<std::string>& notes)
 {
   const SkyWish& wish = wishes.sky;
-  if (!wish.shines())
+  if (!wishes.showsSky())
   {
-    return std::nullopt;
-  }
-  if (wishes.isShared)
-  {
-    notes.emplace_back("the sky does not shine where several processes draw the picture");
+    if (wish.intensity > 0.0)
+    {
+      notes.emplace_back("the sky does not shine where several processes draw the picture");
+    }
     return std::nullopt;
   }
   SkyPlan plan;

@@ -27,10 +27,8 @@ struct SkyWish
   glm::vec3 colour{ 1.0f };
   SkyModel model = SkyModel::Uniform;
   glm::dvec3 upWorld{ 0.0, 0.0, 1.0 }; ///< of any length but 0
-  double distanceWorld = 0.0;          ///< from which on nothing hides it; 0: there is none
+  double distanceWorld = 0.0;          ///< beyond which nothing hides it; 0: no limit
   int directions = 256;
-
-  bool shines() const { return this->intensity > 0.0; }
 };
 
 /// The pass's settings for a frame.
@@ -53,6 +51,9 @@ struct FrameWishes
   double windowTime = 0.0;        ///< milliseconds that the window has for a moving frame; 0: any
   std::optional<CostFactors> factors; ///< of this machine; none: the defaults
   ///@}
+
+  /// True if a sky is asked for that can be shown.
+  bool showsSky() const { return this->sky.intensity > 0.0 && !this->isShared; }
 };
 
 } // namespace gnomon

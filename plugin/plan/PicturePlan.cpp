@@ -48,7 +48,7 @@ std::string whyNotDeferred(
   {
     return "several processes draw the picture";
   }
-  if (wishes.sky.shines())
+  if (wishes.showsSky())
   {
     return "shading reads the view of the sky";
   }
@@ -87,7 +87,7 @@ std::string whyNoInlineMaps(
   {
     return "the visibility is kept";
   }
-  if (wishes.sky.shines())
+  if (wishes.showsSky())
   {
     return "rays find the view of the sky";
   }
@@ -113,7 +113,7 @@ PicturePlan planPicture(
   const ScenePicture& picture = scene.picture;
   RouteNeeds needs;
   needs.keepVisibility = wishes.keepVisibility;
-  needs.seesSky = wishes.sky.shines() && !wishes.isShared;
+  needs.seesSky = wishes.showsSky();
   needs.lights = lights.size();
   for (const LightPlan& of : lights)
   {

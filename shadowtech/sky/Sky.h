@@ -18,8 +18,7 @@ enum class SkyModel
 {
   Uniform = 0, ///< the same from everywhere, from below, too: ambient occlusion
   Dome = 1,    ///< the same above the horizon, none below
-  Overcast =
-    2 ///< CIE's standard overcast sky: three times as bright in the zenith as at the horizon
+  Overcast = 2 ///< CIE's standard sky: three times as bright in the zenith as at the horizon
 };
 
 /// A light without place. A point with normal n sees
@@ -29,7 +28,7 @@ struct Sky
 {
   SkyModel model = SkyModel::Uniform;
   glm::vec3 up{ 0.0f }; ///< unit; without effect if the sky is uniform
-  float farthest = std::numeric_limits<float>::infinity(); ///< what is farther off hides nothing
+  float farthest = std::numeric_limits<float>::infinity(); ///< surfaces beyond hide nothing
 };
 
 /// Return L of a direction. The overcast sky's is 3/7 (1 + 2 sin h) at elevation h (Moon and
@@ -45,7 +44,7 @@ double openView(const Sky& sky, const glm::vec3& normal);
 /// (SobolPoints).
 ///
 /// The points lie in the cells of a grid. Sixteen batches have each fourth column of each fourth
-/// row, so each batch is as even as that few points can be. They show how far directions agree.
+/// row, so each batch is spread as evenly. How much their answers differ tells the error.
 class SkyDirections
 {
 public:

@@ -20,7 +20,8 @@ namespace
 /// In place of openView() where a pixel shows no receiver.
 constexpr float noOpenView = -1.0f;
 
-/// Adds neighbours' sums to pixels along a line, where they show the same surface.
+/// Add neighbours' sums to pixels along a line, where they lie near the pixel's plane and face
+/// alike.
 /// @param step from a pixel to its neighbour in the arrays
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]

@@ -142,7 +142,7 @@ def sky_view(
     surface : (points, triangles) or vtkPolyData
         As the receivers of `hours_lit`; or polydata, whose polygons count. It casts, too.
     casters : sequence of the same, optional
-        What else hides the sky.
+        Other surfaces that hide the sky.
     model : str
         "uniform": as bright from everywhere, from below, too (ambient occlusion); "dome": as
         bright from everywhere above the horizon; "overcast": CIE's sky, three times as bright in
@@ -150,7 +150,7 @@ def sky_view(
     directions : int
         Rays from the middle of each cell, a power of two in [16, 65536].
     distance : float
-        From which on nothing hides the sky, in world units; 0: there is none.
+        Length in world units beyond which nothing hides the sky; 0: no limit.
     up : array of 3
         Of the horizon, of any length.
 

@@ -443,7 +443,7 @@ TEST(FramePlans, letTheSkyShine)
   EXPECT_EQ(alone.sky->batchesOfFrame, SkyDirections::batches);
   EXPECT_FALSE(alone.isApproximate);
 
-  // Beside lights its layer is the last, whatever route they would take.
+  // The sky's layer follows those of the lights. Lights take the image route, too.
   for (const char* technique : { "nsm", "raytraced", "sampled" })
   {
     const FramePlan beside = planFrame(sceneOf({ technique }), wishes, {}, {});
