@@ -76,6 +76,14 @@ double ospRayRadius(vtkLight* light)
   return key && keys->Has(key) ? keys->Get(key) : 0.0;
 }
 
+/// Return the key of lights that stand for a point of an area light.
+vtkInformationIntegerKey* pointKey()
+{
+  static auto* const key =
+    vtkInformationIntegerKey::MakeKey("IS_POINT_OF_AREA", "vtkGnomonLightKeys");
+  return key;
+}
+
 /// A light's size, in the units of vtkGnomonAreaLight.
 struct AreaSize
 {
@@ -401,6 +409,7 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
     std::max(*std::max_element(colour, colour + 3), *std::max_element(highlight, highlight + 3));
   result.attenuation = glm::make_vec3(light->GetAttenuationValues());
   result.isHeadlight = isHeadlight(light);
+  result.isPointOfArea = light->GetInformation()->Has(pointKey());
   return result;
 }
 
@@ -494,6 +503,7 @@ void LightManager::makePoint(vtkLight* light)
   {
     light->GetInformation()->Remove(key);
   }
+  light->GetInformation()->Set(pointKey(), 1);
 }
 
 //------------------------------------------------------------------------------

@@ -74,6 +74,9 @@ struct ShadowLight : ShadowSettings
   /// True for a headlight, which stands at the camera and shines along the view.
   bool isHeadlight = false;
 
+  /// True for a point of an area light, in one of the pictures that are averaged.
+  bool isPointOfArea = false;
+
   /// True if this frame fits the light's views to the visible receivers, on the GPU
   /// (shadowtech/fitting/). Else they are fitted to the scene's part in the camera's frustum.
   bool fittedToReceivers = false;

@@ -310,7 +310,7 @@ void vtkGnomonShadowPass::DrawShadows(const vtkRenderState* s, gnomon::FrameEnd&
   {
     // occluders
     gnomon::tellWhatIsLeftOut(this, renderer, complaints, manager.readProps(s));
-    end.picture.moves = this->Moves(s);
+    end.picture.moves = ranks.isAny(this->Moves(s));
   }
 
   // plan

@@ -69,6 +69,7 @@ public:
     if (setup.technique)
     {
       vtkNew<vtkGnomonShadowPass> pass;
+      pass->SetSetting("edge_samples", "1");
       pass->SetTechnique(setup.technique);
       if (setup.mapSizeTexels > 0)
       {

@@ -129,9 +129,10 @@ VariantSpec parseTechnique(const std::string& text)
 void setUp(vtkGnomonShadowPass* pass, const VariantSpec& spec)
 {
   pass->SetSettings(nullptr);
+  pass->SetSetting("edge_samples", "1"); // all techniques are compared at the pixels' centres
   pass->SetTechnique(spec.technique.c_str());
   pass->SetRoute(spec.route);
-  pass->SmoothTerminatorsOff(); // all techniques are compared on the triangles
+  pass->SmoothTerminatorsOff(); // and on the triangles
   if (spec.mapSizeTexels > 0)
   {
     pass->SetMapSize(spec.mapSizeTexels);

@@ -105,7 +105,8 @@ TechniqueCache& CastingLights::cacheOf(const ShadowLight& light)
 bool smoothsEdges(const CastingLights& lights)
 {
   return std::any_of(lights.begin(), lights.end(),
-    [](const CastingLight& casting) { return casting.edgeSamples() > 1; });
+    [](const CastingLight& casting)
+    { return casting.edgeSamples() > 1 || casting.plan.edgeSamples > 1; });
 }
 
 } // namespace gnomon

@@ -21,6 +21,7 @@ struct CastingLight
   LightCounts counts = {};
   bool isStale = true;       ///< true if this frame computes its visibility for all pixels
   bool mayKeepTiles = false; ///< and true if the changes may leave some tiles valid
+  bool smooths = false;      ///< and true if it also smooths edges of the picture
   std::optional<double> tracedShare = {}; ///< VisibilityValue::tracedShare
   double milliseconds = 0.0;              ///< that this frame took for its visibility
 
@@ -28,7 +29,7 @@ struct CastingLight
   const TechniqueInfo& info() const { return this->plan.info(); }
   /// True if its technique traces from receivers on the CPU.
   bool isOnCpu() const { return this->info().evaluation == Evaluation::ScreenCpu; }
-  /// Return the number of shadow rays for a pixel at an edge. Area lights have no edges: 1.
+  /// Return edgeSamplesOf().
   std::size_t edgeSamples() const { return edgeSamplesOf(this->info(), this->light()); }
   /// Return the technique that VTK's shaders call; null if they call none.
   const PointwiseTechnique* pointwise() const;
@@ -67,7 +68,7 @@ private:
   std::vector<CastingLight> lights_;
 };
 
-/// True if any light has several shadow rays for pixels at edges.
+/// True if any light has several shadow rays for pixels at edges, of visibility or picture.
 bool smoothsEdges(const CastingLights& lights);
 
 } // namespace gnomon

@@ -5,9 +5,11 @@
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/TextureMemory.h"
+
+#include <tbb/parallel_for.h>
 
 #include <array>
+#include <cstdint>
 
 namespace gnomon
 {
@@ -193,12 +195,40 @@ void DeferredPicture::keepShadows(const std::vector<float>& visibility)
   this->mixes_ = tiles.mixes;
 
   const GlStateGuard guard;
+  if (this->mixes_)
+  {
+    this->uploadMixed(visibility);
+  }
   glBindVertexArray(this->tiles_.create());
   glBindBuffer(GL_ARRAY_BUFFER, this->corners_.create());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(glm::vec2)),
     corners.data(), GL_STREAM_DRAW);
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
+//------------------------------------------------------------------------------
+/// Upload visibility for the mixture of colours. The caller holds a GlStateGuard.
+void DeferredPicture::uploadMixed(const std::vector<float>& visibility)
+{
+  constexpr float fullLight = 65535.0f;
+  std::vector<std::uint16_t> texels(visibility.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels.size(), 65536),
+    [&](const tbb::blocked_range<std::size_t>& range)
+    {
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+      {
+        texels[i] = static_cast<std::uint16_t>(visibility[i] * fullLight + 0.5f);
+      }
+    });
+  glActiveTexture(GL_TEXTURE0);
+  this->mixed_.allocate({ GL_R16, GL_RED, 1, GL_UNSIGNED_SHORT }, this->size_.x, this->size_.y, 0,
+    "the visibility of pixels between light and shadow");
+  glBindTexture(GL_TEXTURE_2D, this->mixed_.name());
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(
+    GL_TEXTURE_2D, 0, 0, 0, this->size_.x, this->size_.y, GL_RED, GL_UNSIGNED_SHORT, texels.data());
 }
 
 //------------------------------------------------------------------------------
@@ -211,7 +241,7 @@ void DeferredPicture::darken(const TextureBinding& visibility, ShaderLibrary& sh
   glBindVertexArray(this->tiles_.name());
   const auto draw = [&](std::vector<std::string> defines, GLint first, GLsizei count)
   {
-    if (visibility.target == GL_TEXTURE_2D)
+    if (!this->mixes_ && visibility.target == GL_TEXTURE_2D)
     {
       defines.emplace_back("BIT");
     }
@@ -221,7 +251,9 @@ void DeferredPicture::darken(const TextureBinding& visibility, ShaderLibrary& sh
       defines);
     glUseProgram(program);
     ShaderLibrary::setUniforms(program,
-      { { "size", this->size_ }, { "origin", this->origin_ }, { "visibility", visibility },
+      { { "size", this->size_ }, { "origin", this->origin_ },
+        { "visibility",
+          this->mixes_ ? TextureBinding{ GL_TEXTURE_2D, this->mixed_.name() } : visibility },
         { "inShadow", TextureBinding{ GL_TEXTURE_2D, this->inShadow_.name() } } },
       0, 0);
     glDrawArrays(GL_TRIANGLES, first, count);
@@ -244,7 +276,8 @@ std::size_t DeferredPicture::bytes() const
   // Fragments of two floats, and a colour.
   const std::size_t bytesOfPixel = 2 * sizeof(float) + 4 * (this->eightBit_ ? 1 : sizeof(float));
   return static_cast<std::size_t>(this->extent_.x) * static_cast<std::size_t>(this->extent_.y) *
-    bytesOfPixel;
+    bytesOfPixel +
+    this->mixed_.bytes();
 }
 
 } // namespace gnomon

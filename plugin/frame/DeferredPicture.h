@@ -3,6 +3,7 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <glm/glm.hpp>
 
@@ -42,14 +43,14 @@ public:
   /// Read window depths back from the bound framebuffer, one per pixel of the viewport.
   void readDepths(std::vector<float>& depths) const;
 
-  /// Cache which tiles of the picture have shadows.
+  /// Cache which tiles of the picture have shadows; and the visibility, if some is between 0 and 1.
   /// @param visibility of each pixel of the viewport, in [0, 1]
   void keepShadows(const std::vector<float>& visibility);
 
   /// Draw the colours in shadow into the bound framebuffer, at the pixels in shadow. Pixels between
   /// light and shadow get a mixture of both colours, rounded by the framebuffer's format.
-  /// @param visibility what was given to keepShadows(): layer 0 of an array texture, or the lowest
-  /// bit of a GL_TEXTURE_2D
+  /// @param visibility for those of keepShadows() that are all 0 or 1: layer 0 of an array texture,
+  /// or the lowest bit of a GL_TEXTURE_2D
   void darken(const TextureBinding& visibility, ShaderLibrary& shaders);
 
   /// The viewport's size in pixels.
@@ -58,6 +59,7 @@ public:
 
 private:
   void allocate(const glm::ivec2& extent, bool eightBit);
+  void uploadMixed(const std::vector<float>& visibility);
   void copyPicture() const;
 
   GlTexture fragments_;
@@ -74,6 +76,7 @@ private:
   GLsizei cornersInPart_ = 0; ///< of partly lit tiles, which come first
   GLsizei cornersWhole_ = 0;  ///< of the other tiles
   bool mixes_ = false;        ///< some pixels are between light and shadow
+  SizedTexture mixed_;        ///< then, the visibility of each pixel of the viewport
 };
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 #include "plugin/frame/HookGlsl.h"
 
+#include "plugin/frame/EdgeImage.h"
 #include "plugin/frame/FrameShaders.h"
 #include "plugin/frame/TriangleNumbers.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -27,14 +28,16 @@ void replace(std::string& source, const std::string& search, const std::string& 
 
 /// Return the expression of one light's visibility. On the image route, translucent surfaces
 /// compute it, as they are in no layer. The deferred route first draws opaque ones as lit.
-std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
+std::string visibilityOf(const HookVariant& variant, const ShadedLight& shaded, int light)
 {
+  const Route route = variant.route;
+  const char* const bit = variant.edgeBit == noBit ? "gnomonBit(" : "gnomonSmoothBit(";
   // A visibility of one channel scales the mean colour of the light's texture.
   const std::string even = shaded.light.texture ? litOf(shaded, light) + " * " : "";
   const auto layer = [&](int channel)
   { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
   const std::string fetched = route == Route::Deferred ? litOf(shaded, light)
-    : shaded.bit != noBit  ? "gnomonBit(" + std::to_string(shaded.bit) + ")"
+    : shaded.bit != noBit  ? even + bit + std::to_string(shaded.bit) + ")"
     : shaded.channels == 3 ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
                            : even + layer(0);
   const std::string computed =
@@ -225,6 +228,15 @@ void HookGlsl::addImages(const std::vector<ShadedLight>& lights)
     this->declarations_ += frameShaders().at("plugin/frame/hook_bits.glsl");
     this->multiplications_ += "  gnomonFetchBits();\n";
   }
+  const int edgeBit = this->variant_.edgeBit;
+  if (edgeBit != noBit)
+  {
+    const int texels = (edgeBit + EdgeImage::lightsOfTexel - 1) / EdgeImage::lightsOfTexel;
+    this->declarations_ += "const int gnomonEdgeBit = " + std::to_string(edgeBit) +
+      ";\nconst int gnomonEdgeTexels = " + std::to_string(texels) + ";\n" +
+      frameShaders().at("plugin/frame/hook_edges.glsl");
+    this->multiplications_ += "  gnomonFetchEdges();\n";
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -245,7 +257,7 @@ void HookGlsl::addLights(const std::vector<ShadedLight>& lights)
       this->declarations_ += "uniform vec3 " + litOf(shaded, number) + ";\n";
     }
     this->multiplications_ +=
-      multiplicationOf(shaded, number, visibilityOf(this->variant_.route, shaded, number));
+      multiplicationOf(shaded, number, visibilityOf(this->variant_, shaded, number));
     if (this->variant_.route == Route::Deferred)
     {
       this->darkenings_ += darkeningOf(shaded, number);

@@ -27,6 +27,7 @@ struct HookVariant
   bool anySeenThrough = false; ///< true if DrawnProps::seenThrough has some
   int layers = 0;              ///< image route: of visibility
   int skyLayer = noSkyLayer;   ///< image route: the layer of the view of the sky
+  int edgeBit = noBit;         ///< image route: FramePlan::edgeBit
 };
 
 /// One casting light, as the shader hook needs it.

@@ -104,10 +104,14 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
     images.classes.push_back(classes);
   };
   std::vector<float> visibility;
+  const auto read = [&](int channel)
+  {
+    casting.plan.bit == noBit ? layers.read(casting.plan.layer + channel, visibility)
+                              : layers.readBit(casting.plan.bit, visibility);
+  };
   if (!casting.light().texture)
   {
-    casting.plan.bit == noBit ? layers.read(casting.plan.layer, visibility)
-                              : layers.readBit(casting.plan.bit, visibility);
+    read(0);
     add(visibility, LightChannel::All);
     return;
   }
@@ -116,7 +120,7 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
   for (int channel = 0; channel < 3; ++channel)
   {
     const bool seen = casting.plan.channels == 3;
-    layers.read(casting.plan.layer + (seen ? channel : 0), visibility);
+    read(seen ? channel : 0);
     const float lit = seen ? 1.0f : casting.light().texture->mean[channel];
     std::transform(
       visibility.begin(), visibility.end(), visibility.begin(), [&](float v) { return lit * v; });

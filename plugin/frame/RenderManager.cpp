@@ -217,7 +217,7 @@ void RenderManager::configureShaders(const vtkRenderState* s)
   this->programs_.shaders.configure(
     { frame.route(), this->receivers_.readsPoints(), frame.scene.picture.samples > 1, writes,
       this->stageValues_.viewFromVtkView == glm::dmat4(1.0), frame.scene.props.seenThrough,
-      frame.plan.layers, frame.plan.sky ? frame.plan.sky->layer : noSkyLayer },
+      frame.plan.layers, frame.plan.sky ? frame.plan.sky->layer : noSkyLayer, frame.plan.edgeBit },
     shaded);
   this->stageValues_.skyLight = frame.plan.sky ? frame.plan.sky->light : glm::vec3(0.0f);
 }
@@ -327,6 +327,7 @@ void RenderManager::drawShadows()
 void RenderManager::beginShading(const vtkRenderState* s)
 {
   this->stageValues_.receiversStage = false;
+  this->stageValues_.edges = this->frame_.view->edges.texture();
   this->shadedView_.emplace(s->GetRenderer());
   this->hadOtherView_ = false;
   this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);

@@ -142,6 +142,10 @@ void ShaderManager::bindVisibility(const StageValues& values)
     {
       add("gnomonBits", this->bindTexture(values.bits));
     }
+    if (this->glsl_.variant().edgeBit != noBit)
+    {
+      add("gnomonEdgeImage", this->bindTexture(values.edges));
+    }
     if (this->glsl_.variant().multisampled)
     {
       add("gnomonDepths", this->bindTexture(values.depths));

@@ -54,6 +54,7 @@ public:
     TextureBinding layers;                    ///< image route: the visibility layers
     glm::vec3 skyLight{ 0.0f };               ///< image route: SkyPlan::light
     TextureBinding bits;                      ///< image route: the image of bits
+    TextureBinding edges;                     ///< image route: EdgeImage::texture()
     glm::ivec2 layersSize{ 0 };               ///< size of both in pixels
     int reductionFactor = 1;                  ///< FrameWishes::reductionFactor
     TextureBinding depths;                    ///< of the layers' receivers

@@ -22,7 +22,7 @@ void VisibilityValue::dropTiles()
 //------------------------------------------------------------------------------
 std::size_t VisibilityValue::bytes() const
 {
-  return bytesOf(this->classes) + bytesOf(this->onCpu) + this->tiles.bytes();
+  return bytesOf(this->classes) + bytesOf(this->edges) + bytesOf(this->onCpu) + this->tiles.bytes();
 }
 
 //------------------------------------------------------------------------------
@@ -32,7 +32,7 @@ std::size_t ViewValues::bytesOfImages() const
     bytesOf(this->receivers.images.fragments) + bytesOf(this->receivers.fragmentsBefore) +
     this->receivers.pixels.bytes() + this->receivers.shared.bytes() + this->layers.bytes() +
     (this->receivers.boxes ? this->receivers.boxes->bytes() : 0) +
-    bytesOfAll(this->visibility, &VisibilityValue::bytes) +
+    bytesOfAll(this->visibility, &VisibilityValue::bytes) + this->edges.bytes() +
     (this->sky.image ? this->sky.image->bytes() : 0);
 }
 

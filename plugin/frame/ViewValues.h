@@ -6,12 +6,14 @@
 #include "plugin/ranks/SharedReceivers.h"
 
 #include "plugin/frame/DeferredPicture.h"
+#include "plugin/frame/EdgeImage.h"
 #include "shadowtech/base/ReceiverBoxes.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/VisibilityLayers.h"
 #include "shadowtech/base/vtkGnomonFrameCounts.h"
 #include "shadowtech/sky/SkyImage.h"
+#include "shadowtech/tracing/EdgeSamples.h"
 #include "shadowtech/tracing/TracedTiles.h"
 
 #include <array>
@@ -62,6 +64,8 @@ struct VisibilityValue
   LightCounts counts;                ///< of the frame that computed it
   std::optional<double> tracedShare; ///< of its tiles, the part that had rays; none: not counted
   std::vector<std::string> notes;    ///< its notes (FrameCounts::notes)
+  int edgeSamples = 1;               ///< LightPlan::edgeSamples of the picture's edges
+  std::vector<EdgePixel> edges;      ///< of the picture, if it smooths any
   bool classified = false;
   std::vector<std::uint8_t> classes; ///< of each pixel, if `classified`
   ///@{
@@ -92,6 +96,8 @@ struct ViewValues
   TechniqueCache techniques; ///< of lights whose maps are fitted to this view's camera
   VisibilityLayers layers;
   std::vector<VisibilityValue> visibility; ///< by casting light
+  EdgeImage edges;                         ///< of all lights, on the image route
+  bool marksEdges = false;                 ///< bits mark edge pixels
   SkyValue sky;
 
   std::size_t bytesOfImages() const;

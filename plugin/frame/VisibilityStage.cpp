@@ -86,6 +86,22 @@ bool VisibilityStage::classifies() const
 }
 
 //------------------------------------------------------------------------------
+/// Return what a value lacks that is made from the same parts, as a clause; empty if nothing.
+std::string VisibilityStage::whyUnfinished(
+  const CastingLight& casting, const VisibilityValue& value) const
+{
+  if (casting.light().area && value.counts.progress < 1.0)
+  {
+    return "more of the light's points";
+  }
+  if (value.edgeSamples < casting.plan.edgeSamples)
+  {
+    return "edges of its shadows are to be smooth";
+  }
+  return this->classifies() && !value.classified ? "how pixels were decided is asked for" : "";
+}
+
+//------------------------------------------------------------------------------
 void VisibilityStage::findStale()
 {
   std::vector<VisibilityValue>& values = this->frame_.view->visibility;
@@ -99,14 +115,9 @@ void VisibilityStage::findStale()
     casting.mayKeepTiles =
       value->key && !changes.empty() && leavesTiles(key.changedParts(*value->key));
     value->samples = changes.empty() ? value->samples : 0;
-    if (changes.empty() && value->counts.progress < 1.0)
-    {
-      changes = "more of the light's points";
-    }
-    if (changes.empty() && this->classifies() && !value->classified)
-    {
-      changes = "how pixels were decided is asked for";
-    }
+    casting.smooths =
+      casting.plan.edgeSamples > 1 && (changes.empty() || !casting.plan.edgesFollow);
+    changes = changes.empty() ? this->whyUnfinished(casting, *value) : changes;
     casting.isStale = !changes.empty();
     changesOf.push_back(changes);
     ++value;
@@ -207,6 +218,11 @@ void VisibilityStage::compute()
         casting.counts.classes = countClasses(named, value->classes);
       }
       value->key = this->keyOf(casting);
+      value->edgeSamples = casting.smooths ? casting.plan.edgeSamples : 1;
+      if (!casting.smooths && casting.plan.edgeSamples > 1)
+      {
+        casting.counts.progress = 1.0 / casting.plan.edgeSamples;
+      }
       value->counts = casting.counts;
       ++counts.visibilityComputed;
       counts.raysTraced += casting.counts.rays;
@@ -219,6 +235,7 @@ void VisibilityStage::compute()
   {
     view.layers.darkenBits(this->darkBits_, view.receivers.boxes->receives());
   }
+  this->updateEdges();
   if (view.layers.uploadBits())
   {
     this->frame_.endStage("visibility: upload");
@@ -260,9 +277,10 @@ TracedTiles* VisibilityStage::beginTiles(
     value.dropTiles();
     return nullptr;
   }
+  const bool classifies = value.classified || casting.smooths;
   const bool isFollowed = casting.mayKeepTiles && value.receiversNumber == receivers.numberBefore &&
-    (!value.classified || !value.classes.empty());
-  if (!isFollowed || !value.classified)
+    (!classifies || !value.classes.empty());
+  if (!isFollowed || !classifies)
   {
     value.classes.clear();
   }
@@ -280,6 +298,7 @@ void VisibilityStage::fill(
   CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value)
 {
   value.notes.clear();
+  value.edges.clear();
   value.tracedShare.reset();
   if (!casting.isOnCpu())
   {
@@ -324,10 +343,11 @@ void VisibilityStage::trace(
 {
   const ShadowLight& light = casting.light();
   VisibilityLayers& layers = this->frame_.view->layers;
-  std::vector<std::uint8_t>* const classes = value.classified ? &value.classes : nullptr;
+  const std::size_t edgeSamples =
+    casting.smooths ? static_cast<std::size_t>(casting.plan.edgeSamples) : casting.edgeSamples();
+  std::vector<std::uint8_t>* const classes =
+    value.classified || edgeSamples > 1 ? &value.classes : nullptr;
   auto& technique = *casting.own->as<CpuScreenTechnique>();
-  const std::size_t edgeSamples = casting.edgeSamples();
-  std::vector<std::uint8_t> classesForEdges;
   ShadowLight traced = light;
   traced.lightSamples = samplesOfStep(casting.plan.firstSamples, value.samples, light.lightSamples);
   value.samples = traced.lightSamples;
@@ -341,7 +361,7 @@ void VisibilityStage::trace(
   }
   casting.own->tellRays(!verdicts || verdicts->needManyRays());
   const bool isDeferred = this->frame_.route() == Route::Deferred;
-  if (verdicts && hasBit && !isDeferred && verdicts->areAllDark())
+  if (verdicts && hasBit && !isDeferred && verdicts->areAllDark()) // and there are no edges
   {
     value.dropTiles();
     this->darkBits_.push_back(casting.plan.bit);
@@ -361,28 +381,78 @@ void VisibilityStage::trace(
   ScreenInput input{ traced, casting.own->fitting(), onCpu.surfaces(), onCpu.receivers(),
     this->tracer_.get(), this->frame_.counts.mapBakes };
   input.usesMap = casting.own->usesMap();
-  input.classes = classes || edgeSamples == 1 ? classes : &classesForEdges;
+  input.classes = classes;
   input.tiles = tiles;
   input.verdicts = verdicts;
   namingLight(light, [&] { technique.computeVisibility(input, visibility, casting.counts); });
   this->frame_.endStage("visibility: trace");
+  if (hasBit)
+  {
+    layers.fillBit(casting.plan.bit, visibility);
+  }
+  std::vector<EdgePixel> edges;
   if (edgeSamples > 1)
   {
     const auto smooth = [&](const SharedPicture* several)
     {
-      this->edges_.smooth(
+      edges = this->edges_.smooth(
         technique, input, *input.classes, edgeSamples, visibility, several, casting.counts);
     };
     namingLight(light, [&] { onCpu.smoothEdges(smooth); });
     this->frame_.endStage("visibility: edges");
   }
-  hasBit ? layers.fillBit(casting.plan.bit, visibility)
-         : layers.upload(casting.plan.layer, visibility);
+  for (const EdgePixel& edge : edges)
+  {
+    visibility[edge.pixel] = edge.visibility;
+  }
+  if (!hasBit)
+  {
+    layers.upload(casting.plan.layer, visibility);
+  }
   if (isDeferred)
   {
     this->frame_.view->receivers.deferred.keepShadows(visibility);
   }
+  if (casting.smooths && !isDeferred)
+  {
+    value.edges = std::move(edges);
+  }
   this->frame_.endStage("visibility: upload");
+}
+
+//------------------------------------------------------------------------------
+/// Bring the picture's edges on the image route up to date with those of the lights.
+void VisibilityStage::updateEdges()
+{
+  ViewValues& view = *this->frame_.view;
+  const int edgeBit = this->frame_.plan.edgeBit;
+  if (edgeBit == noBit || this->frame_.counts.visibilityComputed == 0)
+  {
+    return;
+  }
+  std::vector<const std::vector<EdgePixel>*> ofBits(static_cast<std::size_t>(edgeBit));
+  std::vector<std::uint32_t> pixels;
+  auto value = view.visibility.begin();
+  for (const CastingLight& casting : this->frame_.lights)
+  {
+    if (casting.plan.bit != noBit)
+    {
+      ofBits[static_cast<std::size_t>(casting.plan.bit)] = &value->edges;
+      std::transform(value->edges.begin(), value->edges.end(), std::back_inserter(pixels),
+        [](const EdgePixel& edge) { return edge.pixel; });
+    }
+    ++value;
+  }
+  if (!pixels.empty())
+  {
+    view.edges.update(this->frame_.size, ofBits);
+  }
+  if (!pixels.empty() || view.marksEdges)
+  {
+    view.layers.markBit(edgeBit, pixels);
+    view.marksEdges = !pixels.empty();
+    this->frame_.endStage("visibility: edges");
+  }
 }
 
 } // namespace gnomon

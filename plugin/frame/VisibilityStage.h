@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace gnomon
@@ -52,12 +53,14 @@ public:
 private:
   ValueKey keyOf(const CastingLight& casting) const;
   bool classifies() const;
+  std::string whyUnfinished(const CastingLight& casting, const VisibilityValue& value) const;
   void agreeOnStale();
   void judge();
   TracedTiles* beginTiles(
     const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value);
   void fill(CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value);
   void trace(CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value);
+  void updateEdges();
 
   Frame& frame_;
   const Occluders& occluders_;

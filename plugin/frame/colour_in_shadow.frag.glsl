@@ -2,7 +2,9 @@
 
 uniform sampler2D inShadow;
 #ifdef SOME_ARE_LIT
-#ifdef BIT
+#if defined(MIXES)
+uniform sampler2D visibility;
+#elif defined(BIT)
 uniform usampler2D visibility; // in the lowest bit
 #else
 uniform sampler2DArray visibility; // in the first layer
@@ -17,7 +19,9 @@ void main()
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   colour = texelFetch(inShadow, pixel, 0);
 #ifdef SOME_ARE_LIT
-#ifdef BIT
+#if defined(MIXES)
+  float lit = texelFetch(visibility, pixel - origin, 0).r;
+#elif defined(BIT)
   float lit = float(texelFetch(visibility, pixel - origin, 0).r & 1u);
 #else
   float lit = texelFetch(visibility, ivec3(pixel - origin, 0), 0).r;

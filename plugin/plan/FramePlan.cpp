@@ -148,13 +148,17 @@ std::optional<SkyPlan> planSky(const Scene& scene, const FrameWishes& wishes,
   return plan;
 }
 
-/// Assign layers, and bits to lights with hard shadows.
+/// Assign layers, and bits to lights with hard shadows; one bit more if pictures smooth any of
+/// their edges, in motion, too, as the images stay.
 void placeVisibility(FramePlan& plan)
 {
+  const bool smooths = std::any_of(plan.lights.begin(), plan.lights.end(),
+    [](const LightPlan& light) { return smoothsPictures(light.info(), light.light); });
+  const int mostBits = VisibilityLayers::mostBits - (smooths ? 1 : 0);
   for (LightPlan& light : plan.lights)
   {
     light.channels = channelsOf(light.info(), light.light);
-    if (isBit(light.info(), light.light) && plan.bits < VisibilityLayers::mostBits)
+    if (isBit(light.info(), light.light) && plan.bits < mostBits)
     {
       light.bit = plan.bits++;
     }
@@ -164,6 +168,7 @@ void placeVisibility(FramePlan& plan)
       plan.layers += light.channels;
     }
   }
+  plan.edgeBit = smooths ? plan.bits++ : noBit;
   if (plan.sky)
   {
     plan.sky->layer = plan.layers++;
@@ -216,6 +221,12 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
                       plan.lights.size(), light.light.lightSamples));
   }
   placeVisibility(plan);
+  plan.isApproximate = plan.isApproximate || (scene.picture.moves && plan.edgeBit != noBit);
+  for (LightPlan& light : plan.lights)
+  {
+    planEdges(light, scene.picture.moves,
+      scene.picture.mayRefine && !scene.picture.severalViews && !wishes.isShared);
+  }
   plan.namesSurfaces = wishes.isShared || wishes.keepVisibility;
   plan.reusesTiles = !wishes.isShared;
   return plan;

@@ -39,6 +39,7 @@ struct FramePlan
   std::optional<SkyPlan> sky;    ///< none: VTK's ambient light
   int layers = 0;                ///< of visibility
   int bits = 0;
+  int edgeBit = noBit; ///< of these, the one of pixels at edges that pictures smooth
   std::vector<SkippedLight> skipped;
   std::vector<std::string> misfits; ///< FrameReport::misfits
   std::vector<std::string> notes;   ///< FrameReport::notes

@@ -195,13 +195,21 @@ bool isHard(const TechniqueInfo& info, const ShadowLight& light)
 std::size_t edgeSamplesOf(const TechniqueInfo& info, const ShadowLight& light)
 {
   const bool smooths = info.has(edgeSettings()) && !light.area;
-  return smooths ? static_cast<std::size_t>(light.edge.samples) : 1;
+  return smooths ? static_cast<std::size_t>(std::max(light.edge.samples, 1)) : 1;
+}
+
+//------------------------------------------------------------------------------
+bool smoothsPictures(const TechniqueInfo& info, const ShadowLight& light)
+{
+  constexpr int automatic = 0; // of `edge_samples`
+  return isBit(info, light) && info.has(edgeSettings()) && light.edge.samples == automatic &&
+    !light.isPointOfArea; // the mean of many pictures is smooth
 }
 
 //------------------------------------------------------------------------------
 bool isBit(const TechniqueInfo& info, const ShadowLight& light)
 {
-  return isHard(info, light) && !light.texture && edgeSamplesOf(info, light) == 1;
+  return isHard(info, light) && edgeSamplesOf(info, light) == 1;
 }
 
 //------------------------------------------------------------------------------
@@ -260,6 +268,15 @@ ShadedBy planShading(const LightPlan& plan, Route route, bool translucent)
     return translucent || route == Route::Inline ? ShadedBy::Own : ShadedBy::Fetch;
   }
   return translucent ? ShadedBy::Plain : ShadedBy::Fetch;
+}
+
+//------------------------------------------------------------------------------
+void planEdges(LightPlan& plan, bool moves, bool mayFollow)
+{
+  constexpr int samplesAtRest = 16;
+  const bool smooths = plan.bit != noBit && smoothsPictures(plan.info(), plan.light);
+  plan.edgeSamples = smooths && !moves ? samplesAtRest : 1;
+  plan.edgesFollow = mayFollow;
 }
 
 //------------------------------------------------------------------------------

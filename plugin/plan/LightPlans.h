@@ -51,6 +51,10 @@ struct LightPlan
   int channels = 1;     ///< of its visibility, a layer each
   int layer = 0;        ///< its first layer
   int bit = noBit;      ///< or its bit in the image of bits
+  /// The shadow rays of the picture's pixels at edges, of a light with a bit. The bit stays the
+  /// visibility of the pixels' centres.
+  int edgeSamples = 1;
+  bool edgesFollow = false; ///< true if a frame smooths no edges of visibility that it computes
   ShadedBy shadedBy = ShadedBy::Fetch;
   FitTarget fit = FitTarget::None;
   std::string fitReason; ///< LightReport::fitReason
@@ -70,8 +74,11 @@ struct LightPlans
 
 /// True if a light's visibility is exact and of one ray a point: 0 or full light.
 bool isHard(const TechniqueInfo& info, const ShadowLight& light);
-/// Return the number of shadow rays for a pixel at an edge. Area lights have no edges: 1.
+/// Return the number of shadow rays for a pixel's visibility at an edge. Area lights have no edges:
+/// 1. So have pictures that are smoothed by themselves (LightPlan::edgeSamples).
 std::size_t edgeSamplesOf(const TechniqueInfo& info, const ShadowLight& light);
+/// True if a light's edges are smooth in pictures at rest, and its visibility is 0 or 1.
+bool smoothsPictures(const TechniqueInfo& info, const ShadowLight& light);
 /// True if one bit a pixel holds a light's visibility.
 bool isBit(const TechniqueInfo& info, const ShadowLight& light);
 
@@ -89,6 +96,10 @@ Composition planAsCentre(const ShadowLight& asked, const SceneLights& scene);
 /// Return what VTK's shaders call for a light.
 /// @param translucent true if translucent surfaces show shadows
 ShadedBy planShading(const LightPlan& plan, Route route, bool translucent);
+
+/// Plan how the picture smooths the edges of a light's shadows.
+/// @param mayFollow true if more frames at rest follow
+void planEdges(LightPlan& plan, bool moves, bool mayFollow);
 
 /// Plan what a light's views are fitted to: the receivers that are drawn, as they give the tightest
 /// fit, unless there is a reason against it.

@@ -206,6 +206,20 @@ void VisibilityLayers::darkenBits(
 }
 
 //------------------------------------------------------------------------------
+void VisibilityLayers::markBit(int bit, const std::vector<std::uint32_t>& pixels)
+{
+  const std::uint8_t mark = maskOf(bit);
+  std::uint8_t* const to = this->bitsOfPixels_.data() + byteOf(bit);
+  visitBytes(this->bitsOfPixels_.size() / this->bytesOfPixel_, this->bytesOfPixel_,
+    [=](std::size_t, std::size_t place) { to[place] &= static_cast<std::uint8_t>(~mark); });
+  for (const std::uint32_t pixel : pixels)
+  {
+    to[pixel * this->bytesOfPixel_] |= mark;
+  }
+  this->bitsChanged_ = true;
+}
+
+//------------------------------------------------------------------------------
 bool VisibilityLayers::uploadBits()
 {
   if (!std::exchange(this->bitsChanged_, false))

@@ -55,6 +55,8 @@ public:
   void fillBit(int bit, const std::vector<float>& visibility);
   /// Set the bits of lights that are dark everywhere: 0 where a pixel shows a receiver, else 1.
   void darkenBits(const std::vector<int>& bits, const std::vector<std::uint8_t>& receives);
+  /// Set a bit to 1 at some pixels, and to 0 at all others.
+  void markBit(int bit, const std::vector<std::uint32_t>& pixels);
   /// Upload the bits, after all of them are set.
   /// @return false if none changed
   bool uploadBits();

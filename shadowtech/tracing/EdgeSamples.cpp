@@ -18,8 +18,12 @@ namespace gnomon
 namespace
 {
 
-constexpr std::size_t pixelsAtOnce = 256;         ///< of a task
-constexpr std::size_t samplesInMemory = 1u << 20; ///< 35 MB
+constexpr std::size_t pixelsAtOnce = 256; ///< of a task
+///@{
+/// Samples in memory: they fit into caches, unless processes would wait for each other more often.
+constexpr std::size_t samplesAlone = 1u << 16;  ///< 2 MB
+constexpr std::size_t samplesShared = 1u << 20; ///< 35 MB
+///@}
 constexpr std::size_t probes = 4; ///< samples that decide if a pixel between surfaces needs all
 
 /// True if a TracedClass is of a receiver that the light can reach.
@@ -162,9 +166,9 @@ EdgePixels findEdgePixels(const ShownSurfaces& surfaces, const std::vector<float
 } // namespace
 
 //------------------------------------------------------------------------------
-void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input,
-  const std::vector<std::uint8_t>& classes, std::size_t perPixel, std::vector<float>& visibility,
-  const SharedPicture* several, LightCounts& counts)
+std::vector<EdgePixel> EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input,
+  const std::vector<std::uint8_t>& classes, std::size_t perPixel,
+  const std::vector<float>& visibility, const SharedPicture* several, LightCounts& counts)
 {
   const Drawn drawn = several ? several->drawn : input.receivers.drawn();
   const ReceiverImages& images = drawn.images;
@@ -175,12 +179,12 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
   const auto trace =
     [&](const std::vector<std::uint32_t>& pixels, std::size_t count, bool drops, const auto& take)
   {
-    const std::size_t most = samplesInMemory / count;
+    const std::size_t most = (several ? samplesShared : samplesAlone) / count;
     for (std::size_t first = 0; first < pixels.size(); first += most)
     {
       const std::vector<std::uint32_t> some(pixels.begin() + static_cast<std::ptrdiff_t>(first),
         pixels.begin() + static_cast<std::ptrdiff_t>(std::min(first + most, pixels.size())));
-      this->place(drawn, several, some, count);
+      this->place(drawn, several, some, count, drops);
       if (several)
       {
         this->share(*several);
@@ -219,14 +223,24 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
   {
     pixels.insert(pixels.end(), edges.ofSurfaces.begin(), edges.ofSurfaces.end());
   }
-  trace(pixels, perPixel, true, [&](std::uint32_t pixel, float mean) { visibility[pixel] = mean; });
+  std::vector<EdgePixel> smooth;
+  trace(pixels, perPixel, true,
+    [&](std::uint32_t pixel, float mean)
+    {
+      if (mean != visibility[pixel])
+      {
+        smooth.push_back({ pixel, mean });
+      }
+    });
+  return smooth;
 }
 
 //------------------------------------------------------------------------------
 /// Compute the samples' receivers on the triangles that this process drew. Samples without a
 /// receiver are not covered.
+/// @param findsOutlines true if it is to be known which pixels are at outlines
 void EdgeSamples::place(const Drawn& drawn, const SharedPicture* several,
-  const std::vector<std::uint32_t>& pixels, std::size_t perPixel)
+  const std::vector<std::uint32_t>& pixels, std::size_t perPixel, bool findsOutlines)
 {
   constexpr std::size_t columns = SampleBlocks::columns;
   const std::size_t rows = SampleBlocks(perPixel).rows(pixels.size());
@@ -245,7 +259,11 @@ void EdgeSamples::place(const Drawn& drawn, const SharedPicture* several,
       SamplePlacing& placing = placings.local();
       for (std::size_t i = range.begin(); i != range.end(); ++i)
       {
-        this->outline_[i] = placing.place(pixels[i], i) ? 1 : 0;
+        const bool isPlaced = placing.place(pixels[i], i);
+        if (findsOutlines)
+        {
+          this->outline_[i] = isPlaced && placing.isAtOutline(pixels[i]) ? 1 : 0;
+        }
       }
     });
 }

@@ -33,6 +33,13 @@ struct SharedPicture
   std::function<void(std::vector<std::uint64_t>&)> uniteBits;
 };
 
+/// A pixel at an edge of a shadow.
+struct EdgePixel
+{
+  std::uint32_t pixel;
+  float visibility; ///< mean of its samples
+};
+
 /// Traces receivers between the centres of pixels near edges, for smooth edges of hard shadows.
 ///
 /// An *edge pixel* faces the light. It and its eight neighbours include both lit and dark pixels,
@@ -49,16 +56,16 @@ struct SharedPicture
 class EdgeSamples
 {
 public:
-  /// Replace the visibility of each edge pixel by the mean of its samples.
+  /// Return the edge pixels whose samples have another mean visibility than their centre.
   /// @param technique that computed the visibility of the pixels' centres, and its input
   /// @param classes of the pixels, of TracedClass
   /// @param perPixel 4, 16 or 64
-  /// @param visibility of the pixels
+  /// @param visibility of the pixels' centres
   /// @param several null if this process draws the picture alone
   /// @param counts the traced rays are added to it
-  void smooth(CpuScreenTechnique& technique, const ScreenInput& input,
-    const std::vector<std::uint8_t>& classes, std::size_t perPixel, std::vector<float>& visibility,
-    const SharedPicture* several, LightCounts& counts);
+  std::vector<EdgePixel> smooth(CpuScreenTechnique& technique, const ScreenInput& input,
+    const std::vector<std::uint8_t>& classes, std::size_t perPixel,
+    const std::vector<float>& visibility, const SharedPicture* several, LightCounts& counts);
 
   /// Return the bytes cached for the next picture.
   std::size_t bytes() const
@@ -69,7 +76,7 @@ public:
 
 private:
   void place(const Drawn& drawn, const SharedPicture* several,
-    const std::vector<std::uint32_t>& pixels, std::size_t perPixel);
+    const std::vector<std::uint32_t>& pixels, std::size_t perPixel, bool findsOutlines);
   void share(const SharedPicture& several);
   void dropHidden(const ReceiverImages& images, const EmbreeTracer& hiders,
     const SharedPicture* several, const std::vector<std::uint32_t>& pixels, std::size_t perPixel);

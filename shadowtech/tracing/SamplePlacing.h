@@ -91,19 +91,16 @@ public:
     , receivers_(receivers)
     , orders_(orders)
   {
-    this->samples_.resize(static_cast<int>(places.size()), 1, drawn.findsCurves);
     this->centre_.resize(1, 1, drawn.findsCurves);
   }
 
   /// @param block the pixel's index among the pixels with samples
-  /// @return true if the pixel is at an outline: a neighbour shows something that does not continue
-  /// its surface
+  /// @return true if the pixel shows a receiver
   bool place(std::uint32_t pixel, std::size_t block)
   {
     const auto width = static_cast<std::uint32_t>(this->drawn_.images.width);
     this->pixel_ = { static_cast<int>(pixel % width), static_cast<int>(pixel / width) };
     this->block_ = block;
-    this->next_ = 0;
     this->remaining_ = this->places_.size();
     std::iota(this->missing_.begin(), this->missing_.begin() + this->remaining_, 0);
     const std::optional<Shown> shown = this->shownAt(this->pixel_);
@@ -116,7 +113,26 @@ public:
       leaveUncovered(
         { 0.0, 0.0, 1, this->blocks_.sample(block, this->missing_[i]) }, this->receivers_);
     }
-    return shown && this->isAtOutline(pixel);
+    return shown.has_value();
+  }
+
+  /// True if the receiver that was placed last is at an outline: a neighbour shows something that
+  /// does not continue its surface.
+  bool isAtOutline(std::uint32_t own)
+  {
+    bool isOutline = false;
+    this->visitNeighbours(
+      [&](const glm::ivec2& at, int)
+      {
+        const std::size_t pixel = this->pixelAt(at);
+        if (!isOutline && (this->isSolid_ || !this->showSame(pixel, own)))
+        {
+          const std::optional<Shown> shown = this->shownAt(at);
+          isOutline = this->surfaces_[pixel].x != this->surfaces_[own].x || !shown ||
+            !this->goesOn(shown->position, shown->normal);
+        }
+      });
+    return isOutline;
   }
 
 private:
@@ -191,23 +207,6 @@ private:
     }
   }
 
-  bool isAtOutline(std::size_t own)
-  {
-    bool isOutline = false;
-    this->visitNeighbours(
-      [&](const glm::ivec2& at, int)
-      {
-        const std::size_t pixel = this->pixelAt(at);
-        if (!isOutline && (this->isSolid_ || !this->showSame(pixel, own)))
-        {
-          const std::optional<Shown> shown = this->shownAt(at);
-          isOutline = this->surfaces_[pixel].x != this->surfaces_[own].x || !shown ||
-            !this->goesOn(shown->position, shown->normal);
-        }
-      });
-    return isOutline;
-  }
-
   /// True if two pixels are known to show the same triangle or solid.
   bool showSame(std::size_t pixel, std::size_t other) const
   {
@@ -264,8 +263,8 @@ private:
   /// @param seen if not finite, none do
   void fill(const SeenTriangle& seen, float order)
   {
-    const std::size_t first = this->next_;
     std::size_t left = 0;
+    PixelSpan together{ 0.0, 0.0, 0, 0 }; // receivers side by side
     for (std::size_t i = 0; i < this->remaining_ && seen.finite; ++i)
     {
       const std::size_t sample = this->missing_[i];
@@ -277,34 +276,31 @@ private:
       }
       else
       {
-        this->add(seen, met, place, sample);
+        const std::size_t to = this->blocks_.sample(this->block_, sample);
+        this->add(seen, met, place, to, order);
+        if (together.first + together.count != to)
+        {
+          this->bend(seen, together);
+          together = { 0.0, 0.0, 0, to };
+        }
+        ++together.count;
       }
     }
+    this->bend(seen, together);
     this->remaining_ = seen.finite ? left : this->remaining_;
-    const std::size_t count = this->next_ - first;
-    if (count > 0 && seen.smoothNormals)
-    {
-      findCurves(seen, { 0.0, 0.0, count, first }, this->samples_);
-    }
-    for (std::size_t i = first; i < this->next_; ++i)
-    {
-      this->copy(i, order);
-    }
   }
 
-  /// Copy a receiver to its place among those of all pixels.
-  void copy(std::size_t i, float order)
+  /// @param to the receiver's index among those of all pixels
+  void add(
+    const SeenTriangle& seen, const Met& met, const glm::dvec2& place, std::size_t to, float order)
   {
-    const std::size_t to = this->blocks_.sample(this->block_, this->taken_[i]);
-    for (const auto plane : ReceiverPixels::planes)
+    if (seen.solid)
     {
-      (this->receivers_.*plane)[to] = (this->samples_.*plane)[i];
+      projectSolid(seen, this->drawn_.images.rays, { place.x, place.y, 1, to }, this->receivers_);
     }
-    this->receivers_.surface[to] = this->samples_.surface[i];
-    this->receivers_.curved[to] = this->samples_.curved[i];
-    if (this->samples_.curved[i] != 0)
+    else
     {
-      this->receivers_.curves[to] = this->samples_.curves[i];
+      this->receivers_.put(to, met.position, seen.normal, met.offset, seen.surface);
     }
     if (this->several_)
     {
@@ -312,16 +308,13 @@ private:
     }
   }
 
-  void add(const SeenTriangle& seen, const Met& met, const glm::dvec2& place, std::size_t sample)
+  /// Find the curved surface above receivers, if there is one.
+  void bend(const SeenTriangle& seen, const PixelSpan& span)
   {
-    const std::size_t i = this->next_++;
-    this->taken_[i] = sample;
-    if (seen.solid)
+    if (span.count > 0 && seen.smoothNormals)
     {
-      projectSolid(seen, this->drawn_.images.rays, { place.x, place.y, 1, i }, this->samples_);
-      return;
+      findCurves(seen, span, this->receivers_);
     }
-    this->samples_.put(i, met.position, seen.normal, met.offset, seen.surface);
   }
 
   const Drawn& drawn_;
@@ -331,8 +324,7 @@ private:
   const SampleBlocks blocks_;
   ReceiverPixels& receivers_; ///< of all pixels' samples
   std::vector<float>& orders_;
-  ReceiverPixels samples_; ///< of one pixel's samples, in the order in which they were found
-  ReceiverPixels centre_;  ///< of one pixel
+  ReceiverPixels centre_; ///< of one pixel
   SeenTriangles cache_;
 
   glm::ivec2 pixel_{ 0 };
@@ -340,10 +332,8 @@ private:
   Shown shown_{};
   bool isSolid_ = false;   ///< the pixel shows a solid of this process
   double mostApart_ = 0.0; ///< of planes that go on: a pixel's side, and the position's rounding
-  std::array<std::size_t, SampleBlocks::mostSamples> taken_; ///< the samples of samples_
   std::array<std::size_t, SampleBlocks::mostSamples> missing_{};
   std::size_t remaining_ = 0; ///< number of missing samples
-  std::size_t next_ = 0;      ///< index of the next receiver
 };
 
 } // namespace gnomon

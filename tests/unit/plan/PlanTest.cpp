@@ -55,6 +55,16 @@ const EstimatorEntry& rays()
   static const EstimatorEntry entry = estimator("raytraced", Evaluation::ScreenCpu, true);
   return entry;
 }
+const EstimatorEntry& raysWithEdges()
+{
+  static const EstimatorEntry entry = []
+  {
+    EstimatorEntry made = rays();
+    made.info.settings.push_back(&edgeSettings());
+    return made;
+  }();
+  return entry;
+}
 const EstimatorEntry& layers()
 {
   static const EstimatorEntry entry = estimator("sampled", Evaluation::ScreenGpu, false);
@@ -467,6 +477,63 @@ TEST(FramePlans, letTheSkyShine)
   const FramePlan shared = planFrame(sceneOf({ "raytraced" }), wishes, {}, {});
   EXPECT_FALSE(shared.sky);
   EXPECT_THAT(shared.notes, Contains(HasSubstr("the sky")));
+}
+
+TEST(FramePlans, smoothThePicturesEdgesAtRest)
+{
+  struct EdgeCase
+  {
+    const char* name;
+    std::function<void(Scene&, FrameWishes&)> change;
+    int edgeSamples; ///< of light 0
+    int bits;        ///< of two lights
+    bool follow = false;
+  };
+  const auto light = [](Scene& scene) -> ShadowLight& { return scene.lights.set.lights[0]; };
+  const EdgeCase cases[] = {
+    { "at rest", [](Scene&, FrameWishes&) {}, 16, 3 },
+    { "in motion", [](Scene& scene, FrameWishes&) { scene.picture.moves = true; }, 1, 3 },
+    { "in motion, several processes",
+      [](Scene& scene, FrameWishes& wishes) { scene.picture.moves = wishes.isShared = true; }, 1,
+      3 },
+    { "more frames follow", [](Scene& scene, FrameWishes&) { scene.picture.mayRefine = true; }, 16,
+      3, true },
+    { "several views",
+      [](Scene& scene, FrameWishes&)
+      { scene.picture.mayRefine = scene.picture.severalViews = true; },
+      16, 3 },
+    { "several processes",
+      [](Scene& scene, FrameWishes& wishes) { scene.picture.mayRefine = wishes.isShared = true; },
+      16, 3 },
+    { "named", [&](Scene& scene, FrameWishes&) { light(scene).edge.samples = 16; }, 1, 2 },
+    { "switched off", [&](Scene& scene, FrameWishes&) { light(scene).edge.samples = 1; }, 1, 3 },
+    { "an area", [&](Scene& scene, FrameWishes&) { light(scene).area.emplace(); }, 1, 2 },
+    { "a point of one", [&](Scene& scene, FrameWishes&) { light(scene).isPointOfArea = true; }, 1,
+      3 },
+  };
+  for (const EdgeCase& of : cases)
+  {
+    SCOPED_TRACE(of.name);
+    Scene scene = sceneOf({ "raytraced", "raytraced" });
+    scene.lights.compose = [](ShadowLight asked) {
+      return Composition{ std::move(asked), &raysWithEdges(), "" };
+    };
+    FrameWishes wishes;
+    of.change(scene, wishes);
+    const FramePlan plan = planFrame(scene, wishes, {}, {});
+    ASSERT_EQ(plan.lights.size(), 2u);
+    EXPECT_EQ(plan.lights[0].edgeSamples, of.edgeSamples);
+    EXPECT_EQ(plan.lights[0].edgesFollow, of.follow);
+    EXPECT_EQ(plan.bits, of.bits);
+    EXPECT_EQ(plan.edgeBit, of.bits - 1) << "behind the lights' bits";
+    EXPECT_EQ(plan.isApproximate, scene.picture.moves);
+  }
+
+  Scene scene = sceneOf({ "raytraced" }); // without the setting
+  scene.picture.moves = true;
+  scene.deferred = DeferredFacts{};
+  EXPECT_EQ(planFrame(scene, {}, {}, {}).edgeBit, noBit);
+  EXPECT_FALSE(planFrame(scene, {}, {}, {}).isApproximate);
 }
 
 TEST(FramePlans, leaveTheSkyOpenToKeepTheWindowsRate)

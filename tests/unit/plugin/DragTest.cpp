@@ -94,6 +94,8 @@ public:
     : BoxScene(80, 60)
     , loop_(loop)
   {
+    this->set("edge_samples", "auto");
+    this->choose("nsm"); // now that setting is no error
     this->window->SetOffScreenRendering(0);
     this->interactor->SetRenderWindow(this->window);
     this->style.TakeReference(style.make());
@@ -342,6 +344,27 @@ TEST_F(PictureTimer, drawsARestingPictureAfterAProgramsMotion)
   wait(*this, 600.0);
   EXPECT_EQ(this->technique(), "silhouette");
   EXPECT_FALSE(this->hasTimers());
+}
+
+/// The first picture at rest comes at once, with one sample a pixel; the next has smooth edges.
+TEST_F(PictureTimer, edgesAreSmoothInTheSecondPictureAtRest)
+{
+  for (const char* const technique : { "auto", "raytraced" })
+  {
+    this->pass->SetTechnique(technique);
+    this->render();
+    std::vector<double> progress;
+    this->on(
+      this->renderer, vtkCommand::EndEvent, [&] { progress.push_back(this->pass->GetProgress()); });
+    this->move();
+    EXPECT_EQ(progress, std::vector<double>{ 1.0 }) << "in motion";
+    const Picture hard = readPicture(this->window);
+    waitForTimers(*this);
+    EXPECT_EQ(progress.back(), 1.0);
+    EXPECT_GT(differingPixels(readPicture(this->window), hard, 8), 5u) << technique;
+    EXPECT_TRUE(readPicture(this->window) == fresh(*this, { "", technique }));
+    this->renderer->RemoveObservers(vtkCommand::EndEvent);
+  }
 }
 
 TEST_F(PictureTimer, thePassMayGoInTheFrameThatTheTimerDraws)

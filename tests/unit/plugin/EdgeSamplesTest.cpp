@@ -1,7 +1,10 @@
 // Smooth edges of hard shadows (the setting `edge_samples`), against 256 samples of every pixel.
 
+#include "AreaLights.h"
 #include "BuiltinPass.h"
 #include "PassScene.h"
+
+#include "plugin/vtkGnomonLightSamplingPass.h"
 
 #include <vtkCellArray.h>
 #include <vtkOpenGLSphereMapper.h>
@@ -135,6 +138,17 @@ protected:
     this->scene.choose("silhouette edge_samples=16");
   }
 
+  /// Return the picture of a new pass, which has no earlier frames.
+  static Picture freshPicture(PassScene& scene)
+  {
+    vtkNew<vtkGnomonShadowPass> pass;
+    pass->SetTechnique(scene.pass->GetTechnique());
+    pass->SetSetting("edge_samples", scene.pass->GetSetting("edge_samples").c_str());
+    scene.renderer->SetPass(pass);
+    Picture picture = scene.render();
+    scene.useGnomon();
+    return picture;
+  }
   std::size_t countMixed() { return countBetween(drawKept(this->scene).visibility[0]); }
 
   PassScene scene{ 203, 157 };
@@ -207,6 +221,31 @@ TEST_P(EdgeSamplesOf, lookAlikeByBothRoutes)
   EXPECT_EQ(differingPixels(hard, draw(vtkGnomonShadowPass::ROUTE_DEFERRED, "1")), 0u);
 }
 
+/// By default pictures at rest have smooth edges. Visibility stays that of the pixels' centres.
+TEST_P(EdgeSamplesOf, areOfPicturesAtRestAlone)
+{
+  const BuiltinPass scene(this->scene(), 301, 203);
+  scene.pass->SmoothTerminatorsOn();
+  for (const int route : { vtkGnomonShadowPass::ROUTE_IMAGE, vtkGnomonShadowPass::ROUTE_DEFERRED })
+  {
+    scene.pass->SetKeepVisibility(route == vtkGnomonShadowPass::ROUTE_IMAGE);
+    scene.pass->SetRoute(route);
+    const Picture hard = scene.render("silhouette edge_samples=1");
+    const VisibilityImages centres = scene.pass->GetVisibility();
+    const Picture smooth = scene.render("edge_samples=16");
+    const Picture byDefault = scene.render("edge_samples=auto");
+    EXPECT_GT(differingPixels(hard, byDefault, 8), 100u);
+    EXPECT_EQ(differingPixels(smooth, byDefault, 1), 0u);
+    EXPECT_EQ(scene.pass->GetVisibility().visibility, centres.visibility);
+    EXPECT_TRUE(scene.render() == byDefault) << "once more";
+    scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+    scene.renderer->GetActiveCamera()->Azimuth(1e-9);
+    EXPECT_TRUE(scene.render() == hard) << "in motion";
+    scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
+    EXPECT_TRUE(scene.render() == byDefault) << "at rest again";
+  }
+}
+
 /// A lit plate over ground wholly in its shadow, and lit ground before a dark wall.
 TEST_F(EdgeSamples, haveNoFringesAtOutlines)
 {
@@ -251,6 +290,60 @@ TEST_F(EdgeSamples, areThereForAllLightsCamerasAndShapes)
     this->scene.pass->SetTechnique(technique);
     EXPECT_GT(this->countMixed(), 60u) << technique;
   }
+}
+
+/// Of more lights than one texel of their table holds, each with edges of its own.
+TEST_F(EdgeSamples, smoothPicturesOfManyLights)
+{
+  this->sun->SetIntensity(0.1);
+  for (int i = 1; i < 10; ++i)
+  {
+    const double turn = glm::two_pi<double>() * i / 10.0;
+    this->scene.addSun({ std::cos(turn), std::sin(turn), -1.5 })->SetIntensity(0.1);
+  }
+  const Picture smooth = this->scene.render();
+  const Picture hard = this->scene.render("edge_samples=1");
+  EXPECT_EQ(differingPixels(smooth, this->scene.render("edge_samples=auto"), 1), 0u);
+  EXPECT_GT(differingPixels(smooth, hard, 4), 300u);
+  vtkCollectionSimpleIterator iterator;
+  vtkLightCollection* const lights = this->scene.renderer->GetLights();
+  lights->InitTraversal(iterator);
+  while (vtkLight* const light = lights->GetNextLight(iterator))
+  {
+    light->SetPosition(0.9 * light->GetPosition()[0], light->GetPosition()[1], 7.0);
+    const Picture one = this->scene.render();
+    EXPECT_EQ(differingPixels(one, freshPicture(this->scene)), 0u) << "one light has moved";
+  }
+}
+
+/// Tiles that a moved prop leaves keep their visibility; edges anywhere are smooth.
+TEST_F(EdgeSamples, smoothPicturesWhosePropsMove)
+{
+  this->scene.addSphere({ 1.4, 0.9, 0.4 }, 0.3);
+  this->scene.choose("edge_samples=auto");
+  this->scene.render();
+  for (int step = 0; step < 3; ++step)
+  {
+    this->sphere->AddPosition(0.07, 0.05, 0.01);
+    const Picture moved = this->scene.render();
+    EXPECT_EQ(differingPixels(moved, freshPicture(this->scene)), 0u);
+  }
+}
+
+/// The mean of pictures from a light's points is smooth by itself.
+TEST_F(EdgeSamples, areNotOfPointsOfAreaLights)
+{
+  this->scene.renderer->RemoveAllLights();
+  addDisk(this->scene, { -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 0.5, 50.0);
+  vtkNew<vtkGnomonLightSamplingPass> sampling;
+  sampling->SetSamples(4);
+  sampling->SetSamplesPerFrame(0);
+  sampling->SetDelegatePass(this->scene.pass);
+  this->scene.renderer->SetPass(sampling);
+  const Picture smooth = this->scene.render();
+  const Picture byDefault = this->scene.render("edge_samples=auto");
+  EXPECT_GT(differingPixels(smooth, byDefault, 8), 60u) << "named samples are taken";
+  EXPECT_TRUE(this->scene.render("edge_samples=1") == byDefault);
 }
 
 /// Maps decide samples with the same result as rays.

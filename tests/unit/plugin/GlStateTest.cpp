@@ -230,7 +230,9 @@ std::vector<Drawing> drawings()
   constexpr int image = vtkGnomonShadowPass::ROUTE_IMAGE;
   constexpr int deferred = vtkGnomonShadowPass::ROUTE_DEFERRED;
   std::vector<Drawing> all = { byTechnique("raytraced", deferred, "edge_samples=1"),
-    byTechnique("raytraced", deferred, "edge_samples=16"), byTechnique("msm", within, "blur=box"),
+    byTechnique("raytraced", deferred, "edge_samples=16"),
+    byTechnique("raytraced", deferred, "edge_samples=auto"),
+    byTechnique("raytraced", image, "edge_samples=auto"), byTechnique("msm", within, "blur=box"),
     byTechnique("msm", within, "blur=sat"), byTechnique("msm", within, "mip_maps=on") };
   for (const char* technique : { "nsm", "pcf", "raytraced", "planar", "montecarlo" })
   {

@@ -50,7 +50,8 @@ PassScene::PassScene(int width, int height)
   this->window->SetSize(width, height);
   this->window->AddRenderer(this->renderer);
   this->renderer->AutomaticLightCreationOff();
-  this->pass->SetSetting("bake", "always"); // a single frame then shows the maps' shadows
+  this->pass->SetSetting("bake", "always");    // a single frame then shows the maps' shadows
+  this->pass->SetSetting("edge_samples", "1"); // and the visibility that is kept
   this->pass->SetTechnique("nsm");
   this->pass->SmoothTerminatorsOff(); // techniques are compared on the triangles
   this->useGnomon();

@@ -91,7 +91,11 @@ class Staleness
   , public testing::WithParamInterface<Way>
 {
 protected:
-  Staleness() { this->scene.choose(GetParam()); }
+  Staleness()
+  {
+    this->scene.set("edge_samples", "auto");
+    this->scene.choose(GetParam());
+  }
   bool traced() const { return std::string(GetParam().technique) == "raytraced"; }
 };
 INSTANTIATE_TEST_SUITE_P(Ways, Staleness, allWays, nameOf);

@@ -276,7 +276,8 @@ void vtkPVGnomonShadows::SetTechnique(const char* name)
 //----------------------------------------------------------------------------
 void vtkPVGnomonShadows::SetEdgeSamples(int samples)
 {
-  setSetting(this->Pass, "edge_samples", samples);
+  samples > 0 ? setSetting(this->Pass, "edge_samples", samples)
+              : setSetting(this->Pass, "edge_samples", "auto");
 }
 
 //----------------------------------------------------------------------------

@@ -1,0 +1,75 @@
+#include "plugin/frame/EdgeImage.h"
+
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/GlState.h"
+
+#include <cmath>
+
+namespace gnomon
+{
+namespace
+{
+
+constexpr std::uint32_t asCentres = 0xffffffffu; ///< of both lights of a texel
+constexpr float fullLight = 65534.0f;
+
+/// Set a light's half of a texel.
+void put(std::uint32_t& texel, std::size_t light, float visibility)
+{
+  const std::size_t shift = light % EdgeImage::lightsOfTexel * 16;
+  const auto of = static_cast<std::uint32_t>(std::lround(visibility * fullLight));
+  texel = (texel & ~(0xffffu << shift)) | of << shift;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void EdgeImage::update(
+  const glm::ivec2& size, const std::vector<const std::vector<EdgePixel>*>& ofLights)
+{
+  const std::size_t perPixel = (ofLights.size() + lightsOfTexel - 1) / lightsOfTexel;
+  const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+  this->texels_.assign(pixels, 0);
+  for (std::size_t light = 0; light < ofLights.size(); ++light)
+  {
+    for (const EdgePixel& edge : *ofLights[light])
+    {
+      std::uint32_t place = this->texels_[edge.pixel];
+      if (place == 0) // which is no place: the picture comes first
+      {
+        place = static_cast<std::uint32_t>(this->texels_.size());
+        this->texels_[edge.pixel] = place;
+        this->texels_.resize(place + perPixel, asCentres);
+      }
+      put(this->texels_[place + light / lightsOfTexel], light, edge.visibility);
+    }
+  }
+  this->upload(size);
+}
+
+//------------------------------------------------------------------------------
+void EdgeImage::upload(const glm::ivec2& size)
+{
+  constexpr std::size_t rowsAtOnce = 64; // so that a few edges more fit into the same texture
+  const std::size_t texelsAtOnce = rowsAtOnce * static_cast<std::size_t>(size.x);
+  const std::size_t steps = (this->texels_.size() + texelsAtOnce - 1) / texelsAtOnce;
+  this->texels_.resize(steps * texelsAtOnce);
+  const int rows = static_cast<int>(steps * rowsAtOnce);
+  const TexelFormat format{ GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT };
+  const GlStateGuard guard;
+  glActiveTexture(GL_TEXTURE0);
+  this->texture_.allocate(format, size.x, rows, 0, "the edges of shadows");
+  glBindTexture(GL_TEXTURE_2D, this->texture_.name());
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage2D(
+    GL_TEXTURE_2D, 0, 0, 0, size.x, rows, format.format, format.type, this->texels_.data());
+}
+
+//------------------------------------------------------------------------------
+std::size_t EdgeImage::bytes() const
+{
+  return bytesOf(this->texels_) + this->texture_.bytes();
+}
+
+} // namespace gnomon
