@@ -16,14 +16,25 @@ vtk_module_wrap_python(
   DEPENDS VTK::RenderingOpenGL2)
 
 set(gnomon_python_folder "${PROJECT_SOURCE_DIR}/plugin/python/gnomon")
-foreach(source __init__.py data.py errors.py figure.py holders.py images.py lighting.py why.py)
-  configure_file("${gnomon_python_folder}/${source}"
-    "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}/gnomon/${source}" COPYONLY)
+set(gnomon_built_package "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}")
+set(gnomon_python_sources __init__.py attributes.py catalogue.py data.py errors.py figure.py
+  holders.py images.py lighting.py why.py)
+foreach(source IN LISTS gnomon_python_sources)
+  configure_file("${gnomon_python_folder}/${source}" "${gnomon_built_package}/gnomon/${source}"
+    COPYONLY)
 endforeach()
+configure_file("${gnomon_python_folder}/_version.py.in"
+  "${gnomon_built_package}/gnomon/_version.py" @ONLY)
+# Python's importlib.metadata reads the package's name and version there.
+set(gnomon_metadata "gnomon-${PROJECT_VERSION}.dist-info")
+file(WRITE "${gnomon_built_package}/${gnomon_metadata}/METADATA"
+  "Metadata-Version: 2.1\nName: gnomon\nVersion: ${PROJECT_VERSION}\n"
+  "Summary: Shadows for VTK's renderers, from fast to exact\n")
 
 # Types for editors and type checkers (PEP 561): the wrapped classes' in stubs, which a built package
 # is asked for; those of the functions are in their sources.
-set(gnomon_built_package "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}")
+list(TRANSFORM gnomon_python_sources PREPEND "${gnomon_built_package}/gnomon/"
+  OUTPUT_VARIABLE gnomon_built_sources)
 set(gnomon_stubs
   "${gnomon_built_package}/gnomon/GnomonLights.pyi"
   "${gnomon_built_package}/gnomon/GnomonPlugin.pyi")
@@ -32,13 +43,17 @@ add_custom_command(
   COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${gnomon_built_package}"
     "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/python_stubs.py"
     "${gnomon_built_package}/gnomon" GnomonLights GnomonPlugin
-  DEPENDS "${CMAKE_CURRENT_LIST_DIR}/python_stubs.py" GnomonLightsPython GnomonPluginPython
+  DEPENDS "${CMAKE_CURRENT_LIST_DIR}/python_stubs.py" ${gnomon_built_sources} GnomonLightsPython GnomonPluginPython
   COMMENT "Writing the type stubs of the Python package"
   VERBATIM)
 add_custom_target(GnomonPythonStubs ALL DEPENDS ${gnomon_stubs})
 file(TOUCH "${gnomon_built_package}/gnomon/py.typed")
 install(FILES ${gnomon_stubs} "${gnomon_built_package}/gnomon/py.typed"
+    "${gnomon_built_package}/gnomon/_version.py"
   DESTINATION "${GNOMON_PYTHON_DESTINATION}/gnomon"
+  COMPONENT python)
+install(FILES "${gnomon_built_package}/${gnomon_metadata}/METADATA"
+  DESTINATION "${GNOMON_PYTHON_DESTINATION}/${gnomon_metadata}"
   COMPONENT python)
 install(DIRECTORY "${gnomon_python_folder}" DESTINATION "${GNOMON_PYTHON_DESTINATION}"
   COMPONENT python

@@ -15,6 +15,9 @@ import re
 import sys
 from pathlib import Path
 
+import gnomon
+from gnomon.attributes import Attribute
+
 BUILTINS = {"None", *(name for name, value in vars(builtins).items() if isinstance(value, type))}
 CONTAINERS = {(ast.Tuple, False): "Sequence", (ast.List, False): "MutableSequence",
               (ast.Tuple, True): "Tuple", (ast.List, True): "List"}
@@ -43,6 +46,9 @@ class Stub:
 
         add(docstring(inspect.getdoc(kind) if kind.__doc__ else ""))
         members = {name: value for name, value in vars(kind).items() if not name.startswith("_")}
+        subclass = getattr(gnomon, kind.__name__, kind)  # the package's, of some classes
+        members |= {name: value for name, value in vars(subclass).items()
+                    if isinstance(value, Attribute)}
         for name, value in members.items():
             if inspect.isclass(value):
                 add(self.lines_of_class(value))
@@ -53,6 +59,7 @@ class Stub:
                 add(self.lines_of_method(name, value))
             elif inspect.isdatadescriptor(value):
                 add([f"{name}: {self.type_of_property(kind, value)}"])
+                add(docstring(value.__doc__) if isinstance(value, Attribute) else [])
             else:
                 add([f"{name}: {type(value).__name__}"])
         if len(lines) == 1:
@@ -60,7 +67,10 @@ class Stub:
         return lines
 
     def type_of_property(self, kind, value):
-        """Return the type that its getter returns, which the property's text names."""
+        """Return its own type, or the type of its getter, which the property's text names."""
+        if getattr(value, "type_name", None):
+            self.imports["typing"] |= {"Literal"} & set(re.findall(r"\w+", value.type_name))
+            return value.type_name
         getter = re.search(r"\bGet\w+", value.__doc__ or "")
         method = getattr(kind, getter[0], None) if getter else None
         signatures = self.signatures(getter[0], method.__doc__ or "") if method else []

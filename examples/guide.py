@@ -44,11 +44,11 @@ def make_window():
 
 def read_arrays(window, renderer):
     """python.md"""
-    shadows = gnomon.add_shadows(renderer, light_radius=0.5)
-    shadows.KeepVisibilityOn()
+    shadows = gnomon.add_shadows(renderer, keep_visibility=True)
+    shadows.light_radius = 0.5
     window.Render()
-    print(gnomon.report(shadows)["choice"])
-    dark = gnomon.visibility(shadows)["light 0"] < 0.5
+    print(gnomon.report(renderer)["choice"])
+    dark = gnomon.visibility(renderer)["light 0"] < 0.5
     assert dark.any()
     return shadows
 

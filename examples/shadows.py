@@ -47,7 +47,7 @@ def main():
     window.AddRenderer(renderer)
 
     shadows = gnomon.add_shadows(renderer)  # or a PyVista plotter
-    shadows.KeepVisibilityOn()
+    shadows.keep_visibility = True
     window.Render()
 
     arrays = gnomon.visibility(shadows)

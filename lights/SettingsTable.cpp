@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 namespace gnomon
@@ -131,6 +132,21 @@ std::string settingNames()
     names.push_back(setting->name);
   }
   return listOf(names);
+}
+
+//------------------------------------------------------------------------------
+std::string textOfNumber(const std::string& settingName, double number)
+{
+  const Setting* const setting = findSetting(settingName);
+  const auto* choices = setting ? std::get_if<ChoiceSetting>(&setting->values) : nullptr;
+  const bool isSwitch = choices && choices->names == std::vector<std::string>{ "off", "on" };
+  if (isSwitch && (number == 0.0 || number == 1.0))
+  {
+    return number == 0.0 ? "off" : "on";
+  }
+  // The shortest text of a large integer has an exponent, which integers do not parse.
+  const bool isInteger = std::abs(number) <= 1e9 && number == std::trunc(number);
+  return isInteger ? std::to_string(static_cast<int>(number)) : shortest(number);
 }
 
 //------------------------------------------------------------------------------

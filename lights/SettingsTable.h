@@ -82,6 +82,10 @@ const std::vector<const Setting*>& shadowSettings();
 /// Return the setting with this name; nullptr without one.
 const Setting* findSetting(const std::string& name);
 
+/// Return a number as the text that the setting with this name takes: 0 and 1 are off and on of a
+/// switch.
+std::string textOfNumber(const std::string& settingName, double number);
+
 /// Return all names for error messages: "technique, map_size, ...".
 std::string settingNames();
 

@@ -109,6 +109,12 @@ bool vtkGnomonLightKeys::SetSetting(vtkLight* light, const char* name, const cha
 }
 
 //------------------------------------------------------------------------------
+bool vtkGnomonLightKeys::SetSetting(vtkLight* light, const char* name, double number)
+{
+  return SetSetting(light, name, gnomon::textOfNumber(name ? name : "", number).c_str());
+}
+
+//------------------------------------------------------------------------------
 std::string vtkGnomonLightKeys::GetSettingError()
 {
   return settingError();

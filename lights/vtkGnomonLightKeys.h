@@ -74,12 +74,15 @@ public:
 
   ///@{
   /**
-   * Set one of a light's settings by name, see above. A null or empty value removes the setting, so
-   * the pass's value applies. An unknown name or an invalid value is an error, returns false and
-   * changes nothing; GetSettingError() then says why (vtkGnomonNamedSettings), of this thread's
-   * last call. GetSetting() returns null for a setting that the light leaves unset.
+   * Set one of a light's settings by name, see above, as text or as a number, where 1 and 0 switch
+   * on and off. A null or empty text removes the setting, so the pass's value applies. An unknown
+   * name or an invalid value is an error, returns false and changes nothing; GetSettingError() then
+   * says why (vtkGnomonNamedSettings), of this thread's last call. GetSetting() returns null for a
+   * setting that the light leaves unset.
    */
   static bool SetSetting(vtkLight* light, const char* name, const char* value)
+    VTK_EXPECTS(light != nullptr);
+  static bool SetSetting(vtkLight* light, const char* name, double number)
     VTK_EXPECTS(light != nullptr);
   static std::string GetSettingError();
   static const char* GetSetting(vtkLight* light, const char* name) VTK_EXPECTS(light != nullptr);

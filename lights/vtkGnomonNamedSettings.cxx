@@ -86,6 +86,12 @@ bool vtkGnomonNamedSettings::SetSetting(const char* name, const char* value)
 }
 
 //------------------------------------------------------------------------------
+bool vtkGnomonNamedSettings::SetSetting(const char* name, double number)
+{
+  return this->SetSetting(name, gnomon::textOfNumber(name ? name : "", number).c_str());
+}
+
+//------------------------------------------------------------------------------
 std::string vtkGnomonNamedSettings::GetSettingError() const
 {
   return this->Internal->error;

@@ -29,12 +29,14 @@ public:
 
   ///@{
   /**
-   * A setting's value as text. An unknown name or an invalid value is an error, returns false and
-   * changes nothing. GetSettingError() then says why, as a sentence without a full stop, also while
+   * A setting's value, as text or as a number, where 1 and 0 switch on and off. GetSetting()
+   * returns it as text. An unknown name or an invalid value is an error, returns false and changes
+   * nothing. GetSettingError() then says why, as a sentence without a full stop, also while
    * VTK's warnings are switched off; it is empty after a success. GetSetting() returns an empty
    * string for an unknown name.
    */
   virtual bool SetSetting(const char* name, const char* value);
+  bool SetSetting(const char* name, double number);
   std::string GetSettingError() const;
   std::string GetSetting(const char* name) const;
   ///@}

@@ -96,11 +96,13 @@ public:
 
   ///@{
   /**
-   * All techniques that can be named beside "auto", by number in [0, GetNumberOfTechniques()).
+   * All techniques that can be named beside "auto", by number in [0, GetNumberOfTechniques()). The
+   * summary is also there by name, that of "auto", too.
    */
   static int GetNumberOfTechniques();
   static const char* GetTechniqueName(int index);
   static const char* GetTechniqueSummary(int index);
+  static const char* GetTechniqueSummary(const char* name);
   ///@}
 
   ///@{
@@ -122,15 +124,23 @@ public:
 
   ///@{
   /**
-   * The same by name: any of vtkGnomonLightKeys's settings,
-   * by name, technique and map size included. A setting that does not exist, and a value that it
-   * does not take, are an error, return false and change nothing; GetSettingError then says why
-   * (vtkGnomonNamedSettings). GetSetting returns an empty string for what does not exist.
+   * The same by name: any of vtkGnomonLightKeys's settings, as text or as a number, technique and
+   * map size included. A setting that does not exist, and a value that it does not take, are an
+   * error, return false and change nothing; GetSettingError then says why (vtkGnomonNamedSettings).
+   * GetSetting returns an empty string for what does not exist.
    */
   virtual bool SetSetting(const char* name, const char* value);
+  bool SetSetting(const char* name, double number);
   std::string GetSettingError() const;
   std::string GetSetting(const char* name) const;
   ///@}
+
+  /**
+   * All settings in JSON: an object by name, with the members type ("choice", "integer" or "real"),
+   * range (the choices; or the least and the most, null without a limit), unit, default, meaning,
+   * and techniques, the names of those that have the setting.
+   */
+  static std::string GetSettingsText();
 
   /**
    * How visibility reaches the picture. INLINE: VTK's fragment shader computes it; only pointwise

@@ -4,6 +4,7 @@
 #include "lights/SettingsTable.h"
 #include "plugin/frame/VisibilityData.h"
 #include "plugin/pass/ReportText.h"
+#include "plugin/pass/SettingsText.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/sky/Sky.h"
 
@@ -178,6 +179,18 @@ bool vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
 }
 
 //------------------------------------------------------------------------------
+bool vtkGnomonShadowPass::SetSetting(const char* name, double number)
+{
+  return this->SetSetting(name, gnomon::textOfNumber(name ? name : "", number).c_str());
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonShadowPass::GetSettingsText()
+{
+  return gnomon::textOfSettings();
+}
+
+//------------------------------------------------------------------------------
 std::string vtkGnomonShadowPass::GetSettingError() const
 {
   return this->Internal->settings->GetSettingError();
@@ -245,6 +258,16 @@ const char* vtkGnomonShadowPass::GetTechniqueSummary(int index)
   return index >= 0 && index < GetNumberOfTechniques()
     ? gnomon::registry()[static_cast<std::size_t>(index)].summary.c_str()
     : nullptr;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGnomonShadowPass::GetTechniqueSummary(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  const gnomon::TechniqueEntry* const technique = gnomon::findTechnique(wanted);
+  return wanted == gnomon::automaticTechnique ? gnomon::automaticSummary
+    : technique                               ? technique->summary.c_str()
+                                              : nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -244,6 +244,12 @@ bool has(const TechniqueInfo& info, const std::string& settingName)
 }
 
 //------------------------------------------------------------------------------
+std::string defaultOf(const Setting& setting)
+{
+  return setting.name == "technique" ? defaultTechnique : setting.get(ShadowSettings());
+}
+
+//------------------------------------------------------------------------------
 ShadowSettings settingsOf(const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings)
 {
   ShadowSettings values;

@@ -79,6 +79,9 @@ enum class SettingsOf
 /// Return an estimator's settings, for keys. All others have their defaults.
 ShadowSettings settingsOf(const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings);
 
+/// Return a setting's default value as text; empty without one.
+std::string defaultOf(const Setting& setting);
+
 /// True if a setting describes the light itself, so that all techniques have it.
 bool isOfLight(const Setting& setting);
 

@@ -26,12 +26,6 @@ std::string optionOf(std::string settingName)
 }
 
 //------------------------------------------------------------------------------
-std::string defaultOf(const Setting& setting)
-{
-  return setting.name == "technique" ? defaultTechnique : setting.get(ShadowSettings());
-}
-
-//------------------------------------------------------------------------------
 std::string helpOf(const Setting& setting)
 {
   const std::string byDefault = defaultOf(setting);

@@ -13,9 +13,6 @@ namespace gnomon::tool
 /// Return a setting's option: "--kernel-size" for "kernel_size".
 std::string optionOf(std::string settingName);
 
-/// Return a setting's default value; empty without one.
-std::string defaultOf(const Setting& setting);
-
 /// Return a setting's help: "the kernel's width (texels): an integer in [1, 32]; default 3".
 std::string helpOf(const Setting& setting);
 

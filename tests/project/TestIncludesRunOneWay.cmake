@@ -46,7 +46,7 @@ folder(plugin/plan lights shadowtech shadowtech/base shadowtech/probing shadowte
   shadowtech/tracing)
 folder(plugin/frame ${shared} shadowtech shadowtech/sky plugin/plan plugin/ranks plugin/scene
   plugin/window)
-folder(plugin/pass lights shadowtech/base plugin/plan)
+folder(plugin/pass lights shadowtech shadowtech/base plugin/plan)
 folder(plugin ${shared} shadowtech shadowtech/sky plugin/data plugin/frame plugin/pass plugin/plan plugin/ranks
   plugin/scene plugin/vtk_versions plugin/window)
 folder(plugin/paraview/GnomonShadows/views lights plugin)

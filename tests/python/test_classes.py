@@ -52,12 +52,14 @@ MAY_BE_NONE = {
 
 
 def own_methods(kind):
-    return [name for name, value in vars(kind).items() if inspect.isroutine(value)]
+    """The names of methods in a class, and in the wrapped one that it may stand for."""
+    return [name for each in kind.__mro__ if each.__name__ == kind.__name__
+            for name, value in vars(each).items() if inspect.isroutine(value)]
 
 
 class Getters(unittest.TestCase):
     def test_each_setter_has_a_getter(self):
-        classes = [getattr(gnomon, name) for name in gnomon.__all__ if name.startswith("vtk")]
+        classes = [getattr(gnomon, name) for name in dir(gnomon) if name.startswith("vtk")]
         setters = 0
         unused = set(GETTERS)
         for kind in classes:

@@ -1,50 +1,69 @@
 """Shadows for VTK's renderers, from fast to exact.
 
->>> import gnomon
->>> shadows = gnomon.add_shadows(renderer)  # or a PyVista plotter
->>> window.Render()
->>> gnomon.report(shadows)["choice"]
-'the picture rests: exact'
+    import gnomon
+    import pyvista
 
-The classes are VTK's own wrappers of the C++ ones, whose docstrings they have:
-vtkGnomonShadowPass, vtkGnomonShadowSettings, vtkGnomonLightKeys, vtkGnomonPropKeys,
-vtkGnomonAreaLight, vtkGnomonLightPlacement, vtkGnomonFlatteringLights, vtkGnomonLightSamplingPass,
-vtkGnomonEGLRenderWindow;
-for shadow as data vtkGnomonVisibilityFilter and vtkGnomonSun.
+    plotter = pyvista.Plotter()
+    plotter.add_mesh(pyvista.Plane(i_size=6, j_size=6), color="white")
+    plotter.add_mesh(pyvista.Sphere(center=(0, 0, 1)), color="white")
+    shadows = gnomon.add_shadows(plotter)
+    shadows.light_radius = 0.5
+    plotter.show()
+    print(gnomon.report(plotter)["choice"])
+
+add_shadows(plotter)     has a plotter or a vtkRenderer show shadows
+remove_shadows(plotter)  takes them back
+report(plotter)          what the last picture did
+visibility(plotter)      its light and shadow as arrays
+why(plotter)             prints why it lacks shadows
+
+settings() and techniques() list what the attributes of `shadows` and the keywords of add_shadows
+take. Without a renderer, hours_lit, sky_view, sun_path and draw take meshes.
+
+The classes, each with its own help(), are VTK's wrappers of the C++ ones: vtkGnomonAreaLight,
+vtkGnomonEGLRenderWindow, vtkGnomonFlatteringLights, vtkGnomonLightKeys, vtkGnomonLightPlacement,
+vtkGnomonLightSamplingPass, vtkGnomonPropKeys, vtkGnomonShadowPass, vtkGnomonShadowSettings,
+vtkGnomonSun, vtkGnomonVisibilityFilter.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401: the wrapped classes' superclasses
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from . import GnomonPlugin
+from ._version import __version__ as __version__
+from .attributes import Attribute, no_such, with_attributes
+from .catalogue import Technique, settings, techniques
+from .errors import naming, warn_of
 from .GnomonLights import (
-    vtkGnomonAreaLight,
-    vtkGnomonLightKeys,
-    vtkGnomonLightPlacement,
-    vtkGnomonShadowSettings,
-    vtkGnomonSun,
+    vtkGnomonAreaLight as vtkGnomonAreaLight,
+    vtkGnomonLightKeys as vtkGnomonLightKeys,
+    vtkGnomonLightPlacement as vtkGnomonLightPlacement,
+    vtkGnomonShadowSettings as vtkGnomonShadowSettings,
+    vtkGnomonSun as vtkGnomonSun,
 )
 from .GnomonPlugin import (
-    vtkGnomonEGLRenderWindow,
-    vtkGnomonFlatteringLights,
-    vtkGnomonLightSamplingPass,
-    vtkGnomonPropKeys,
-    vtkGnomonShadowPass,
-    vtkGnomonVisibilityFilter,
+    vtkGnomonEGLRenderWindow as vtkGnomonEGLRenderWindow,
+    vtkGnomonFlatteringLights as vtkGnomonFlatteringLights,
+    vtkGnomonLightSamplingPass as vtkGnomonLightSamplingPass,
+    vtkGnomonPropKeys as vtkGnomonPropKeys,
+    vtkGnomonShadowPass as vtkGnomonShadowPass,
+    vtkGnomonVisibilityFilter as vtkGnomonVisibilityFilter,
 )
-from .errors import raising, warn_of
 from .holders import taking_holders, unwrap
-from .images import assert_images_equal
-from .lighting import replace_default_lights
+from .images import assert_images_equal, shown_in_notebooks
+from .lighting import replace_default_lights, replace_lights
 from .why import reasons
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from typing import Protocol
 
     import numpy
@@ -62,6 +81,7 @@ if TYPE_CHECKING:
         @property
         def renderer(self) -> vtkRenderer: ...
 
+# The classes are left out, whose text help() would repeat with all that they inherit.
 __all__ = [
     "add_shadows",
     "assert_images_equal",
@@ -69,21 +89,13 @@ __all__ = [
     "hours_lit",
     "remove_shadows",
     "report",
+    "settings",
+    "shadows",
     "sky_view",
     "sun_path",
+    "techniques",
     "visibility",
     "why",
-    "vtkGnomonAreaLight",
-    "vtkGnomonEGLRenderWindow",
-    "vtkGnomonFlatteringLights",
-    "vtkGnomonLightKeys",
-    "vtkGnomonLightPlacement",
-    "vtkGnomonLightSamplingPass",
-    "vtkGnomonPropKeys",
-    "vtkGnomonShadowPass",
-    "vtkGnomonShadowSettings",
-    "vtkGnomonSun",
-    "vtkGnomonVisibilityFilter",
 ]
 
 # State that remove_shadows() restores, by the renderer's address: Python's wrapper of a renderer
@@ -91,9 +103,11 @@ __all__ = [
 _before: dict[str, Any] = {}
 
 if not TYPE_CHECKING:  # for which every name would exist, and classes made by a call would not
+    vtkGnomonEGLRenderWindow = shown_in_notebooks(vtkGnomonEGLRenderWindow)
     vtkGnomonLightKeys = taking_holders(vtkGnomonLightKeys)
     vtkGnomonLightPlacement = taking_holders(vtkGnomonLightPlacement)
     vtkGnomonPropKeys = taking_holders(vtkGnomonPropKeys)
+    vtkGnomonShadowPass = with_attributes(vtkGnomonShadowPass)
 
     def __getattr__(name):
         # These need NumPy, which the rest can do without.
@@ -103,12 +117,17 @@ if not TYPE_CHECKING:  # for which every name would exist, and classes made by a
             return getattr(figure if name == "draw" else data, name)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
+    def __dir__():
+        return [*__all__, "__version__", *(name for name in globals() if name[:9] == "vtkGnomon")]
+
 
 def add_shadows(
     target: vtkRenderer | _HasRenderer,
-    technique: str | None = None,
-    light: str | None = "auto",
+    technique: Technique | None = None,
+    light: Literal["auto", "key+fill"] | None = "auto",
     sky: float = 0.0,
+    keep_visibility: bool = False,
+    casting: Literal["auto", "all", "brightest"] = "auto",
     **settings: str | float | bool,
 ) -> vtkGnomonShadowPass:
     """Have a renderer show shadows.
@@ -118,18 +137,25 @@ def add_shadows(
     target : vtkRenderer or what has one
         A plotter of PyVista or vedo (its active subplot), a figure or scene of Mayavi, tvtk's.
     technique : str, optional
-        A name of vtkGnomonShadowPass.GetTechniqueName(), or "auto", the default.
+        A name of `techniques`; "auto", the default, is exact while the picture rests.
     light : str, optional
-        "auto", the default, exchanges default lights; None leaves all lights as they are.
+        "auto", the default, exchanges default lights for a key light and a fill light; "key+fill"
+        exchanges all lights; None leaves all as they are.
     sky : float, optional
-        vtkGnomonShadowPass.SetSkyIntensity(): 0.4 brightens what is in shadow, but for corners.
+        Intensity of a sky: 0.4 brightens what is in shadow, but for corners.
+    keep_visibility : bool, optional
+        True to keep the data that `visibility` returns.
+    casting : str, optional
+        Lights that cast: "auto", those of the scene, and the brightest of those that follow the
+        camera; "all"; "brightest".
     **settings
-        What lights fall back on: any setting of vtkGnomonLightKeys, as `light_radius=0.5`.
+        What lights fall back on, by the names of `settings`, as `light_radius=0.5`; and any other
+        attribute of the pass.
 
     Returns
     -------
     vtkGnomonShadowPass
-        The renderer's pass from now on.
+        The renderer's pass from now on. All settings are its attributes: `shadows.light_radius`.
 
     Notes
     -----
@@ -144,20 +170,22 @@ def add_shadows(
     Raises
     ------
     TypeError
-        For a target that is no renderer, and has none.
+        For a target that is no renderer, and has none, and values of a wrong type.
     ValueError
         For a setting that does not exist, or a value that it does not take. Nothing changes then.
     """
     renderer = _renderer_of(target)
-    if light not in ("auto", None):
-        raise ValueError(f"light: found {light!r}, expected 'auto' or None")
+    if light not in ("auto", "key+fill", None):
+        raise ValueError(f"light: found {light!r}, expected 'auto', 'key+fill' or None")
     shadows = vtkGnomonShadowPass()
     if technique is not None:
-        _set(shadows, "technique", technique)
+        shadows.technique = technique
+    with naming("sky"):
+        shadows.sky_intensity = sky
+    shadows.keep_visibility = keep_visibility
+    shadows.casting = casting
     for name, value in settings.items():
         _set(shadows, name, value)
-    with raising(shadows):
-        shadows.SetSkyIntensity(sky)
     remove_shadows(renderer)
     address = _address_of(renderer)
     replaced = renderer.GetPass()
@@ -167,7 +195,9 @@ def add_shadows(
         if renderer.GetRenderWindow() is not None:  # it may never draw again
             replaced.ReleaseGraphicsResources(renderer.GetRenderWindow())
     observers = [renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))]
-    lights = replace_default_lights(renderer) if light == "auto" else None
+    lights = None
+    if light is not None:
+        lights = (replace_default_lights if light == "auto" else replace_lights)(renderer)
     _before[address] = (shadows, replaced, lights, observers)
     warn_of(shadows)
     renderer.SetPass(shadows)
@@ -202,51 +232,125 @@ def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
         lights.give_back(renderer)
 
 
-def report(shadows: vtkGnomonShadowPass) -> dict[str, Any]:
+@contextlib.contextmanager
+def shadows(
+    target: vtkRenderer | _HasRenderer,
+    technique: Technique | None = None,
+    light: Literal["auto", "key+fill"] | None = "auto",
+    **settings: Any,
+) -> Iterator[vtkGnomonShadowPass]:
+    """Have a renderer show shadows within a `with` statement.
+
+    Afterwards it has the pass and the lights that it had before, other shadows included.
+
+    Parameters
+    ----------
+    target : vtkRenderer or what has one
+        As for `add_shadows`.
+    technique : str, optional
+        As for `add_shadows`.
+    light : str, optional
+        As for `add_shadows`.
+    **settings
+        The other keywords of `add_shadows`.
+
+    Returns
+    -------
+    vtkGnomonShadowPass
+        The renderer's pass within the statement.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `add_shadows`.
+    """
+    renderer = _renderer_of(target)
+    former = _before.pop(_address_of(renderer), None)  # which add_shadows() would remove
+    try:
+        yield add_shadows(renderer, technique, light, **settings)
+    finally:
+        remove_shadows(renderer)
+        if former:
+            _before[_address_of(renderer)] = former
+
+
+def report(shadows: vtkGnomonShadowPass | vtkRenderer | _HasRenderer) -> dict[str, Any]:
     """Return what the last frame of a pass did.
 
     Parameters
     ----------
-    shadows : vtkGnomonShadowPass
-        As `add_shadows` returns it.
+    shadows : vtkGnomonShadowPass, vtkRenderer or what has one
+        As `add_shadows` returns it, or as it takes it.
 
     Returns
     -------
     dict
         The JSON of vtkGnomonShadowPass.GetReportText(): "lights", a list with a dict for each
         light, "route", "choice", "stages" and so on.
+
+    Raises
+    ------
+    TypeError
+        For an object that is no pass or renderer, and has none.
+    ValueError
+        For a renderer without shadows.
     """
-    return json.loads(shadows.GetReportText())
+    return json.loads(_shadows_of(shadows).GetReportText())
 
 
-def visibility(shadows: vtkGnomonShadowPass) -> dict[str, numpy.ndarray]:
-    """Return the visibility of the last frame, drawn while `shadows.KeepVisibilityOn()`.
+def visibility(
+    shadows: vtkGnomonShadowPass | vtkRenderer | _HasRenderer,
+    origin: Literal["lower", "upper"] = "lower",
+    fill: float | None = None,
+) -> dict[str, numpy.ndarray]:
+    """Return the visibility of the last frame, drawn while `shadows.keep_visibility` was True.
 
     Parameters
     ----------
-    shadows : vtkGnomonShadowPass
-        As `add_shadows` returns it.
+    shadows : vtkGnomonShadowPass, vtkRenderer or what has one
+        As `add_shadows` returns it, or as it takes it.
+    origin : str
+        Where row 0 is, as for matplotlib's `imshow`: "lower", the default, is the picture's bottom,
+        "upper" its top.
+    fill : float, optional
+        What floats have where no surface was drawn, `numpy.nan` say. Without it they mean nothing
+        there.
 
     Returns
     -------
     dict of str to numpy.ndarray
-        Arrays of height x width (x 3), row 0 at the bottom: "light N" for each light that casts, by
-        its number in the renderer, 1 lit, 0 in shadow; "position" in world coordinates; "normal";
-        "coverage", 1 where a surface was drawn; "prop", the surface's prop by its number in
-        renderer.GetViewProps(), -1 for nothing; "cell", by its number in the mapper's input where
-        that is a polydata, else -1. They are the caller's own: later frames do not
-        write into them. Empty where nothing was kept.
+        Arrays of height x width (x 3): "light N" for each light that casts, by its number in the
+        renderer, 1 lit, 0 in shadow; "position" in world coordinates; "normal"; "coverage", 1 where
+        a surface was drawn; "prop", the surface's prop by its number in renderer.GetViewProps(), -1
+        for nothing; "cell", by its number in the mapper's input where that is a polydata, else -1.
+        They are the caller's own: later frames do not write into them. Empty where nothing was
+        kept.
+
+    Raises
+    ------
+    TypeError
+        For an object that is no pass or renderer, and has none.
+    ValueError
+        For a renderer without shadows, and another origin.
     """
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
+    if origin not in ("lower", "upper"):
+        raise ValueError(f"origin: found {origin!r}, expected 'lower' or 'upper'")
     image = vtkImageData()
-    shadows.GetVisibilityImage(image)
+    _shadows_of(shadows).GetVisibilityImage(image)
     width, height, _ = image.GetDimensions()
     data = image.GetPointData()
     arrays = {}
     for i in range(data.GetNumberOfArrays()):
         array = vtk_to_numpy(data.GetArray(i))
-        arrays[data.GetArrayName(i)] = array.reshape((height, width) + array.shape[1:])
+        rows = array.reshape((height, width) + array.shape[1:])
+        arrays[data.GetArrayName(i)] = rows[::-1] if origin == "upper" else rows
+    if fill is not None and arrays:
+        is_empty = arrays["coverage"] == 0
+        for name, array in arrays.items():
+            if name != "coverage" and array.dtype.kind == "f":
+                array[is_empty] = fill
     return arrays
 
 
@@ -264,10 +368,8 @@ def why(target: vtkRenderer | _HasRenderer) -> None:
         For a target that is no renderer, and has none.
     """
     renderer = _renderer_of(target)
-    shadows = _before.get(_address_of(renderer), [None])[0]
-    if isinstance(renderer.GetPass(), vtkGnomonShadowPass):
-        shadows = renderer.GetPass()
-    told = reasons(renderer, shadows and report(shadows), _name_chain)
+    found = _find_shadows(renderer)
+    told = reasons(renderer, found and report(found), _name_chain)
     print("\n".join(told))
 
 
@@ -275,10 +377,27 @@ def _renderer_of(target):
     renderer = unwrap(target)
     if not isinstance(renderer, vtkRenderer):
         raise TypeError(
-            "expected a vtkRenderer or an object that has one as `renderer`, `scene` or `_vtk_obj`,"
-            f" found {type(target).__name__}"
+            "target: expected a vtkRenderer or an object that has one as `renderer`, `scene` or"
+            f" `_vtk_obj`, found {type(target).__name__}"
         )
     return renderer
+
+
+def _find_shadows(renderer):
+    """Return the pass of a renderer's shadows, also of one that was replaced since; or None."""
+    if isinstance(renderer.GetPass(), GnomonPlugin.vtkGnomonShadowPass):
+        return renderer.GetPass()
+    return _before.get(_address_of(renderer), [None])[0]
+
+
+def _shadows_of(shadows):
+    if isinstance(shadows, GnomonPlugin.vtkGnomonShadowPass):
+        return shadows
+    with naming("shadows"):
+        found = _find_shadows(_renderer_of(shadows))
+        if found is None:
+            raise ValueError("the renderer has none, call add_shadows first")
+    return found
 
 
 def _name_chain(render_pass):
@@ -290,10 +409,10 @@ def _name_chain(render_pass):
 
 
 def _set(shadows, name, value):
-    is_switch = type(value).__name__ in ("bool", "bool_")  # NumPy's, too
-    text = ("on" if value else "off") if is_switch else str(value)
-    with raising(shadows):
-        shadows.SetSetting(name, text)
+    attribute = getattr(type(shadows), name, None)
+    if not isinstance(attribute, Attribute) or attribute.fset is None:
+        raise ValueError(f"{name}: {no_such(name, dir(type(shadows)))}")
+    setattr(shadows, name, value)
 
 
 def _address_of(renderer):

@@ -11,6 +11,16 @@ def _text_of(message):
 
 
 @contextmanager
+def naming(argument):
+    """Begin the messages of exceptions with the name of the argument that is wrong."""
+    try:
+        yield
+    except (TypeError, ValueError, OverflowError) as error:
+        kind = TypeError if isinstance(error, TypeError) else ValueError
+        raise kind(f"{argument}: {error}") from None
+
+
+@contextmanager
 def raising(*callers):
     """Raise the first error that VTK objects report; gives a list of the errors.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
+    from .catalogue import Technique
+
 
 def draw(
     surfaces: Iterable[tuple[ArrayLike, ArrayLike]],
@@ -25,7 +27,8 @@ def draw(
     seen_from: ArrayLike = (0.8, -1.0, 0.6),
     size: tuple[int, int] = (640, 480),
     sky: float = 0.0,
-    **settings: str | float | bool,
+    technique: Technique | None = None,
+    **settings: Any,
 ) -> None:
     """Draw triangles under one sun with their shadows, as a PNG file. It needs no display.
 
@@ -43,8 +46,10 @@ def draw(
         Width and height in pixels.
     sky : float, optional
         As add_shadows() takes it.
+    technique : str, optional
+        As add_shadows() takes it.
     **settings
-        Those of `add_shadows`, `technique` included.
+        Those of `add_shadows`.
 
     Raises
     ------
@@ -54,7 +59,6 @@ def draw(
     """
     from . import add_shadows
 
-    technique = settings.pop("technique", None)
     renderer = vtkRenderer()
     renderer.SetBackground(0.6, 0.75, 0.9)
     for surface in surfaces:
@@ -80,8 +84,7 @@ def draw(
     window = vtkGnomonEGLRenderWindow()
     window.SetSize(*size)
     window.AddRenderer(renderer)
-    name = None if technique is None else str(technique)
-    shadows = add_shadows(renderer, name, None, sky, **settings)
+    shadows = add_shadows(renderer, technique, None, sky, **settings)
     with raising(window, shadows):
         picture = _pixels(window)
     _write(picture, str(path))

@@ -27,4 +27,5 @@ def taking_holders(kind):
         return staticmethod(wraps(method)(lambda *given: method(*map(unwrap, given))))
 
     methods = {name: taking(it) for name, it in vars(kind).items() if isroutine(it)}
-    return type(kind.__name__, (kind,), {**methods, "__doc__": kind.__doc__})
+    members = {**methods, "__doc__": kind.__doc__, "__module__": "gnomon"}
+    return type(kind.__name__, (kind,), members)

@@ -69,6 +69,17 @@ def assert_images_equal(
         )
 
 
+def shown_in_notebooks(kind):
+    """Return a subclass of a window class that notebooks show as a picture."""
+
+    def png_of(window):
+        """Draw the window, and return its picture as the bytes of a PNG file."""
+        return _encoded(_pixels(window))
+
+    members = {"_repr_png_": png_of, "__doc__": kind.__doc__, "__module__": "gnomon"}
+    return type(kind.__name__, (kind,), members)
+
+
 def _size(picture):
     return f"{picture.shape[1]} x {picture.shape[0]}"
 
@@ -104,7 +115,7 @@ def _pixels(source):
     return array[..., :3].astype(numpy.uint8)
 
 
-def _write(picture, path):
+def _writer_of(picture):
     import numpy
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -113,9 +124,21 @@ def _write(picture, path):
     image.SetDimensions(picture.shape[1], picture.shape[0], 1)
     flat = numpy.ascontiguousarray(picture[::-1]).reshape(-1, 3)
     image.GetPointData().SetScalars(numpy_to_vtk(flat, deep=True))
-    os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
     writer = vtkPNGWriter()
     writer.SetInputData(image)
+    return writer
+
+
+def _encoded(picture):
+    writer = _writer_of(picture)
+    writer.WriteToMemoryOn()
+    writer.Write()
+    return bytes(writer.GetResult())
+
+
+def _write(picture, path):
+    os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
+    writer = _writer_of(picture)
     writer.SetFileName(str(path))
     writer.Write()
     if writer.GetErrorCode() != 0 or not os.path.exists(path):

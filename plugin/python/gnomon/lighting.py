@@ -84,6 +84,11 @@ def replace_default_lights(renderer):
     return FlatteringLights(renderer, lit)
 
 
+def replace_lights(renderer):
+    """Exchange all lights that give light for flattering ones."""
+    return FlatteringLights(renderer, [it for it in lights_of(renderer) if _gives_light(it)])
+
+
 def lights_of(renderer):
     lights = renderer.GetLights()
     return [lights.GetItemAsObject(i) for i in range(lights.GetNumberOfItems())]
