@@ -152,7 +152,7 @@ public:
    * vtkRenderer::ResetCameraClippingRange for the second; before the first Render() that is 24, as
    * in VTK's own windows.
    */
-  int GetColorBufferSizes(int* rgba) override;
+  int GetColorBufferSizes(int* rgba) VTK_SIZEHINT(rgba, 4) override;
   int GetDepthBufferSize() override;
   ///@}
 

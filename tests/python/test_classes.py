@@ -145,6 +145,21 @@ class Nulls(unittest.TestCase):
         self.assertGreater(len(ended), 30)
         self.assertEqual({k: end for k, end in ended.items() if end != "ValueError"}, {})
 
+    def test_an_argument_of_another_type_is_an_error(self):
+        ended = {}
+        for name in dir(gnomon):
+            kind = getattr(gnomon, name)
+            for method in set(own_methods(kind)) if inspect.isclass(kind) else ():
+                for arguments in self.signatures(getattr(kind, method)):
+                    for argument, types in arguments:
+                        if isinstance(types, ast.Name) and types.id == "bool":
+                            continue  # which takes the truth of anything
+                        values = [object() if it == argument else self.example(of)
+                                  for it, of in arguments]
+                        ended[f"{name}.{method}({argument})"] = self.end_of(kind, method, values)
+        self.assertGreater(len(ended), 200)
+        self.assertEqual({k: end for k, end in ended.items() if end != "TypeError"}, {})
+
     @staticmethod
     def signatures(method):
         """The arguments of each signature that a docstring begins with: names and types."""
@@ -161,7 +176,7 @@ class Nulls(unittest.TestCase):
     def example(cls, types):
         """A value of a type."""
         if not isinstance(types, ast.Name):
-            return [cls.example(each) for each in types.elts]
+            return [cls.example(each) for each in types.elts if each.__class__ != ast.Constant]
         if not cls.is_object(types):
             return {"str": "x", "int": 1, "float": 1.0, "bool": True}[types.id]
         return cls.object_of(next(vars(module)[types.id] for module in list(sys.modules.values())

@@ -23,9 +23,9 @@ def start(case):
 
 
 class Ends(unittest.TestCase):
-    def test_ctrl_c_ends_hours_lit_at_once(self):
-        for after in (0.0, 0.3):
-            child = start("many_hours")
+    def test_ctrl_c_ends_hours_lit_and_sky_view_at_once(self):
+        for case, after in (("many_hours", 0.0), ("many_hours", 0.3), ("many_views", 0.3)):
+            child = start(case)
             time.sleep(after)
             child.send_signal(signal.SIGINT)
             begin = time.monotonic()
@@ -62,19 +62,30 @@ class Ends(unittest.TestCase):
             self.assertEqual(child.returncode, 0, said)
 
 
-def hours_of_grid(directions, side=200):
-    """Hours of a flat grid under directions from above."""
+def grid(side=200):
+    """A flat grid of triangles."""
     x, y = numpy.meshgrid(numpy.arange(side), numpy.arange(side))
     points = numpy.stack([x, y, 0 * x], -1).reshape(-1, 3)
     corner = (numpy.arange(side - 1)[:, None] * side + numpy.arange(side - 1)).reshape(-1)
     triangles = numpy.concatenate(
         [corner[:, None] + (0, 1, side), corner[:, None] + (1, side + 1, side)])
-    return gnomon.hours_lit((points, triangles), numpy.tile((0.1, 0.2, 1.0), (directions, 1)))
+    return points, triangles
+
+
+def hours_of_grid(directions):
+    """Hours of a flat grid under directions from above."""
+    return gnomon.hours_lit(grid(), numpy.tile((0.1, 0.2, 1.0), (directions, 1)))
 
 
 def many_hours():
     print("begins", flush=True)
     hours_of_grid(100000)
+
+
+def many_views():
+    mesh = grid(200)
+    print("begins", flush=True)
+    gnomon.sky_view(mesh, directions=65536, progress=float)
 
 
 def draw_with_little_memory(technique):
@@ -90,8 +101,8 @@ def draw_with_little_memory(technique):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["many_hours"]:
-        many_hours()
+    if sys.argv[1:] in (["many_hours"], ["many_views"]):
+        globals()[sys.argv[1]]()
     elif sys.argv[1:]:
         draw_with_little_memory(sys.argv[1])
     else:

@@ -156,7 +156,7 @@ class Catalogue(unittest.TestCase):
                 if setting["type"] in ("int", "float"):
                     beyond.append(setting["range"][1] + 1)
                 for value in beyond:
-                    with self.assertRaises(ValueError):
+                    with self.assertRaisesRegex((TypeError, ValueError), f"^{name}: "):
                         setattr(shadows, name, value)
         self.assertEqual(settings["contour"]["techniques"], ("selective",))
         self.assertEqual(settings["map_size"]["unit"], "texels")

@@ -39,6 +39,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from . import GnomonPlugin
 from ._version import __version__ as __version__
+from .arguments import choice
 from .attributes import Attribute, no_such, with_attributes
 from .catalogue import Technique, settings, techniques
 from .errors import naming, warn_of
@@ -175,8 +176,8 @@ def add_shadows(
         For a setting that does not exist, or a value that it does not take. Nothing changes then.
     """
     renderer = _renderer_of(target)
-    if light not in ("auto", "key+fill", None):
-        raise ValueError(f"light: found {light!r}, expected 'auto', 'key+fill' or None")
+    if light is not None:
+        choice("light", light, ("auto", "key+fill"))
     shadows = vtkGnomonShadowPass()
     if technique is not None:
         shadows.technique = technique
@@ -335,8 +336,10 @@ def visibility(
     """
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
-    if origin not in ("lower", "upper"):
-        raise ValueError(f"origin: found {origin!r}, expected 'lower' or 'upper'")
+    choice("origin", origin, ("lower", "upper"))
+    if fill is not None:
+        with naming("fill"):
+            fill = float(fill)
     image = vtkImageData()
     _shadows_of(shadows).GetVisibilityImage(image)
     width, height, _ = image.GetDimensions()

@@ -6,6 +6,7 @@ import difflib
 import os.path
 import re
 
+from .arguments import choice, number, switch
 from .catalogue import settings, value_of
 from .errors import naming, raising
 
@@ -71,16 +72,14 @@ def _of_accessors(kind, name):
         return choices[value] if choices else value
 
     def write(shadows, value):
-        with naming(attribute):
-            if isinstance(value, str) and choices:
-                if value not in choices:
-                    raise ValueError(f"found {value!r}, expected one of {', '.join(choices)}")
-                value = choices.index(value)
-            # VTK takes the truth of anything.
-            if type_name == "bool" and not is_switch(value):
-                raise TypeError(f"found {value!r}, expected True or False")
-            with raising(shadows):
-                _call(setter, shadows, value, type_name)
+        if type_name == "bool":
+            value = switch(attribute, value)  # VTK takes the truth of anything
+        if choices and isinstance(value, str):
+            value = choices.index(choice(attribute, value, choices))
+        elif choices:
+            value = number(attribute, value, 0, len(choices) - 1, int)
+        with naming(attribute), raising(shadows):
+            _call(setter, shadows, value, type_name)
 
     text = f"{getter.__name__}(){f', {setter.__name__}()' if setter else ''}\n\n{text.strip()}"
     return Attribute(
@@ -97,8 +96,8 @@ def _of_setting(kind, name, setting):
         return value_of(setting["type"], text) if text else setting["default"]
 
     def write(shadows, value):
-        if setting["type"] == "bool" and is_switch(value):
-            value = "on" if value else "off"
+        if setting["type"] == "bool" and not isinstance(value, str):
+            value = "on" if switch(name, value) else "off"
         with naming(name), raising(shadows):
             kind.SetSetting(shadows, name, str(value))
 
@@ -109,11 +108,6 @@ def _of_setting(kind, name, setting):
     )
     text = f"A setting of lights: {setting['meaning']}; {setting['unit']} {domain}."
     return Attribute(read, write, text.replace("  ", " "), type_name)
-
-
-def is_switch(value):
-    """True if a value is a truth value, NumPy's too, or the integer of one."""
-    return type(value).__name__ in ("bool", "bool_") or type(value) is int and value in (0, 1)
 
 
 def _call(setter, shadows, value, type_name):

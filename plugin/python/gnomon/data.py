@@ -6,32 +6,64 @@ import contextlib
 import datetime
 import signal
 import threading
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal, Protocol, Union, overload
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
-from .errors import raising
+from .arguments import array, choice, number, switch
+from .errors import naming, raising
 from .GnomonLights import vtkGnomonSun
 from .GnomonPlugin import vtkGnomonVisibilityFilter
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import ArrayLike
+
+    class _HasFaces(Protocol):
+        """A mesh of triangles, as trimesh's."""
+
+        @property
+        def vertices(self) -> Any: ...
+
+        @property
+        def faces(self) -> Any: ...
+
+    Mesh = Union[tuple[ArrayLike, ArrayLike], vtkPolyData, _HasFaces]
 
 _SKIES = ("uniform", "dome", "overcast")  # in the order of vtkGnomonVisibilityFilter.SkyModelType
 
 
+@overload
+def sun_path(
+    latitude: float,
+    longitude: float,
+    date: str | datetime.date,
+    minutes: float = ...,
+    zone: float = ...,
+    times: Literal[False] = ...,
+) -> tuple[numpy.ndarray, numpy.ndarray]: ...
+@overload
+def sun_path(
+    latitude: float,
+    longitude: float,
+    date: str | datetime.date,
+    minutes: float = ...,
+    zone: float = ...,
+    *,
+    times: Literal[True],
+) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]: ...
 def sun_path(
     latitude: float,
     longitude: float,
     date: str | datetime.date,
     minutes: float = 10.0,
     zone: float = 0.0,
-) -> tuple[numpy.ndarray, numpy.ndarray]:
+    times: bool = False,
+) -> tuple[numpy.ndarray, ...]:
     """Return the suns of a day, from midnight to midnight, by vtkGnomonSun.
 
     Parameters
@@ -46,102 +78,120 @@ def sun_path(
         From one sun to the next, in (0, 1440].
     zone : float
         Hours to the east of UTC, which say when midnight is.
+    times : bool
+        True to return the zone's time of each sun, too.
 
     Returns
     -------
-    (numpy.ndarray, numpy.ndarray)
+    tuple of numpy.ndarray
         The k suns above the horizon: k x 3 unit vectors towards them (x east, y north, z up), and
-        the hours that each stands for; what `hours_lit` takes.
+        the hours that each stands for; what `hours_lit` takes. With `times`, k numpy.datetime64.
 
     Raises
     ------
-    ValueError
+    TypeError, ValueError
         For a date, a place or a step that does not exist.
     """
-    day = datetime.date.fromisoformat(str(date))
+    with naming("date"):
+        day = datetime.date.fromisoformat(str(date)[:10])
     sun = vtkGnomonSun()
-    directions, hours = vtkDoubleArray(), vtkDoubleArray()
-    with raising(sun):
-        sun.SetPlace(latitude, longitude)
+    directions, hours, since = vtkDoubleArray(), vtkDoubleArray(), vtkDoubleArray()
+    with naming("latitude, longitude"), raising(sun):
+        sun.SetPlace(number("latitude", latitude), number("longitude", longitude))
+    with naming("date"), raising(sun):
         sun.SetDate(day.year, day.month, day.day)
-        sun.SetTime(12, 0, 0.0, zone)
-        sun.MakeDayPath(minutes, directions, hours)
-    return vtk_to_numpy(directions), vtk_to_numpy(hours)
+    with naming("zone"), raising(sun):
+        sun.SetTime(12, 0, 0.0, number("zone", zone))
+    with naming("minutes"), raising(sun):
+        sun.MakeDayPath(number("minutes", minutes), directions, hours, since)
+    path = vtk_to_numpy(directions), vtk_to_numpy(hours)
+    if not switch("times", times):
+        return path
+    seconds = numpy.rint(vtk_to_numpy(since) * 3600).astype("timedelta64[s]")
+    return (*path, numpy.datetime64(day, "s") + seconds)
 
 
 def hours_lit(
-    receivers: tuple[ArrayLike, ArrayLike],
+    receivers: Mesh,
     directions: ArrayLike,
     hours: ArrayLike | None = None,
-    casters: tuple[ArrayLike, ArrayLike] | None = None,
+    casters: Mesh | None = None,
     samples: int = 1,
     angular_diameter: float = 0.0,
+    progress: Callable[[float], Any] | None = None,
 ) -> numpy.ndarray:
     """Return how long each triangle is lit, by vtkGnomonVisibilityFilter.
 
     Parameters
     ----------
-    receivers : (points, triangles)
-        An array of n x 3 world coordinates, and one of m x 3 numbers of points, counter-clockwise
-        as seen from the side that receives. They cast, too.
+    receivers : (points, triangles), vtkPolyData, or what has vertices and faces
+        A pair: an array of n x 3 world coordinates, and one of m x 3 numbers of points,
+        counter-clockwise as seen from the side that receives. Or PyVista's PolyData, whose polygons
+        count, or a mesh of trimesh. They cast, too.
     directions : array of k x 3
         Towards the sun, or another light, in world coordinates, of any length.
     hours : array of k, optional
         How long each direction shines; an hour each if there is none.
-    casters : (points, triangles), optional
-        What else casts.
+    casters : mesh, optional
+        Another mesh, of any of these kinds, that casts.
     samples : int
         Rays from a triangle in each direction; 1: from its middle.
     angular_diameter : float
         At which the light is seen, in degrees; the sun's is 0.53. It takes several samples.
+    progress : callable, optional
+        Called with what is done, in [0, 1]. An exception ends the work.
 
     Returns
     -------
     numpy.ndarray
-        Hours of each of the m triangles.
+        Hours of each of the m triangles or polygons.
 
     Raises
     ------
-    ValueError
+    TypeError, ValueError
         For arrays of other shapes, numbers of points that do not exist, and what the filter
         refuses.
     KeyboardInterrupt
         After Ctrl-C on the main thread.
     """
     shadows = vtkGnomonVisibilityFilter()
-    shadows.SetInputData(0, _polydata("receivers", receivers))
+    samples = number("samples", samples, 1, 4096, int)
+    angular_diameter = number("angular_diameter", angular_diameter, 0, 89)
+    shadows.SetInputData(0, polydata_of("receivers", receivers))
     if casters is not None:
-        shadows.AddInputData(1, _polydata("casters", casters))
-    towards = _array("directions", directions, (None, 3), float)
+        shadows.AddInputData(1, polydata_of("casters", casters))
+    towards = array("directions", directions, (None, 3))
     count = len(towards)
-    shines = _array("hours", numpy.ones(count) if hours is None else hours, (count,), float)
+    if count == 0:
+        raise ValueError("directions: expected one or more, found none")
+    shines = array("hours", numpy.ones(count) if hours is None else hours, (count,))
     with raising(shadows) as errors:
         shadows.AddDirections(numpy_to_vtk(towards), numpy_to_vtk(shines))
         shadows.SetSamples(samples)
         shadows.SetAngularDiameter(angular_diameter)
         shadows.ComputeReasonsOff()
         if not errors:
-            with _interruptible(shadows):
-                shadows.Update()
+            _run(shadows, progress)
     data = shadows.GetOutput().GetCellData()
     return vtk_to_numpy(data.GetArray(shadows.GetHoursName()))
 
 
 def sky_view(
-    surface: tuple[ArrayLike, ArrayLike] | vtkPolyData,
-    casters: Sequence[tuple[ArrayLike, ArrayLike] | vtkPolyData] = (),
+    surface: Mesh,
+    casters: Sequence[Mesh] = (),
     model: str = "uniform",
     directions: int = 1024,
     distance: float = 0.0,
     up: ArrayLike = (0.0, 0.0, 1.0),
+    progress: Callable[[float], Any] | None = None,
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return how much of the sky each cell sees, by vtkGnomonVisibilityFilter.
 
     Parameters
     ----------
-    surface : (points, triangles) or vtkPolyData
-        As the receivers of `hours_lit`; or polydata, whose polygons count. It casts, too.
-    casters : sequence of the same, optional
+    surface : (points, triangles), vtkPolyData, or what has vertices and faces
+        As the receivers of `hours_lit`. It casts, too.
+    casters : sequence of meshes, optional
         Other surfaces that hide the sky.
     model : str
         "uniform": as bright from everywhere, from below, too (ambient occlusion); "dome": as
@@ -153,6 +203,8 @@ def sky_view(
         Length in world units beyond which nothing hides the sky; 0: no limit.
     up : array of 3
         Of the horizon, of any length.
+    progress : callable, optional
+        As for `hours_lit`.
 
     Returns
     -------
@@ -161,25 +213,29 @@ def sky_view(
 
     Raises
     ------
-    ValueError
+    TypeError, ValueError
         For arrays of other shapes, numbers of points that do not exist, and what the filter
         refuses.
     KeyboardInterrupt
         After Ctrl-C on the main thread.
     """
-    if model not in _SKIES:
-        raise ValueError(f"model: expected one of {', '.join(_SKIES)}, found {model!r}")
+    choice("model", model, _SKIES)
+    directions = number("directions", directions, 16, 65536, int)
+    upwards = array("up", up, (3,))
     shadows = vtkGnomonVisibilityFilter()
-    shadows.SetInputData(0, _polydata("surface", surface))
-    for number, caster in enumerate(casters):
-        shadows.AddInputData(1, _polydata(f"casters[{number}]", caster))
-    with raising(shadows) as errors:
-        shadows.SetUp(_array("up", up, (3,), float))
-        shadows.SetSkyDistance(distance)
+    shadows.SetInputData(0, polydata_of("surface", surface))
+    with naming("casters"):
+        listed = list(casters)
+    for index, caster in enumerate(listed):
+        shadows.AddInputData(1, polydata_of(f"casters[{index}]", caster))
+    with naming("distance"), raising(shadows):
+        shadows.SetSkyDistance(number("distance", distance))
+    with naming("directions"), raising(shadows):
         shadows.AddSky(_SKIES.index(model), directions)
-        if not errors:
-            with _interruptible(shadows):
-                shadows.Update()
+    with naming("up"), raising(shadows):
+        shadows.SetUp(upwards)
+    with raising(shadows):
+        _run(shadows, progress)
     data = shadows.GetOutput().GetCellData()
     view, error = (
         vtk_to_numpy(data.GetArray(name))
@@ -188,55 +244,66 @@ def sky_view(
     return view, error
 
 
-@contextlib.contextmanager
-def _interruptible(algorithm):
-    """Let Ctrl-C end an algorithm's execution by its exception.
+def _run(algorithm, progress):
+    """Execute an algorithm, which tells of its progress, until its end, Ctrl-C or an exception.
 
     Python runs the handler of a signal in its own code only, here in the observer of the progress.
-    VTK's wrappers end the program if an observer raises KeyboardInterrupt, so it waits for the end.
+    VTK's wrappers end the program if an observer raises KeyboardInterrupt, so that waits for the
+    end.
     """
-    handler = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or not callable(handler):
-        yield
-        return
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress: found {progress!r}, expected a function of a number")
     raised = []
 
-    def handle(*signal_and_frame):
+    def calling(function, *arguments):
         try:
-            handler(*signal_and_frame)
+            function(*arguments)
         except BaseException as error:  # KeyboardInterrupt is no Exception
             raised.append(error)
 
-    def abort(*_):
+    def tell(*_):
+        if progress is not None and not raised:
+            calling(progress, algorithm.GetProgress())
         if raised:
             algorithm.AbortExecuteOn()
 
-    algorithm.AddObserver("ProgressEvent", abort)
-    signal.signal(signal.SIGINT, handle)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, handler)
+    algorithm.AddObserver("ProgressEvent", tell)
+    with _handling_ctrl_c(calling):
+        algorithm.Update()
     if raised:
         raise raised[0]
 
 
-def _array(name, values, shape, kind):
-    array = numpy.ascontiguousarray(values, dtype=kind)
-    fits = array.ndim == len(shape) and all(
-        wanted in (None, found) for wanted, found in zip(shape, array.shape)
-    )
-    if not fits:
-        wanted = " x ".join("n" if side is None else str(side) for side in shape)
-        raise ValueError(f"{name}: expected an array of {wanted} numbers, found {array.shape}")
-    return array
+@contextlib.contextmanager
+def _handling_ctrl_c(calling):
+    """Have Ctrl-C call its handler by `calling`, where this thread's signals have one."""
+    handler = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(handler):
+        yield
+        return
+    signal.signal(signal.SIGINT, lambda *given: calling(handler, *given))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
 
 
-def _polydata(name, mesh):
+def polydata_of(name, mesh):
+    """Return a mesh of any kind as polydata."""
     if isinstance(mesh, vtkPolyData):
+        if mesh.GetPoints() is not None:
+            array(f"{name}' points", vtk_to_numpy(mesh.GetPoints().GetData()), (None, 3))
         return mesh
-    points = _array(f"{name}' points", mesh[0], (None, 3), float)
-    triangles = _array(f"{name}' triangles", mesh[1], (None, 3), numpy.int64)
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+        mesh = mesh.vertices, mesh.faces
+    if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
+        raise TypeError(
+            f"{name}: found {type(mesh).__name__}, expected a pair of points and triangles, a"
+            " vtkPolyData (extract_surface() makes one of PyVista's other data), or an object with"
+            " vertices and faces"
+        )
+    points = array(f"{name}' points", mesh[0], (None, 3))
+    triangles = array(f"{name}' triangles", mesh[1], (None, 3), numpy.int64)
     if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):
         raise ValueError(
             f"{name}' triangles: expected numbers of points in [0, {len(points) - 1}], found "

@@ -15,9 +15,11 @@ def naming(argument):
     """Begin the messages of exceptions with the name of the argument that is wrong."""
     try:
         yield
-    except (TypeError, ValueError, OverflowError) as error:
-        kind = TypeError if isinstance(error, TypeError) else ValueError
-        raise kind(f"{argument}: {error}") from None
+    except OverflowError as error:
+        raise ValueError(f"{argument}: {error}") from None
+    except (TypeError, ValueError, AssertionError) as error:
+        error.args = (f"{argument}: {error}",)
+        raise
 
 
 @contextmanager

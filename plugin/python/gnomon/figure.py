@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
-from .data import _array, _polydata
-from .errors import raising
+from .arguments import array, number, path_of
+from .data import polydata_of
+from .errors import naming, raising
 from .GnomonPlugin import vtkGnomonEGLRenderWindow
 from .images import _pixels, _write
 
@@ -18,10 +19,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from .catalogue import Technique
+    from .data import Mesh
 
 
 def draw(
-    surfaces: Iterable[tuple[ArrayLike, ArrayLike]],
+    surfaces: Iterable[Mesh],
     direction: ArrayLike,
     path: str | os.PathLike[str],
     seen_from: ArrayLike = (0.8, -1.0, 0.6),
@@ -34,12 +36,12 @@ def draw(
 
     Parameters
     ----------
-    surfaces : list of (points, triangles)
-        Arrays of n x 3 world coordinates, and of m x 3 numbers of points.
+    surfaces : list of meshes
+        Pairs of points and triangles, and the other kinds that `hours_lit` takes.
     direction : array of 3
         Towards the sun, in world coordinates, of any length: one of `sun_path`, say.
     path : str
-        Where the picture is written.
+        Where the picture is written: a name that ends in .png, in a folder that exists.
     seen_from : array of 3
         Towards the camera, in world coordinates. z is up; y, if it looks along z.
     size : (int, int)
@@ -53,38 +55,45 @@ def draw(
 
     Raises
     ------
-    ValueError
+    TypeError, ValueError
         For arrays of other shapes, settings that do not exist, and a picture that cannot be
         written.
     """
     from . import add_shadows
 
+    path = path_of("path", path, ".png")
+    width, height = (number("size", side, 1, 16384, int) for side in array("size", size, (2,), int))
+    with naming("surfaces"):
+        listed = list(surfaces)
+        if not listed:
+            raise ValueError("expected one or more meshes, found none")
     renderer = vtkRenderer()
     renderer.SetBackground(0.6, 0.75, 0.9)
-    for surface in surfaces:
+    for index, surface in enumerate(listed):
         mapper = vtkPolyDataMapper()
-        mapper.SetInputData(_polydata("surfaces", surface))
+        mapper.SetInputData(polydata_of(f"surfaces[{index}]", surface))
         actor = vtkActor()
         actor.SetMapper(mapper)
         actor.GetProperty().SetAmbient(0.25)
         actor.GetProperty().SetDiffuse(0.75)
         renderer.AddActor(actor)
     sun = vtkLight()
-    towards = _array("direction", direction, (3,), float)
-    if not towards.any():
-        raise ValueError("direction: expected a vector with a length")
+    towards = array("direction", direction, (3,))
+    place = array("seen_from", seen_from, (3,))
+    for name, vector in (("direction", towards), ("seen_from", place)):
+        if not vector.any():
+            raise ValueError(f"{name}: expected a vector with a length")
     sun.SetPosition(towards)
     renderer.AddLight(sun)
 
     camera = renderer.GetActiveCamera()
-    place = _array("seen_from", seen_from, (3,), float)
     camera.SetPosition(place)
     camera.SetViewUp(*((0, 0, 1) if place[:2].any() else (0, 1, 0)))
     renderer.ResetCamera()
     window = vtkGnomonEGLRenderWindow()
-    window.SetSize(*size)
+    window.SetSize(width, height)
     window.AddRenderer(renderer)
     shadows = add_shadows(renderer, technique, None, sky, **settings)
     with raising(window, shadows):
         picture = _pixels(window)
-    _write(picture, str(path))
+    _write(picture, path)

@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
 
+from .arguments import number, path_of
+from .errors import naming, raising
+
 if TYPE_CHECKING:
     import numpy
 
@@ -35,24 +38,32 @@ def assert_images_equal(
 
     Raises
     ------
-    ValueError
-        For an array of another shape or type, and a picture that cannot be written.
+    TypeError, ValueError
+        For an array of another shape or type, a file that holds no PNG picture, and a picture that
+        cannot be written.
     AssertionError
         Says how many pixels differ, by how much, and where the first one is. The picture is then
         beside the baseline, as NAME-actual.png.
     """
     import numpy
 
-    picture = _pixels(actual)
-    if os.environ.get("GNOMON_REFRESH_BASELINES", "0") not in ("", "0"):
+    refreshes = os.environ.get("GNOMON_REFRESH_BASELINES", "0") not in ("", "0")
+    baseline = path_of("baseline", baseline, ".png" if refreshes else "", not refreshes)
+    number("max_difference", max_difference, 0, 255)
+    number("max_pixels", max_pixels, 0)
+    with naming("actual"):
+        picture = _pixels(actual)
+    if refreshes:
         _write(picture, baseline)
         return
-    baseline = str(baseline)
     kept = os.path.splitext(baseline)[0] + "-actual.png"
     if not os.path.exists(baseline):
         _write(picture, kept)
-        raise AssertionError(f"{baseline}: there is no such picture; the present one: {kept}")
-    expected = _pixels(baseline)
+        raise AssertionError(
+            f"baseline: {baseline}: there is no such picture; the present one: {kept}"
+        )
+    with naming("baseline"):
+        expected = _pixels(baseline)
     if picture.shape != expected.shape:
         _write(picture, kept)
         raise AssertionError(
@@ -102,11 +113,13 @@ def _pixels(source):
         reader.SetInputBufferTypeToRGB()
         reader.ReadFrontBufferOff()
     else:
+        source = path_of("path", source)
         if not os.path.exists(source):
             raise AssertionError(f"{source}: there is no such picture")
         reader = vtkPNGReader()
-        reader.SetFileName(str(source))
-    reader.Update()
+        reader.SetFileName(source)
+    with raising(reader):
+        reader.Update()
     image = reader.GetOutput()
     width, height, _ = image.GetDimensions()
     array = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[::-1]
