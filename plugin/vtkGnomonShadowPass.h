@@ -69,6 +69,19 @@ public:
   vtkTypeMacro(vtkGnomonShadowPass, vtkOpenGLRenderPass);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  ///@{
+  /**
+   * Take a place in a renderer's chain of passes. Passes that work on the finished picture
+   * (vtkSSAAPass, vtkOpenGLFXAAPass, vtkEDLShading and others) stay around this one. Those below
+   * them, which draw, become its delegate. Shadows of another pass give way, and VTK's own with a
+   * warning, and so does everything that draws if there is a delegate already. Without a pass,
+   * Install() is vtkRenderer::SetPass(). Uninstall() puts back what was replaced. It leaves a chain
+   * alone from which another caller took this pass.
+   */
+  void Install(vtkRenderer* renderer) VTK_EXPECTS(renderer != nullptr);
+  void Uninstall(vtkRenderer* renderer) VTK_EXPECTS(renderer != nullptr);
+  ///@}
+
   /**
    * Draw the renderer's props with shadows into the current framebuffer.
    */

@@ -1,4 +1,4 @@
-// Shared by the two sources of vtkGnomonShadowPass.
+// Shared by the sources of vtkGnomonShadowPass.
 #pragma once
 
 #include "vtkGnomonShadowPass.h"
@@ -40,6 +40,15 @@ struct vtkGnomonShadowPass::Internals
     std::unique_ptr<gnomon::RenderManager> manager;
   };
 
+  /// A place that Install() took in a renderer's chain of passes.
+  struct TakenPlace
+  {
+    vtkWeakPointer<vtkRenderer> renderer;
+    vtkSmartPointer<vtkRenderPass> replaced; ///< null: the renderer had no pass
+    bool hasDelegate;                        ///< what was replaced is the delegate
+  };
+
+  std::list<TakenPlace> places;
   vtkSmartPointer<vtkGnomonShadowSettings> settings =
     vtkSmartPointer<vtkGnomonShadowSettings>::New(); ///< of lights that say nothing
   std::unique_ptr<gnomon::PassPrograms> programs = std::make_unique<gnomon::PassPrograms>();

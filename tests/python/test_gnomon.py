@@ -15,14 +15,16 @@ from vtkmodules.vtkFiltersSources import vtkPointSource, vtkSphereSource
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkRenderingCore import vtkLight, vtkLightKit, vtkRenderer
 from vtkmodules.vtkRenderingOpenGL2 import (
+    vtkCameraPass,
     vtkDepthOfFieldPass,
     vtkEDLShading,
     vtkGaussianBlurPass,
     vtkPanoramicProjectionPass,
+    vtkRenderPassCollection,
     vtkRenderStepsPass,
+    vtkSequencePass,
+    vtkShadowMapPass,
     vtkSobelGradientMagnitudePass,
-    vtkSSAAPass,
-    vtkSSAOPass,
 )
 
 import gnomon
@@ -377,37 +379,27 @@ class Shadows(unittest.TestCase):
         gnomon.remove_shadows(scene.renderer)
         self.assertIs(scene.renderer.GetPass(), other)
 
-    def test_a_pass_that_gives_way_is_named_and_comes_back(self):
+    def test_vtk_s_shadows_give_way_and_come_back(self):
         scene = Scene()
-        steps, occlusion, smooth = vtkRenderStepsPass(), vtkSSAOPass(), vtkSSAAPass()
-        occlusion.SetDelegatePass(steps)
-        smooth.SetDelegatePass(occlusion)
-        for render_pass, names in (
-            (steps, "vtkRenderStepsPass"),
-            (smooth, "vtkSSAAPass around vtkSSAOPass around vtkRenderStepsPass"),
-        ):
-            scene.renderer.SetPass(render_pass)
-            with self.assertWarnsRegex(UserWarning, f"gave way to shadows: {names}[.]") as warned:
-                gnomon.add_shadows(scene.renderer)
-            self.assertEqual(warned.filename, __file__)
-            gnomon.remove_shadows(scene.renderer)
-            self.assertIs(scene.renderer.GetPass(), render_pass)
-
-    def test_a_pass_that_gave_way_keeps_no_graphics(self):
-        scene = Scene()
-        edges = vtkEDLShading()
-        edges.SetDelegatePass(vtkRenderStepsPass())
+        passes, sequence, camera, edges = (
+            vtkRenderPassCollection(), vtkSequencePass(), vtkCameraPass(), vtkEDLShading()
+        )
+        maps = vtkShadowMapPass()
+        for each in (maps.GetShadowMapBakerPass(), maps):
+            passes.AddItem(each)
+        sequence.SetPasses(passes)
+        camera.SetDelegatePass(sequence)
+        edges.SetDelegatePass(camera)
         scene.renderer.SetPass(edges)
         scene.window.Render()
-        with self.assertWarns(UserWarning):
-            gnomon.add_shadows(scene.renderer)
+        names = "vtkCameraPass around vtkSequencePass"
+        with self.assertWarnsRegex(UserWarning, f"gave way to shadows: {names}[.]") as warned:
+            shadows = gnomon.add_shadows(scene.renderer)
+        self.assertEqual(warned.filename, __file__)
+        self.assertIs(edges.GetDelegatePass(), shadows)
         gnomon.remove_shadows(scene.renderer)
-        scene.renderer.SetPass(None)
-        messages, previous = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
-        vtkOutputWindow.SetInstance(messages)
-        del edges
-        vtkOutputWindow.SetInstance(previous)
-        self.assertEqual(messages.GetOutput(), "")
+        self.assertIs(scene.renderer.GetPass(), edges)
+        self.assertIs(edges.GetDelegatePass(), camera)
 
     def test_passes_of_the_guide_stand_around_the_shadow_pass(self):
         for kind in (

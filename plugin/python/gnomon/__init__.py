@@ -30,7 +30,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-import warnings
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401: the wrapped classes' superclasses
@@ -166,7 +166,9 @@ def add_shadows(
     first picture, and stay where they are when the camera moves. `remove_shadows` takes all of that
     back.
 
-    The renderer's own pass gives way, too. A warning names it and its delegates.
+    The renderer's passes stay: those that work on the finished picture, as vtkSSAAPass, around the
+    shadows, those that draw, as vtkSSAOPass, within. VTK's own shadows give way with a warning.
+    Shadows also outlive `enable_ssao` and the like of PyVista.
 
     Raises
     ------
@@ -189,19 +191,15 @@ def add_shadows(
         _set(shadows, name, value)
     remove_shadows(renderer)
     address = _address_of(renderer)
-    replaced = renderer.GetPass()
-    if replaced is not None:
-        chain = _name_chain(replaced)
-        warnings.warn(f"The renderer's pass gave way to shadows: {chain}.", stacklevel=2)
-        if renderer.GetRenderWindow() is not None:  # it may never draw again
-            replaced.ReleaseGraphicsResources(renderer.GetRenderWindow())
     observers = [renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))]
     lights = None
     if light is not None:
         lights = (replace_default_lights if light == "auto" else replace_lights)(renderer)
-    _before[address] = (shadows, replaced, lights, observers)
+    _before[address] = (shadows, lights, observers)
     warn_of(shadows)
-    renderer.SetPass(shadows)
+    shadows.Install(renderer)
+    if hasattr(renderer, "_render_passes"):  # PyVista's, which makes its chain of passes by itself
+        observers.append(renderer.AddObserver("ModifiedEvent", partial(_install, shadows)))
     return shadows
 
 
@@ -224,11 +222,10 @@ def remove_shadows(target: vtkRenderer | _HasRenderer) -> None:
     renderer = _renderer_of(target)
     if _address_of(renderer) not in _before:
         return
-    shadows, render_pass, lights, observers = _before.pop(_address_of(renderer))
+    shadows, lights, observers = _before.pop(_address_of(renderer))
     for observer in observers + (lights.observers if lights else []):
         renderer.RemoveObserver(observer)
-    if renderer.GetPass() is shadows:
-        renderer.SetPass(render_pass)
+    shadows.Uninstall(renderer)
     if lights:
         lights.give_back(renderer)
 
@@ -372,7 +369,7 @@ def why(target: vtkRenderer | _HasRenderer) -> None:
     """
     renderer = _renderer_of(target)
     found = _find_shadows(renderer)
-    told = reasons(renderer, found and report(found), _name_chain)
+    told = reasons(_chain_of(renderer), found and report(found))
     print("\n".join(told))
 
 
@@ -388,8 +385,9 @@ def _renderer_of(target):
 
 def _find_shadows(renderer):
     """Return the pass of a renderer's shadows, also of one that was replaced since; or None."""
-    if isinstance(renderer.GetPass(), GnomonPlugin.vtkGnomonShadowPass):
-        return renderer.GetPass()
+    for each in _chain_of(renderer):
+        if isinstance(each, GnomonPlugin.vtkGnomonShadowPass):
+            return each
     return _before.get(_address_of(renderer), [None])[0]
 
 
@@ -403,12 +401,21 @@ def _shadows_of(shadows):
     return found
 
 
-def _name_chain(render_pass):
-    names = []
+def _chain_of(renderer):
+    """Return a renderer's pass, and those that it has within."""
+    chain = []
+    render_pass = renderer.GetPass()
     while render_pass is not None:
-        names.append(render_pass.GetClassName())
+        chain.append(render_pass)
         render_pass = getattr(render_pass, "GetDelegatePass", lambda: None)()
-    return " around ".join(names)
+    return chain
+
+
+def _install(shadows, renderer, _event):
+    """Install shadows again, where they are the renderer's and another chain has none."""
+    is_present = _before.get(_address_of(renderer), [None])[0] is shadows
+    if is_present and shadows not in _chain_of(renderer):
+        shadows.Install(renderer)
 
 
 def _set(shadows, name, value):

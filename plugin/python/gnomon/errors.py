@@ -1,5 +1,6 @@
 """VTK's errors and warnings, for exceptions and Python's warnings."""
 
+import sys
 import warnings
 from contextlib import contextmanager
 
@@ -52,7 +53,9 @@ def warn_of(caller):
     """Have Python warn of what a pass says of its frames."""
 
     def warn(_caller, _event, message):
-        warnings.warn(_text_of(message), stacklevel=2)
+        # The caller's line is one more frame away from add_shadows().
+        is_inside = sys._getframe(1).f_globals.get("__package__") == __package__
+        warnings.warn(_text_of(message), stacklevel=3 if is_inside else 2)
 
     warn.CallDataType = "string0"
     for event in ("ErrorEvent", "WarningEvent"):

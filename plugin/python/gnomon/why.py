@@ -1,20 +1,19 @@
 """Why a picture shows no shadow."""
 
 
-def reasons(renderer, shadows, name_chain):
+def reasons(chain, shadows):
     """Return the reasons that are known, as sentences.
 
     Parameters
     ----------
-    renderer : vtkRenderer
+    chain : list of vtkRenderPass
+        The renderer's pass, and those within.
     shadows : dict or None
         What the last frame of its pass reports; None without a pass of Gnomon's.
-    name_chain : callable
-        Returns the names of a pass and its delegates.
     """
-    drawn_by = renderer.GetPass()
-    if shadows is None or drawn_by is None or "vtkGnomonShadowPass" not in name_chain(drawn_by):
-        by = "no pass" if drawn_by is None else name_chain(drawn_by)
+    names = [each.GetClassName() for each in chain]
+    if shadows is None or "vtkGnomonShadowPass" not in names:
+        by = " around ".join(names) or "no pass"
         return [f"The renderer has no shadows: it is drawn by {by}. See add_shadows."]
     found = []
     if shadows["route"] == "none":

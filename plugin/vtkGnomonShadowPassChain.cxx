@@ -1,0 +1,175 @@
+// The place of vtkGnomonShadowPass in a renderer's chain of passes.
+#include "vtkGnomonLightSamplingPass.h"
+#include "vtkGnomonShadowPassInternals.h"
+
+#include "vtkCameraPass.h"
+#include "vtkImageProcessingPass.h"
+#include "vtkRenderPassCollection.h"
+#include "vtkRenderWindow.h"
+#include "vtkSSAAPass.h"
+#include "vtkSequencePass.h"
+#include "vtkShadowMapPass.h"
+
+#include <algorithm>
+#include <string>
+
+namespace
+{
+
+/// Call a function with a pass that has a delegate, as a class that tells of it.
+template <typename Call>
+void withDelegate(vtkRenderPass* pass, const Call& call)
+{
+  if (auto* processing = vtkImageProcessingPass::SafeDownCast(pass))
+  {
+    call(processing);
+  }
+  else if (auto* smooth = vtkSSAAPass::SafeDownCast(pass))
+  {
+    call(smooth);
+  }
+  else if (auto* camera = vtkCameraPass::SafeDownCast(pass))
+  {
+    call(camera);
+  }
+  else if (auto* sampling = vtkGnomonLightSamplingPass::SafeDownCast(pass))
+  {
+    call(sampling);
+  }
+  else if (auto* shadows = vtkGnomonShadowPass::SafeDownCast(pass))
+  {
+    call(shadows);
+  }
+}
+
+vtkRenderPass* delegateOf(vtkRenderPass* pass)
+{
+  vtkRenderPass* delegate = nullptr;
+  withDelegate(pass, [&](auto* of) { delegate = of->GetDelegatePass(); });
+  return delegate;
+}
+
+/// True if a pass works on the finished picture, or has it drawn several times, so that shadows are
+/// within it. vtkSSAOPass draws, although it is a vtkImageProcessingPass.
+bool standsAround(vtkRenderPass* pass)
+{
+  return (pass->IsA("vtkImageProcessingPass") && !pass->IsA("vtkSSAOPass")) ||
+    pass->IsA("vtkSSAAPass") || pass->IsA("vtkGnomonLightSamplingPass");
+}
+
+/// True if VTK's own shadow maps are drawn by a pass.
+bool hasShadowMaps(vtkRenderPass* pass)
+{
+  if (auto* sequence = vtkSequencePass::SafeDownCast(pass); sequence && sequence->GetPasses())
+  {
+    vtkRenderPassCollection* const passes = sequence->GetPasses();
+    for (int i = 0; i < passes->GetNumberOfItems(); ++i)
+    {
+      if (hasShadowMaps(vtkRenderPass::SafeDownCast(passes->GetItemAsObject(i))))
+      {
+        return true;
+      }
+    }
+  }
+  return pass && (pass->IsA("vtkShadowMapPass") || hasShadowMaps(delegateOf(pass)));
+}
+
+std::string namesOf(vtkRenderPass* pass)
+{
+  vtkRenderPass* const delegate = delegateOf(pass);
+  return pass->GetClassName() + (delegate ? " around " + namesOf(delegate) : "");
+}
+
+/// A place in a chain: a pass's delegate, or the pass of the renderer itself.
+struct Place
+{
+  vtkRenderer* renderer;
+  vtkRenderPass* outer; ///< null: the renderer itself
+
+  vtkRenderPass* pass() const
+  {
+    return this->outer ? delegateOf(this->outer) : this->renderer->GetPass();
+  }
+  void set(vtkRenderPass* pass) const
+  {
+    if (!this->outer)
+    {
+      this->renderer->SetPass(pass);
+    }
+    withDelegate(this->outer, [&](auto* of) { of->SetDelegatePass(pass); });
+  }
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::Install(vtkRenderer* renderer)
+{
+  if (!renderer)
+  {
+    vtkErrorMacro("There is no renderer to install shadows in.");
+    return;
+  }
+  this->Uninstall(renderer);
+  Place place{ renderer, nullptr };
+  vtkRenderPass* outer = nullptr;
+  for (vtkRenderPass* pass = renderer->GetPass(); pass; pass = delegateOf(pass))
+  {
+    if (pass == this)
+    {
+      return; // a program has given it its place
+    }
+    if (pass->IsA("vtkGnomonShadowPass"))
+    {
+      place.outer = outer; // other shadows have the place
+      break;
+    }
+    place.outer = standsAround(pass) ? pass : place.outer;
+    outer = pass;
+  }
+  const vtkSmartPointer<vtkRenderPass> replaced = place.pass();
+  vtkGnomonShadowPass* const others = SafeDownCast(replaced);
+  vtkRenderPass* const inner = others ? others->GetDelegatePass() : replaced.Get();
+  const bool takesInner = inner && !this->DelegatePass && !hasShadowMaps(inner);
+  if (takesInner)
+  {
+    this->SetDelegatePass(inner);
+  }
+  else if (inner)
+  {
+    vtkWarningMacro("The renderer's pass gave way to shadows: " << namesOf(inner) << ".");
+  }
+  if (replaced && replaced != this->DelegatePass && renderer->GetRenderWindow())
+  {
+    replaced->ReleaseGraphicsResources(renderer->GetRenderWindow()); // it may never draw again
+  }
+  this->Internal->places.push_back({ renderer, replaced, takesInner });
+  place.set(this);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::Uninstall(vtkRenderer* renderer)
+{
+  auto& places = this->Internal->places;
+  const auto found = std::find_if(places.begin(), places.end(),
+    [&](const Internals::TakenPlace& taken) { return renderer && taken.renderer == renderer; });
+  if (found == places.end())
+  {
+    return;
+  }
+  const Internals::TakenPlace taken = *found;
+  places.erase(found);
+  if (taken.hasDelegate)
+  {
+    this->SetDelegatePass(nullptr);
+  }
+  Place place{ renderer, nullptr };
+  while (place.pass() && place.pass() != this)
+  {
+    place.outer = place.pass();
+  }
+  if (place.pass())
+  {
+    place.set(taken.replaced);
+  }
+}
