@@ -9,11 +9,19 @@ import sys
 import gnomon
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
+from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkPlaneSource
-from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkLight,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+)
 
 
-def add(renderer, source):
+def add(renderer: vtkRenderer, source: vtkPolyDataAlgorithm) -> None:
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(source.GetOutputPort())
     actor = vtkActor()
@@ -21,7 +29,7 @@ def add(renderer, source):
     renderer.AddActor(actor)
 
 
-def make_window():
+def make_window() -> "tuple[gnomon.vtkGnomonEGLRenderWindow, vtkRenderer]":
     """A cube over a plane under a sun."""
     renderer = vtkRenderer()
     add(renderer, vtkCubeSource())
@@ -42,7 +50,7 @@ def make_window():
     return window, renderer
 
 
-def read_arrays(window, renderer):
+def read_arrays(window: vtkRenderWindow, renderer: vtkRenderer) -> gnomon.vtkGnomonShadowPass:
     """python.md"""
     shadows = gnomon.add_shadows(renderer, keep_visibility=True)
     shadows.light_radius = 0.5
@@ -53,22 +61,22 @@ def read_arrays(window, renderer):
     return shadows
 
 
-def observe(shadows):
+def observe(shadows: gnomon.vtkGnomonShadowPass) -> None:
     """python.md"""
 
-    def note(caller, event, shown):
+    def note(caller: vtkObject, event: str, shown: float) -> None:
         print(f"{shown:.0%}")
 
-    note.CallDataType = VTK_DOUBLE
+    note.CallDataType = VTK_DOUBLE  # type: ignore[attr-defined]
     shadows.AddObserver("ProgressEvent", note)
 
 
-def compare(window, baseline):
+def compare(window: vtkRenderWindow, baseline: str) -> None:
     """test_your_pictures.md"""
     gnomon.assert_images_equal(window, baseline, max_difference=8, max_pixels=20)
 
 
-def main():
+def main() -> None:
     window, renderer = make_window()
     observe(read_arrays(window, renderer))
     baseline = os.path.join(sys.argv[1], "guide.png")

@@ -20,7 +20,7 @@ MAX_DIFFERENCE = 16  # drivers round colours differently
 MAX_PIXELS = 30  # and edges
 
 
-def make_window(height):
+def make_window(height: float) -> gnomon.vtkGnomonEGLRenderWindow:
     """The program under test: a cone over a plane, at a height."""
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
@@ -58,17 +58,17 @@ def make_window(height):
 
 
 class Pictures(unittest.TestCase):
-    def check(self, window, name):
+    def check(self, window: vtk.vtkRenderWindow, name: str) -> None:
         path = os.path.join(BASELINES, name + ".png")
         gnomon.assert_images_equal(window, path, MAX_DIFFERENCE, MAX_PIXELS)
 
-    def test_a_cone_on_the_ground(self):
+    def test_a_cone_on_the_ground(self) -> None:
         self.check(make_window(0), "cone_on_the_ground")
 
-    def test_a_cone_in_the_air(self):
+    def test_a_cone_in_the_air(self) -> None:
         self.check(make_window(0.6), "cone_in_the_air")
 
-    def test_the_baselines_tell_them_apart(self):
+    def test_the_baselines_tell_them_apart(self) -> None:
         """A test that cannot fail is worth nothing."""
         if "GNOMON_REFRESH_BASELINES" in os.environ:
             self.skipTest("it would write a wrong baseline")

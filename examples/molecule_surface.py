@@ -17,11 +17,11 @@ ATOMS = 36  # of the backbone
 CARBON, NITROGEN, OXYGEN = 6, 7, 8
 
 
-def make_molecule():
+def make_molecule() -> vtk.vtkMolecule:
     """A helix as in proteins: the backbone, its oxygen atoms, and side chains. In angstroms."""
     molecule = vtk.vtkMolecule()
 
-    def add(element, radius, angle, height):
+    def add(element: int, radius: float, angle: float, height: float) -> None:
         x, y = radius * math.cos(angle), radius * math.sin(angle)
         molecule.AppendAtom(element, x, y, height)
 
@@ -36,7 +36,7 @@ def make_molecule():
     return molecule
 
 
-def make_surface(molecule):
+def make_surface(molecule: vtk.vtkMolecule) -> vtk.vtkPolyData:
     """A contour of the density, without its front quarter."""
     atoms = vtk.vtkPolyData()
     atoms.SetPoints(molecule.GetAtomicPositionArray())
@@ -60,7 +60,7 @@ def make_surface(molecule):
     return cut.GetOutput()
 
 
-def main():
+def main() -> None:
     path = sys.argv[1] if len(sys.argv) > 1 else "molecule_surface.png"
     size = [int(number) for number in sys.argv[2:4]] or [800, 600]
 

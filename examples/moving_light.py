@@ -20,7 +20,7 @@ QUEEN = [(1.2, 0), (1.2, 0.3), (0.9, 0.55), (0.55, 1.2), (0.42, 2.9), (0.8, 3.1)
          (0.6, 3.6), (0.85, 4.2), (0.5, 4.15), (0.25, 4.3), (0, 4.6)]
 
 
-def make_piece(outline):
+def make_piece(outline: "list[tuple[float, float]]") -> vtk.vtkPolyDataNormals:
     points = vtk.vtkPoints()
     lines = vtk.vtkCellArray()
     lines.InsertNextCell(len(outline))
@@ -39,7 +39,7 @@ def make_piece(outline):
     return normals
 
 
-def make_board():
+def make_board() -> vtk.vtkPlaneSource:
     board = vtk.vtkPlaneSource()
     board.SetOrigin(-10, -10, 0)
     board.SetPoint1(10, -10, 0)
@@ -54,7 +54,13 @@ def make_board():
     return board
 
 
-def add(renderer, algorithm, colour=(1, 1, 1), x=0.0, y=0.0):
+def add(
+    renderer: vtk.vtkRenderer,
+    algorithm: vtk.vtkPolyDataAlgorithm,
+    colour: "tuple[float, float, float]" = (1, 1, 1),
+    x: float = 0.0,
+    y: float = 0.0,
+) -> None:
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputConnection(algorithm.GetOutputPort())
     actor = vtk.vtkActor()
@@ -67,7 +73,7 @@ def add(renderer, algorithm, colour=(1, 1, 1), x=0.0, y=0.0):
     renderer.AddActor(actor)
 
 
-def main():
+def main() -> None:
     pattern = sys.argv[1] if len(sys.argv) > 1 else "frame_%03d.png"
     size = [int(number) for number in sys.argv[2:4]] or [800, 600]
     frames = int(sys.argv[4]) if len(sys.argv) > 4 else 72

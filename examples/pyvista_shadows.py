@@ -10,7 +10,7 @@ import numpy
 import pyvista
 
 
-def main():
+def main() -> None:
     plotter = pyvista.Plotter(
         shape=(1, 2), off_screen=True, window_size=(1000, 450), lighting="none"
     )

@@ -7,6 +7,7 @@ import sys
 
 import gnomon
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
@@ -17,7 +18,7 @@ from vtkmodules.vtkRenderingCore import (
 )
 
 
-def add(renderer, source):
+def add(renderer: vtkRenderer, source: vtkPolyDataAlgorithm) -> None:
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(source.GetOutputPort())
     actor = vtkActor()
@@ -25,7 +26,7 @@ def add(renderer, source):
     renderer.AddActor(actor)
 
 
-def main():
+def main() -> None:
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     sphere = vtkSphereSource()

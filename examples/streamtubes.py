@@ -15,7 +15,7 @@ import vtk
 from vtk.util.numpy_support import numpy_to_vtk
 
 
-def make_flow():
+def make_flow() -> vtk.vtkImageData:
     """A field of velocities on a grid: a wind along x, in which two vortices climb."""
     n = (64, 48, 32)
     grid = vtk.vtkImageData()
@@ -36,7 +36,11 @@ def make_flow():
     return grid
 
 
-def add(renderer, algorithm, colours=None):
+def add(
+    renderer: vtk.vtkRenderer,
+    algorithm: vtk.vtkPolyDataAlgorithm,
+    colours: "vtk.vtkLookupTable | None" = None,
+) -> vtk.vtkActor:
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputConnection(algorithm.GetOutputPort())
     actor = vtk.vtkActor()
@@ -50,7 +54,7 @@ def add(renderer, algorithm, colours=None):
     return actor
 
 
-def main():
+def main() -> None:
     path = sys.argv[1] if len(sys.argv) > 1 else "streamtubes.png"
     size = [int(number) for number in sys.argv[2:4]] or [800, 600]
 

@@ -17,7 +17,11 @@ SOFT = ("pcss", "montecarlo", "sampled", "penumbra")
 WITHOUT_MAP = ("planar", "penumbra", "raytraced")
 
 
-def add(renderers, algorithm, colour):
+def add(
+    renderers: "list[vtk.vtkRenderer]",
+    algorithm: vtk.vtkPolyDataAlgorithm,
+    colour: "tuple[float, float, float]",
+) -> None:
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputConnection(algorithm.GetOutputPort())
     actor = vtk.vtkActor()
@@ -28,7 +32,9 @@ def add(renderers, algorithm, colour):
         renderer.AddActor(actor)
 
 
-def add_label(renderer, text, colour, font_size):
+def add_label(
+    renderer: vtk.vtkRenderer, text: str, colour: "tuple[float, float, float]", font_size: int
+) -> None:
     label = vtk.vtkTextActor()
     label.SetInput(text)
     label.SetPosition(font_size / 2, font_size / 3)
@@ -37,12 +43,11 @@ def add_label(renderer, text, colour, font_size):
     renderer.AddViewProp(label)
 
 
-def main():
+def main() -> None:
     path = sys.argv[1] if len(sys.argv) > 1 else "technique_table.png"
     size = [int(number) for number in sys.argv[2:4]] or [1000, 750]
 
-    a_pass = gnomon.vtkGnomonShadowPass()
-    names = [a_pass.GetTechniqueName(i) for i in range(a_pass.GetNumberOfTechniques())]
+    names = [name for name in gnomon.techniques() if name != "auto"]
     names.sort(key=lambda name: name in SOFT)  # stable: the rest stays in its order
 
     window = gnomon.vtkGnomonEGLRenderWindow()  # or, with a display, a vtkRenderWindow
@@ -56,7 +61,7 @@ def main():
     backdrop.SetBackground(0.93, 0.92, 0.89)
     window.AddRenderer(backdrop)
     renderers = []
-    for i, name in enumerate(["no shadows"] + names):
+    for i, name in enumerate([None, *names]):
         column, row = i % COLUMNS, ROWS - 1 - i // COLUMNS
         renderer = vtk.vtkRenderer()
         renderer.SetViewport(column / COLUMNS, row / ROWS, (column + 1) / COLUMNS, (row + 1) / ROWS)
@@ -65,13 +70,14 @@ def main():
         light.SetPosition(-0.55, -0.35, 0.9)  # directional: it shines towards the origin
         renderer.AddLight(light)
         is_soft = name in SOFT
-        if i > 0:
-            settings = {} if name in WITHOUT_MAP else {"map_size": 256}
-            gnomon.add_shadows(renderer, name, **settings)
+        if name:
+            shadows = gnomon.add_shadows(renderer, name)
+            if name not in WITHOUT_MAP:
+                shadows.map_size = 256
             if is_soft:
-                gnomon.vtkGnomonLightKeys.SetSetting(light, "light_radius", "12")  # degrees
+                gnomon.vtkGnomonLightKeys.SetSetting(light, "light_radius", 12)  # degrees
         colour = (0.7, 0.1, 0.1) if is_soft else (0, 0, 0)
-        add_label(renderer, name, colour, max(size[1] // 40, 6))
+        add_label(renderer, name or "no shadows", colour, max(size[1] // 40, 6))
         window.AddRenderer(renderer)
         renderers.append(renderer)
 

@@ -17,7 +17,7 @@ SIDE = 8000.0  # metres; x is east, y north, z up
 RELIEF = 1500.0
 
 
-def make_terrain():
+def make_terrain() -> vtk.vtkPolyData:
     """Ridged gradient noise in six octaves."""
     square = vtk.vtkPlaneSource()
     square.SetPoint1(SIDE, 0, 0)
@@ -42,7 +42,7 @@ def make_terrain():
     return normals.GetOutput()
 
 
-def main():
+def main() -> None:
     path = sys.argv[1] if len(sys.argv) > 1 else "terrain_sun_hours.png"
     size = [int(number) for number in sys.argv[2:4]] or [800, 600]
 

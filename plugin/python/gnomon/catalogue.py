@@ -16,7 +16,7 @@ Technique = Literal[
 ]  # fmt: skip
 
 
-def techniques() -> dict[str, str]:
+def techniques() -> dict[Technique, str]:
     """Return what each technique is, in a line, by its name.
 
     Returns
@@ -25,7 +25,7 @@ def techniques() -> dict[str, str]:
         Of each value of `technique`, for `add_shadows` and the attribute of its pass.
     """
     count = vtkGnomonShadowPass.GetNumberOfTechniques()
-    names = [vtkGnomonShadowPass.GetTechniqueName(i) for i in range(count)]
+    names: list[Any] = [vtkGnomonShadowPass.GetTechniqueName(i) for i in range(count)]
     return {name: vtkGnomonShadowPass.GetTechniqueSummary(name) for name in ["auto", *names]}
 
 

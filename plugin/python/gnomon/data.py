@@ -6,7 +6,7 @@ import contextlib
 import datetime
 import signal
 import threading
-from typing import TYPE_CHECKING, Any, Literal, Protocol, Union, overload
+from typing import TYPE_CHECKING, Any, Protocol, Union
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -37,25 +37,6 @@ if TYPE_CHECKING:
 _SKIES = ("uniform", "dome", "overcast")  # in the order of vtkGnomonVisibilityFilter.SkyModelType
 
 
-@overload
-def sun_path(
-    latitude: float,
-    longitude: float,
-    date: str | datetime.date,
-    minutes: float = ...,
-    zone: float = ...,
-    times: Literal[False] = ...,
-) -> tuple[numpy.ndarray, numpy.ndarray]: ...
-@overload
-def sun_path(
-    latitude: float,
-    longitude: float,
-    date: str | datetime.date,
-    minutes: float = ...,
-    zone: float = ...,
-    *,
-    times: Literal[True],
-) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]: ...
 def sun_path(
     latitude: float,
     longitude: float,
@@ -248,8 +229,8 @@ def _run(algorithm, progress):
     """Execute an algorithm, which tells of its progress, until its end, Ctrl-C or an exception.
 
     Python runs the handler of a signal in its own code only, here in the observer of the progress.
-    VTK's wrappers end the program if an observer raises KeyboardInterrupt, so that waits for the
-    end.
+    VTK's wrappers end the program if an observer raises KeyboardInterrupt, so exceptions wait for
+    the end.
     """
     if progress is not None and not callable(progress):
         raise TypeError(f"progress: found {progress!r}, expected a function of a number")
