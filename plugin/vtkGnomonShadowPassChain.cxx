@@ -16,30 +16,20 @@
 namespace
 {
 
-/// Call a function with a pass that has a delegate, as a class that tells of it.
+/// Call a function with a pass as the first of some classes that it belongs to, if there is one.
+template <typename... Classes, typename Call>
+void callAs(vtkRenderPass* pass, const Call& call)
+{
+  const auto callIf = [&](auto* of) { return of && (call(of), true); };
+  static_cast<void>((callIf(Classes::SafeDownCast(pass)) || ...));
+}
+
+/// Call a function with a pass that has a delegate.
 template <typename Call>
 void withDelegate(vtkRenderPass* pass, const Call& call)
 {
-  if (auto* processing = vtkImageProcessingPass::SafeDownCast(pass))
-  {
-    call(processing);
-  }
-  else if (auto* smooth = vtkSSAAPass::SafeDownCast(pass))
-  {
-    call(smooth);
-  }
-  else if (auto* camera = vtkCameraPass::SafeDownCast(pass))
-  {
-    call(camera);
-  }
-  else if (auto* sampling = vtkGnomonLightSamplingPass::SafeDownCast(pass))
-  {
-    call(sampling);
-  }
-  else if (auto* shadows = vtkGnomonShadowPass::SafeDownCast(pass))
-  {
-    call(shadows);
-  }
+  callAs<vtkImageProcessingPass, vtkSSAAPass, vtkCameraPass, vtkGnomonLightSamplingPass,
+    vtkGnomonShadowPass>(pass, call);
 }
 
 vtkRenderPass* delegateOf(vtkRenderPass* pass)
