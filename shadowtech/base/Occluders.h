@@ -4,6 +4,7 @@
 #include "lights/SceneFrame.h"
 #include "shadowtech/base/CutoutMask.h"
 #include "shadowtech/base/Patches.h"
+#include "shadowtech/base/Sheet.h"
 #include "shadowtech/base/Solid.h"
 
 #include <glm/glm.hpp>
@@ -27,10 +28,13 @@ struct Surface
   std::uint32_t firstTriangle = 0;
   std::uint32_t triangleCount = 0;
 
-  bool casts = true;     ///< its triangles block light
+  bool casts = true;     ///< its triangles block light; false if they let some through
   bool receives = true;  ///< its pixels are shadowed; else their visibility is 1
   bool oneSided = false; ///< only triangles whose front (counter-clockwise) faces the light cast
   bool isMoved = false;  ///< a user's shader code may show it elsewhere than the snapshot has it
+
+  /// Set if it casts and lets light through; null, as nearly always, if it does not.
+  std::shared_ptr<const Sheet> sheet;
 
   /// The holes that its texture cuts; null, as nearly always, if it has none.
   std::shared_ptr<const CutoutMask> cutout;

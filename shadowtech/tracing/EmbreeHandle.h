@@ -4,6 +4,7 @@
 #include "shadowtech/tracing/Embree.h"
 
 #include <atomic>
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -60,6 +61,20 @@ inline EmbreeDevice startEmbree()
     throw std::runtime_error("Embree cannot be started in this process");
   }
   return device;
+}
+
+/// Count the bytes that a device allocates.
+/// @param bytes must outlive the device
+inline void countBytes(RTCDevice device, std::atomic<std::ptrdiff_t>& bytes)
+{
+  rtcSetDeviceMemoryMonitorFunction(
+    device,
+    [](void* user, ssize_t change, bool)
+    {
+      *static_cast<std::atomic<std::ptrdiff_t>*>(user) += change;
+      return true;
+    },
+    &bytes);
 }
 
 /// Let nothing pass that Embree ignores (triangles) or dies of (boxes of its builder).

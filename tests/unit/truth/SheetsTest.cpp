@@ -1,0 +1,544 @@
+// Light through translucent sheets against closed forms, and against every triangle in double.
+
+#include "InstancedScene.h"
+#include "RandomScenes.h"
+#include "SyntheticScene.h"
+
+#include "shadowtech/base/CutoutMask.h"
+#include "shadowtech/base/Sheet.h"
+#include "shadowtech/transmittance/Sheets.h"
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr float endless = std::numeric_limits<float>::infinity();
+
+Sheet sheetOf(double opacity, const glm::vec3& colour = glm::vec3(0.0f))
+{
+  Sheet sheet;
+  sheet.colour = glm::vec4(colour, static_cast<float>(opacity));
+  return sheet;
+}
+
+/// Have a surface of a snapshot transmit. The snapshot's box is enlarged for the tests' rays.
+void setSheet(Occluders& occluders, std::size_t surface, Sheet sheet)
+{
+  occluders.allCentred.add({ glm::dvec3(-12.0), glm::dvec3(12.0) });
+  sheet.prop = static_cast<std::uint32_t>(surface);
+  occluders.surfaces[surface].casts = false;
+  occluders.surfaces[surface].sheet = std::make_shared<const Sheet>(std::move(sheet));
+}
+
+/// Return a snapshot whose surfaces are sheets of one opacity.
+Occluders makeSheets(const std::vector<Prop>& props, double opacity = 0.5)
+{
+  Occluders occluders = makeOccluders(props);
+  for (std::size_t i = 0; i < props.size(); ++i)
+  {
+    setSheet(occluders, i, sheetOf(opacity));
+  }
+  return occluders;
+}
+
+/// A ray in centred coordinates.
+struct TestRay
+{
+  glm::vec3 origin, direction;
+};
+
+/// Return the number of sheets of opacity 0.5 that a ray crosses.
+double countCrossings(const Sheets& sheets, const TestRay& ray, float rayFar = endless)
+{
+  return -std::log2(sheets.transmittanceOf(ray.origin, ray.direction, rayFar).x);
+}
+
+/// Count the rays that do not cross as many sheets of opacity 0.5.
+/// @param makeRay called with a generator, by several threads at once
+template <typename MakeRay>
+std::size_t countWrong(
+  const Occluders& occluders, std::size_t rays, double crossings, const MakeRay& makeRay)
+{
+  Sheets sheets;
+  sheets.update(occluders);
+  std::atomic<std::size_t> wrong{ 0 };
+  constexpr std::size_t batch = 1000;
+  tbb::parallel_for(std::size_t(0), rays / batch,
+    [&](std::size_t number)
+    {
+      Random random(static_cast<unsigned int>(number));
+      wrong += countBelow(
+        batch, [&](std::size_t) { return countCrossings(sheets, makeRay(random)) != crossings; });
+    });
+  return wrong;
+}
+
+/// Return a point on a random edge of a snapshot's triangles: an end, the middle or any.
+glm::vec3 onEdge(const Occluders& occluders, Random& random)
+{
+  const glm::uvec3 triangle = occluders.triangles[random() % occluders.triangles.size()];
+  const auto corner = static_cast<glm::length_t>(random() % 3);
+  const glm::vec3 a = occluders.positionsCentred[triangle[corner]];
+  const glm::vec3 b = occluders.positionsCentred[triangle[(corner + 1) % 3]];
+  const float shares[] = { 0.0f, 0.5f, static_cast<float>(uniform(random, 0.0, 1.0)) };
+  return glm::mix(a, b, shares[random() % 3]);
+}
+
+/// Return a ray to a point from a random place below it.
+TestRay toFromBelow(const glm::vec3& point, Random& random)
+{
+  // Half of the places lie on a grid, so that many rays meet the corners exactly.
+  glm::dvec3 place = inCube(random) + glm::dvec3(0.0, 0.0, -9.0);
+  place = random() % 2 != 0 ? glm::round(4.0 * place) / 4.0 : place;
+  const glm::vec3 origin(place);
+  return { origin, point - origin };
+}
+
+/// Return triangles around a corner, in the plane z = 0.
+Mesh makeFan(int triangles)
+{
+  Mesh fan;
+  fan.points.emplace_back(0.0);
+  for (int i = 0; i < triangles; ++i)
+  {
+    const double angle = 2.0 * glm::pi<double>() * i / triangles;
+    fan.points.emplace_back(3.0 * std::cos(angle), 3.0 * std::sin(angle), 0.0);
+    fan.triangles.emplace_back(0, i + 1, (i + 1) % triangles + 1);
+  }
+  return fan;
+}
+
+/// Return needles between two rows of corners, in the plane z = 0.
+Mesh makeStrip(int needles)
+{
+  Mesh strip;
+  for (int i = 0; i <= needles + 1; ++i)
+  {
+    strip.points.emplace_back(-3.0 + 6.0 * i / (needles + 1), i % 2 == 0 ? -3.0 : 3.0, 0.0);
+  }
+  for (int i = 0; i < needles; ++i)
+  {
+    const auto first = static_cast<unsigned int>(i);
+    strip.triangles.emplace_back(first, first + 1 + i % 2, first + 2 - i % 2);
+  }
+  return strip;
+}
+
+/// Return the points of a mesh's inner edges, those of two triangles.
+std::vector<std::pair<glm::dvec3, glm::dvec3>> innerEdges(const Mesh& mesh)
+{
+  std::vector<std::pair<glm::uint, glm::uint>> edges;
+  for (const glm::uvec3& triangle : mesh.triangles)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      edges.push_back(std::minmax(triangle[corner], triangle[(corner + 1) % 3]));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::pair<glm::dvec3, glm::dvec3>> inner;
+  for (std::size_t i = 1; i < edges.size(); ++i)
+  {
+    if (edges[i] == edges[i - 1])
+    {
+      inner.emplace_back(mesh.points[edges[i].first], mesh.points[edges[i].second]);
+    }
+  }
+  return inner;
+}
+
+TEST(Sheets, PanesMultiplyInAnyOrder)
+{
+  Random random(1);
+  for (const int panes : { 1, 2, 5 })
+  {
+    for (int picture = 0; picture < 20; ++picture)
+    {
+      std::vector<Prop> props;
+      std::vector<double> opacities;
+      double expected = 1.0;
+      for (int pane = 0; pane < panes; ++pane)
+      {
+        props.push_back({ makePlane(8.0, 4), at({ 0.0, 0.0, uniform(random, 0.0, 2.0) }) });
+        opacities.push_back(0.1 + 0.1 * (random() % 9));
+        expected *= 1.0 - static_cast<double>(static_cast<float>(opacities.back()));
+      }
+      Occluders occluders = makeOccluders(props);
+      for (std::size_t pane = 0; pane < opacities.size(); ++pane)
+      {
+        setSheet(occluders, pane, sheetOf(opacities[pane]));
+      }
+      Sheets sheets;
+      sheets.update(occluders);
+      for (int i = 0; i < 2000; ++i)
+      {
+        const TestRay ray = toFromBelow(glm::vec3(2.0 * inCube(random)), random);
+        const double found = sheets.transmittanceOf(ray.origin, ray.direction, endless).x;
+        ASSERT_NEAR(found, expected, 1e-12);
+      }
+    }
+  }
+}
+
+/// Meshes whose inner edges and corners are aimed at.
+struct AimedMesh
+{
+  const char* name;
+  Mesh mesh;
+};
+const AimedMesh aimedMeshes[] = { { "Fan", makeFan(97) }, { "Strip", makeStrip(300) },
+  { "Grid", makePlane(6.0, 24) }, { "Terrain", makeTerrain(6.0, 24, 0.2) } };
+
+struct AimedSheets : testing::TestWithParam<int>
+{
+  const Mesh& mesh() const { return aimedMeshes[this->GetParam()].mesh; }
+
+  /// Expect that all rays from below to an inner edge or corner cross the surface once.
+  void expectOne(const Occluders& occluders, std::size_t rays, const glm::dmat4& centredFromMesh)
+  {
+    const auto edges = innerEdges(this->mesh());
+    EXPECT_EQ(
+      countWrong(occluders, rays, 1.0,
+        [&](Random& random) -> TestRay
+        {
+          const auto& [from, to] = edges[random() % edges.size()];
+          const auto placed = [&](const glm::dvec3& point)
+          { return glm::vec3(centredFromMesh * glm::dvec4(point, 1.0)); };
+          const float shares[] = { 0.0f, 0.5f, static_cast<float>(uniform(random, 0.0, 1.0)) };
+          glm::vec3 point = glm::mix(placed(from), placed(to), shares[random() % 3]);
+          // Rounded rays to the border may pass beside it.
+          const glm::vec3 middle = placed(glm::dvec3(0.0));
+          point = glm::distance(point, middle) > 2.9f * glm::length(glm::vec3(centredFromMesh[0]))
+            ? middle
+            : point;
+          const glm::vec3 below(
+            centredFromMesh * glm::dvec4(inCube(random) + glm::dvec3(0, 0, -9), 1.0));
+          const glm::vec3 origin = random() % 2 != 0 ? glm::round(4.0f * below) / 4.0f : below;
+          return { origin, point - origin };
+        }),
+      0u);
+  }
+};
+
+TEST_P(AimedSheets, LoseAndRepeatNoRay)
+{
+  const Occluders occluders = makeSheets({ { this->mesh() } });
+  this->expectOne(occluders, 60000, glm::translate(glm::dmat4(1.0), -occluders.frame.centre));
+}
+
+TEST_P(AimedSheets, LoseAndRepeatNoRayWhereRotated)
+{
+  Random random(7);
+  for (int i = 0; i < 4; ++i)
+  {
+    const glm::dmat4 turn =
+      glm::translate(glm::rotate(glm::dmat4(1.0), uniform(random, -3.0, 3.0), unitVector(random)),
+        inCube(random, 5.0));
+    const Occluders occluders = makeSheets({ { this->mesh(), turn } });
+    this->expectOne(
+      occluders, 30000, glm::translate(glm::dmat4(1.0), -occluders.frame.centre) * turn);
+  }
+}
+
+TEST_P(AimedSheets, LoseAndRepeatNoRayAsInstances)
+{
+  Random random(8);
+  Occluders occluders = makeSheets({ { this->mesh() } });
+  std::vector<glm::dmat4> instances;
+  for (int i = 0; i < 3; ++i)
+  {
+    // One above the other, so that rays to an edge of one cross three.
+    instances.push_back(
+      glm::translate(glm::rotate(glm::dmat4(1.0), uniform(random, -0.3, 0.3), unitVector(random)),
+        { 0.0, 0.0, 0.7 * i }));
+  }
+  makeInstanced(occluders, 0, instances);
+  EXPECT_EQ(countWrong(occluders, 60000, 3.0,
+              [&](Random& generator) -> TestRay
+              {
+                const glm::vec3 point = 0.4f * onEdge(occluders, generator);
+                const glm::vec3 target(
+                  instances[generator() % 3] * glm::dvec4(glm::dvec3(point), 1.0));
+                const glm::vec3 origin(0.2 * inCube(generator) + glm::dvec3(0.0, 0.0, -9.0));
+                return { origin, target - origin };
+              }),
+    0u);
+}
+
+TEST_P(AimedSheets, LoseAndRepeatNoRayAfterDeformation)
+{
+  Occluders occluders = makeSheets({ { this->mesh() } });
+  Sheets sheets;
+  sheets.update(occluders);
+  Random random(9);
+  for (int step = 0; step < 3; ++step)
+  {
+    for (std::uint32_t i = 0; i < occluders.surfaces[0].vertexCount; ++i)
+    {
+      occluders.positionsCentred[i].z += static_cast<float>(uniform(random, -0.003, 0.003));
+    }
+    occluders.surfaces[0].patches = std::make_shared<Patches>();
+    occluders.surfaces[0].positionsVersion += 100;
+    occluders.positionsVersion += 100;
+    sheets.update(occluders);
+    std::size_t wrong = 0;
+    for (int i = 0; i < 10000; ++i)
+    {
+      const glm::vec3 point = 0.9f * onEdge(occluders, random);
+      const TestRay ray{ point + glm::vec3(0.25f, -0.5f, -9.0f), { -0.25f, 0.5f, 9.0f } };
+      wrong += countCrossings(sheets, ray) != 1.0 ? 1 : 0;
+    }
+    EXPECT_EQ(wrong, 0u) << "step " << step;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, AimedSheets, testing::Range(0, 4),
+  [](const auto& mesh) { return aimedMeshes[mesh.param].name; });
+
+TEST(Sheets, ClosedSurfacesAreCrossedOnceFromInsideAndEvenlyFromOutside)
+{
+  for (Mesh mesh : { makeBox(glm::dvec3(-1.0), { 1.0, 0.5, 0.01 }), makeSphere(24, 40) })
+  {
+    for (glm::dvec3& point : mesh.points)
+    {
+      point = glm::round(point * 0x1p40) / 0x1p40; // closes the sphere's pole
+    }
+    const Occluders occluders = makeSheets({ { mesh } });
+    const glm::vec3 middle(glm::dvec3(0.0, -0.25, -0.4) * 0.01 - occluders.frame.centre);
+    EXPECT_EQ(countWrong(occluders, 100000, 1.0,
+                [&](Random& random) -> TestRay
+                {
+                  const glm::vec3 origin =
+                    middle + glm::vec3(inCube(random, random() % 2 != 0 ? 0.001 : 0.0));
+                  return { origin, onEdge(occluders, random) - origin };
+                }),
+      0u);
+    Sheets sheets;
+    sheets.update(occluders);
+    Random random(3);
+    for (int i = 0; i < 100000; ++i)
+    {
+      const glm::vec3 origin(10.0 * unitVector(random));
+      const TestRay ray{ origin, onEdge(occluders, random) - origin };
+      ASSERT_THAT(countCrossings(sheets, ray), testing::AnyOf(0.0, 2.0));
+    }
+  }
+}
+
+TEST(Sheets, PanesThatMeetInATCountAlone)
+{
+  // A pane that stands on another: rays beside it cross the lower one alone.
+  const Occluders occluders = makeSheets({ { makePlane(8.0, 8) },
+    { makePlane(8.0, 8),
+      glm::rotate(at({ 0.0, 0.0, 4.0 }), glm::half_pi<double>(), { 1, 0, 0 }) } });
+  const glm::vec3 centre(occluders.frame.centre);
+  Sheets sheets;
+  sheets.update(occluders);
+  Random random(4);
+  for (int i = 0; i < 50000; ++i)
+  {
+    const float x = static_cast<float>(uniform(random, -3.0, 3.0));
+    const bool isThrough = random() % 2 != 0;
+    // Through the standing pane at y = 0, or up beside it.
+    const glm::vec3 origin = glm::vec3(x, -1.0f, -1.0f) - centre;
+    const glm::vec3 direction(0.0f, isThrough ? 1.0f : -0.125f, 2.0f);
+    ASSERT_EQ(countCrossings(sheets, { origin, direction }), isThrough ? 2.0 : 1.0);
+    // Exactly at the line where they meet: the lower one, and the standing one or not.
+    ASSERT_THAT(countCrossings(sheets, { origin, { 0.0f, 1.0f, 1.0f } }), testing::AnyOf(1.0, 2.0));
+  }
+}
+
+TEST(Sheets, CopiesOfATriangleCountOnceWithinAProp)
+{
+  Mesh twice = makePlane(4.0, 4);
+  const Mesh other = apart(twice);
+  for (const glm::uvec3& triangle : other.triangles)
+  {
+    const auto first = static_cast<glm::uint>(makePlane(4.0, 4).points.size());
+    twice.triangles.push_back(glm::uvec3(triangle.z, triangle.x, triangle.y) + first);
+  }
+  twice.points.insert(twice.points.end(), other.points.begin(), other.points.end());
+  Occluders occluders = makeSheets({ { twice }, { makePlane(4.0, 4) } });
+  const TestRay ray{ { 0.3f, 0.2f, -2.0f }, { 0.0f, 0.0f, 1.0f } };
+  {
+    Sheets sheets;
+    sheets.update(occluders);
+    EXPECT_EQ(countCrossings(sheets, ray), 2.0) << "two props";
+  }
+  Sheet ofFirst = *occluders.surfaces[0].sheet;
+  occluders.surfaces[1].sheet = std::make_shared<const Sheet>(std::move(ofFirst));
+  Sheets sheets;
+  sheets.update(occluders);
+  EXPECT_EQ(countCrossings(sheets, ray), 1.0) << "two surfaces of a prop";
+  // Once the copies move apart, both count.
+  moveSurface(occluders, 1, { 0.0, 0.0, 0.5 });
+  occluders.surfaces[1].patches = std::make_shared<Patches>();
+  sheets.update(occluders);
+  EXPECT_EQ(countCrossings(sheets, ray), 2.0) << "apart";
+}
+
+TEST(Sheets, ColouredPanesMultiplyByChannel)
+{
+  Occluders occluders =
+    makeOccluders({ { makePlane(4.0) }, { makePlane(4.0), at({ 0.0, 0.0, 1.0 }) } });
+  Sheet red = sheetOf(0.75, { 1.0f, 0.5f, 0.0f });
+  Sheet blue = sheetOf(0.5, { 0.0f, 0.25f, 1.0f });
+  red.isColoured = blue.isColoured = true;
+  setSheet(occluders, 0, red);
+  setSheet(occluders, 1, blue);
+  Sheets sheets;
+  sheets.update(occluders);
+  const glm::dvec3 found =
+    sheets.transmittanceOf({ 0.1f, 0.2f, -3.0f }, { 0.0f, 0.0f, 1.0f }, endless);
+  EXPECT_EQ(found, glm::dvec3(0.5, (1.0 - 0.75 * 0.5) * (1.0 - 0.5 * 0.75), 0.25));
+}
+
+TEST(Sheets, OpacityIsThatOfVerticesTrianglesAndHoles)
+{
+  Occluders occluders = makeOccluders({ { makePlane(2.0) } });
+  Sheet sheet = sheetOf(0.5);
+  sheet.ofVertices.assign(4, glm::u8vec4(255, 255, 255, 0));
+  for (std::uint32_t i = 0; i < 4; ++i)
+  {
+    // Opaque to the right, by half of the property.
+    sheet.ofVertices[i].a = occluders.positionsCentred[i].x > 0.0f ? 255 : 0;
+  }
+  setSheet(occluders, 0, sheet);
+  const auto at = [&](float x, float y)
+  {
+    Sheets sheets;
+    sheets.update(occluders);
+    return sheets.transmittanceOf({ x, y, -3.0f }, { 0.0f, 0.0f, 1.0f }, endless).x;
+  };
+  for (const float x : { -0.75f, 0.0f, 0.3f })
+  {
+    EXPECT_NEAR(at(x, 0.1f), 1.0 - 0.5 * (0.5 + 0.5 * static_cast<double>(x)), 1e-12);
+  }
+
+  sheet.ofVertices.clear();
+  sheet.ofTriangles = { glm::u8vec4(0, 0, 0, 51), glm::u8vec4(0, 0, 0, 255) };
+  setSheet(occluders, 0, sheet);
+  EXPECT_THAT(at(0.5f, -0.5f) * at(-0.5f, 0.5f), testing::DoubleNear(0.9 * 0.5, 1e-12));
+
+  CutoutMask left;
+  left.width = 2;
+  left.height = 1;
+  left.texels = { 255, 0 };
+  occluders.surfaces[0].cutout = std::make_shared<const CutoutMask>(left);
+  for (std::uint32_t i = 0; i < 4; ++i)
+  {
+    occluders.surfaces[0].textureCoordinates.push_back(
+      0.5f * glm::vec2(occluders.positionsCentred[i]) + 0.5f);
+  }
+  setSheet(occluders, 0, sheetOf(0.5));
+  EXPECT_EQ(at(-0.5f, 0.2f), 0.5);
+  EXPECT_EQ(at(0.5f, 0.2f), 1.0) << "a hole";
+}
+
+TEST(Sheets, OneSidedSheetsTakeLightWhereTheirFrontFacesIt)
+{
+  Occluders occluders = makeSheets({ { makePlane(2.0), glm::dmat4(1.0), true, true, true } });
+  for (const char* const as : { "drawn once", "a mirrored instance" })
+  {
+    Sheets sheets;
+    sheets.update(occluders);
+    const auto crossings = [&](float towards) {
+      return countCrossings(sheets, { { 0.1f, 0.2f, -towards }, { 0.0f, 0.0f, towards } });
+    };
+    const bool isMirrored = occluders.surfaces[0].mirrored;
+    EXPECT_EQ(crossings(1.0f), isMirrored ? 0.0 : 1.0) << as;
+    EXPECT_EQ(crossings(-1.0f), isMirrored ? 1.0 : 0.0) << as;
+    occluders.surfaces[0].topologyVersion += 50;
+    occluders.topologyVersion += 50;
+    makeInstanced(occluders, 0, { glm::scale(glm::dmat4(1.0), { -1.0, 1.0, 1.0 }) }, true);
+  }
+}
+
+TEST(Sheets, RaysEndAtTheLight)
+{
+  const Occluders occluders = makeSheets({ { makePlane(2.0) } });
+  Sheets sheets;
+  sheets.update(occluders);
+  EXPECT_EQ(countCrossings(sheets, { { 0.1f, 0.2f, -2.0f }, { 0.0f, 0.0f, 1.5f } }, 1.0f), 0.0);
+  EXPECT_EQ(countCrossings(sheets, { { 0.1f, 0.2f, -2.0f }, { 0.0f, 0.0f, 2.5f } }, 1.0f), 1.0);
+  EXPECT_EQ(countCrossings(sheets, { { 0.1f, 0.2f, 0.5f }, { 0.0f, 0.0f, 2.5f } }, 1.0f), 0.0);
+}
+
+TEST(Sheets, RandomScenesTransmitAsEveryTriangleInDouble)
+{
+  for (const char* const name : randomSceneNames())
+  {
+    Random random(11);
+    Occluders occluders = makeOccluders(makeRandomScene(name, random));
+    for (Surface& surface : occluders.surfaces)
+    {
+      surface.oneSided = false;
+      surface.cutout.reset();
+      surface.casts = true; // castingTriangles() lists all
+    }
+    const std::vector<CastingTriangle> triangles = castingTriangles(occluders);
+    for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+    {
+      setSheet(occluders, i, sheetOf(0.1 + 0.05 * static_cast<double>(i % 17)));
+    }
+    Sheets sheets;
+    sheets.update(occluders);
+    std::vector<CastingTriangle> once; // without copies within a surface
+    for (const CastingTriangle& triangle : triangles)
+    {
+      const auto isCopy = [&](const CastingTriangle& other)
+      {
+        return other.surface == triangle.surface &&
+          std::is_permutation(other.corners.begin(), other.corners.end(), triangle.corners.begin());
+      };
+      if (std::none_of(once.begin(), once.end(), isCopy))
+      {
+        once.push_back(triangle);
+      }
+    }
+    int compared = 0;
+    for (int i = 0; i < 300; ++i)
+    {
+      const glm::vec3 origin(inCube(random, 3.0));
+      const glm::vec3 direction(unitVector(random));
+      double expected = 1.0;
+      bool isClear = true; // no edge within rounding
+      for (const CastingTriangle& triangle : once)
+      {
+        const auto hit = meet(triangle, glm::dvec3(origin), glm::dvec3(direction));
+        if (hit && hit->at > 0.0)
+        {
+          isClear = isClear && std::abs(hit->leastWeight()) > 1e-9 && hit->at > 1e-6;
+          const double opacity = occluders.surfaces[triangle.surface].sheet->colour.a;
+          expected *= hit->isInside() ? 1.0 - opacity : 1.0;
+        }
+      }
+      if (isClear)
+      {
+        ++compared;
+        ASSERT_NEAR(sheets.transmittanceOf(origin, direction, endless).x, expected, 1e-12)
+          << name << ", ray " << i;
+      }
+    }
+    EXPECT_GT(compared, 200) << name;
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
