@@ -8,6 +8,7 @@
 
 vtkStandardNewMacro(vtkGnomonPropKeys);
 vtkInformationKeyMacro(vtkGnomonPropKeys, CASTS, Integer);
+vtkInformationKeyMacro(vtkGnomonPropKeys, TRANSMITS, Integer);
 vtkInformationKeyMacro(vtkGnomonPropKeys, RECEIVES, Integer);
 vtkInformationKeyMacro(vtkGnomonPropKeys, ONE_SIDED, Integer);
 
@@ -23,7 +24,7 @@ bool isProp(vtkProp* prop)
   return prop != nullptr;
 }
 
-void setKey(vtkProp* prop, vtkInformationIntegerKey* key, bool value)
+void setKey(vtkProp* prop, vtkInformationIntegerKey* key, int value)
 {
   if (!isProp(prop))
   {
@@ -34,13 +35,13 @@ void setKey(vtkProp* prop, vtkInformationIntegerKey* key, bool value)
     vtkNew<vtkInformation> keys;
     prop->SetPropertyKeys(keys);
   }
-  prop->GetPropertyKeys()->Set(key, value ? 1 : 0);
+  prop->GetPropertyKeys()->Set(key, value);
 }
 
-bool getKey(vtkProp* prop, vtkInformationIntegerKey* key, bool defaultValue)
+int getKey(vtkProp* prop, vtkInformationIntegerKey* key, int defaultValue)
 {
   vtkInformation* keys = isProp(prop) ? prop->GetPropertyKeys() : nullptr;
-  return keys && keys->Has(key) ? keys->Get(key) != 0 : defaultValue;
+  return keys && keys->Has(key) ? keys->Get(key) : defaultValue;
 }
 
 } // namespace
@@ -48,35 +49,53 @@ bool getKey(vtkProp* prop, vtkInformationIntegerKey* key, bool defaultValue)
 //------------------------------------------------------------------------------
 void vtkGnomonPropKeys::SetCasts(vtkProp* prop, bool casts)
 {
-  setKey(prop, CASTS(), casts);
+  setKey(prop, CASTS(), casts ? 1 : 0);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonPropKeys::SetTransmits(vtkProp* prop, int transmits)
+{
+  if (transmits < TRANSMITS_NOTHING || transmits > TRANSMITS_GREY)
+  {
+    vtkErrorWithObjectMacro(
+      prop, "TRANSMITS was to be " << transmits << ", which is no TransmitsType.");
+    return;
+  }
+  setKey(prop, TRANSMITS(), transmits);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonPropKeys::SetReceives(vtkProp* prop, bool receives)
 {
-  setKey(prop, RECEIVES(), receives);
+  setKey(prop, RECEIVES(), receives ? 1 : 0);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonPropKeys::SetOneSided(vtkProp* prop, bool oneSided)
 {
-  setKey(prop, ONE_SIDED(), oneSided);
+  setKey(prop, ONE_SIDED(), oneSided ? 1 : 0);
 }
 
 //------------------------------------------------------------------------------
 bool vtkGnomonPropKeys::GetCasts(vtkProp* prop)
 {
-  return getKey(prop, CASTS(), true);
+  return getKey(prop, CASTS(), 1) != 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonPropKeys::GetTransmits(vtkProp* prop)
+{
+  return getKey(prop, TRANSMITS(), TRANSMITS_GREY);
 }
 
 //------------------------------------------------------------------------------
 bool vtkGnomonPropKeys::GetReceives(vtkProp* prop)
 {
-  return getKey(prop, RECEIVES(), true);
+  return getKey(prop, RECEIVES(), 1) != 0;
 }
 
 //------------------------------------------------------------------------------
 bool vtkGnomonPropKeys::GetOneSided(vtkProp* prop)
 {
-  return getKey(prop, ONE_SIDED(), false);
+  return getKey(prop, ONE_SIDED(), 0) != 0;
 }

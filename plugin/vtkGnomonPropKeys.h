@@ -29,17 +29,29 @@ public:
   static vtkGnomonPropKeys* New();
   vtkTypeMacro(vtkGnomonPropKeys, vtkObject);
 
+  /**
+   * The light that a translucent prop lets through wherever a ray crosses its surface.
+   */
+  enum TransmitsType
+  {
+    TRANSMITS_NOTHING = 0, ///< it blocks all light
+    TRANSMITS_GREY = 1     ///< 1 - a, where a is the opacity with which VTK draws it there
+  };
+
   ///@{
   /**
-   * Return the keys. Each is 0 or 1.
+   * Return the keys. Each is 0 or 1, but for TRANSMITS.
    *
-   * - CASTS: the prop blocks light. Default: 1 for opaque props, 0 for translucent ones. A
-   *   translucent prop that casts blocks all light.
+   * - CASTS: the prop blocks light. Default: 1 for opaque props, 0 for translucent ones unless
+   *   vtkGnomonShadowPass::SetTranslucentCasters() has them cast.
+   * - TRANSMITS: what a translucent prop that casts lets through, one of TransmitsType. Default:
+   *   TRANSMITS_GREY.
    * - RECEIVES: the prop shows shadows. Default: 1.
    * - ONE_SIDED: the prop blocks light only with triangles whose front faces the light. The front
    *   shows the corners counter-clockwise. Default: 0, both sides block.
    */
   static vtkInformationIntegerKey* CASTS();
+  static vtkInformationIntegerKey* TRANSMITS();
   static vtkInformationIntegerKey* RECEIVES();
   static vtkInformationIntegerKey* ONE_SIDED();
   ///@}
@@ -49,6 +61,7 @@ public:
    * Set a key on a prop. Gives the prop property keys if it has none.
    */
   static void SetCasts(vtkProp* prop, bool casts) VTK_EXPECTS(prop != nullptr);
+  static void SetTransmits(vtkProp* prop, int transmits) VTK_EXPECTS(prop != nullptr);
   static void SetReceives(vtkProp* prop, bool receives) VTK_EXPECTS(prop != nullptr);
   static void SetOneSided(vtkProp* prop, bool oneSided) VTK_EXPECTS(prop != nullptr);
   ///@}
@@ -58,6 +71,7 @@ public:
    * Return a key's value. If the prop does not have the key, return its default for opaque props.
    */
   static bool GetCasts(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
+  static int GetTransmits(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
   static bool GetReceives(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
   static bool GetOneSided(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
   ///@}

@@ -472,6 +472,7 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes(vtkRenderer* renderer) const
   wishes.keepVisibility = this->KeepVisibility;
   wishes.measureStages = this->MeasureStages;
   wishes.smoothTerminators = this->SmoothTerminators;
+  wishes.translucentCasters = this->TranslucentCasters;
   wishes.maximumError = this->MaximumError;
   wishes.maximumSoftError = this->MaximumSoftError;
   wishes.timeBudget = std::max(this->TimeBudget, 0.0);

@@ -194,6 +194,19 @@ public:
   vtkBooleanMacro(SmoothTerminators, bool);
   ///@}
 
+  ///@{
+  /**
+   * Have all translucent props cast, but for those whose key CASTS is 0. Each crossing of such a
+   * surface leaves 1 - a of the light, where a is the opacity with which VTK draws it; see
+   * vtkGnomonPropKeys::TRANSMITS. Rays find what is left, so lights with other techniques take
+   * `raytraced`. Translucent surfaces themselves show no such shadows. Default off: translucent
+   * props cast if their key asks.
+   */
+  vtkSetMacro(TranslucentCasters, bool);
+  vtkGetMacro(TranslucentCasters, bool);
+  vtkBooleanMacro(TranslucentCasters, bool);
+  ///@}
+
   /**
    * Which lights cast, of those whose own key (vtkGnomonLightKeys::CASTS) does not say. A headlight
    * does not, nor a camera light that stands at the camera, which hardly sees their shadows.
@@ -541,6 +554,7 @@ protected:
   double MaximumSoftError = 0.03;
   double TimeBudget = GNOMON_TIME_BUDGET_OF_WINDOW;
   double MemoryBudget = 0.0;
+  bool TranslucentCasters = false;
   double SkyIntensity = 0.0;
   double SkyColor[3] = { 1.0, 1.0, 1.0 };
   int SkyModel = SKY_UNIFORM;

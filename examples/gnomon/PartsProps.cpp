@@ -335,6 +335,7 @@ const std::vector<SceneProp>& kindsOfProps()
         {
           actor->GetProperty()->SetOpacity(0.5);
           vtkGnomonPropKeys::SetCasts(actor, true);
+          vtkGnomonPropKeys::SetTransmits(actor, vtkGnomonPropKeys::TRANSMITS_NOTHING);
         }) },
     { "clipped", ballWith(clip) },
     { "elevation colours", elevationProp },

@@ -73,6 +73,7 @@ vtkSmartPointer<vtkActor> makeActor(const SceneModel& model)
   matrix->DeepCopy(model.matrix.data());
   actor->SetUserMatrix(matrix);
   vtkGnomonPropKeys::SetCasts(actor, model.casts);
+  vtkGnomonPropKeys::SetTransmits(actor, vtkGnomonPropKeys::TRANSMITS_NOTHING);
   vtkGnomonPropKeys::SetReceives(actor, model.receives);
   vtkGnomonPropKeys::SetOneSided(actor, model.oneSided);
   return actor;

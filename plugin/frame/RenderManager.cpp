@@ -114,7 +114,9 @@ const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s
 {
   Frame& frame = this->frame_;
   const SnapshotChange change = this->collector_.collect(s->GetRenderer(),
-    { frame.wishes.smoothTerminators, haveInputsRun(s->GetRenderer()) }, *frame.ranks);
+    { frame.wishes.smoothTerminators, haveInputsRun(s->GetRenderer()),
+      { frame.wishes.translucentCasters && !frame.wishes.isShared, !frame.wishes.isShared } },
+    *frame.ranks);
   frame.counts.surfacesExtracted = change.extracted;
   frame.counts.surfacesRetransformed = change.retransformed;
   const Occluders& occluders = this->collector_.occluders();

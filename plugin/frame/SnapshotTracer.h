@@ -4,6 +4,7 @@
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Patches.h"
 #include "shadowtech/tracing/SharedTracer.h"
+#include "shadowtech/transmittance/Sheets.h"
 
 #include <cstddef>
 #include <optional>
@@ -25,19 +26,28 @@ public:
   void update();
   /// Return the tracer of the last update.
   EmbreeTracer& get() { return *this->tracer_; }
+  /// Return the translucent casters of the last update; null if there are none.
+  const Sheets* sheets() const { return this->sheets_ ? &*this->sheets_ : nullptr; }
 
   ///@{
   /// Return bytes; 0 if nothing was traced.
-  std::size_t bytes() const { return this->tracer_ ? this->tracer_->bytes() : 0; }
+  std::size_t bytes() const
+  {
+    return (this->tracer_ ? this->tracer_->bytes() : 0) +
+      (this->sheets_ ? this->sheets_->bytes() : 0);
+  }
   std::size_t bytesOfTable() const { return this->tracer_ ? this->tracer_->bytesOfTable() : 0; }
   std::size_t bytesOfRays() const { return this->tracer_ ? this->tracer_->bytesOfRays() : 0; }
   ///@}
 
 private:
+  void updateSheets();
+
   Frame& frame_;
   const Occluders& occluders_;
   const PatchNames& patches_;
   std::optional<SharedTracer> tracer_;
+  std::optional<Sheets> sheets_; ///< none without translucent casters
 };
 
 } // namespace gnomon

@@ -405,6 +405,12 @@ void VisibilityStage::trace(
   {
     visibility[edge.pixel] = edge.visibility;
   }
+  if (this->frame_.plan.transmits && !light.area)
+  {
+    casting.counts.rays += static_cast<std::int64_t>(
+      this->tracer_.sheets()->scale(traced, onCpu.surfaces(), onCpu.receivers(), visibility));
+    this->frame_.endStage("visibility: transmittance");
+  }
   if (!hasBit)
   {
     layers.upload(casting.plan.layer, visibility);

@@ -307,7 +307,7 @@ std::string Planner::move(const FrameCounters& counters)
 /// may.
 std::string Planner::whyNoMaps() const
 {
-  const std::string why = whyNoInlineMaps(this->lights_, this->wishes_, this->scene_.picture);
+  const std::string why = whyNoInlineMaps(this->lights_, this->wishes_, this->scene_);
   if (!why.empty())
   {
     return why;

@@ -44,7 +44,7 @@ void keepTime(AutoPlan& chosen, const std::vector<LightPlan>& lights, const Scen
   {
     return;
   }
-  std::string why = whyNoInlineMaps(lights, wishes, scene.picture);
+  std::string why = whyNoInlineMaps(lights, wishes, scene);
   if (std::any_of(lights.begin(), lights.end(),
         [](const LightPlan& light) { return light.mostMapTexels < fewestTexels; }))
   {
@@ -152,13 +152,14 @@ std::optional<SkyPlan> planSky(const Scene& scene, const FrameWishes& wishes,
 /// their edges, in motion, too, as the images stay.
 void placeVisibility(FramePlan& plan)
 {
-  const bool smooths = std::any_of(plan.lights.begin(), plan.lights.end(),
-    [](const LightPlan& light) { return smoothsPictures(light.info(), light.light); });
+  const bool smooths = !plan.transmits &&
+    std::any_of(plan.lights.begin(), plan.lights.end(),
+      [](const LightPlan& light) { return smoothsPictures(light.info(), light.light); });
   const int mostBits = VisibilityLayers::mostBits - (smooths ? 1 : 0);
   for (LightPlan& light : plan.lights)
   {
     light.channels = channelsOf(light.info(), light.light);
-    if (isBit(light.info(), light.light) && plan.bits < mostBits)
+    if (!plan.transmits && isBit(light.info(), light.light) && plan.bits < mostBits)
     {
       light.bit = plan.bits++;
     }
@@ -196,6 +197,7 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   plan.history.times.reserved = takesTime ? history.times.sky : 0.0;
   plan.isApproximate = plan.sky && plan.moves;
 
+  plan.transmits = scene.props.transmits;
   plan.hasShadows = !plan.lights.empty() || plan.sky || wishes.keepVisibility;
   if (!plan.hasShadows)
   {
@@ -228,7 +230,8 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
       scene.picture.mayRefine && !scene.picture.severalViews && !wishes.isShared);
   }
   plan.namesSurfaces = wishes.isShared || wishes.keepVisibility;
-  plan.reusesTiles = !wishes.isShared;
+  // Tiles know nothing of translucent casters that move.
+  plan.reusesTiles = !wishes.isShared && !plan.transmits;
   return plan;
 }
 

@@ -50,6 +50,7 @@ struct FramePlan
   bool namesSurfaces = false;       ///< true if the snapshot's surfaces need names
   /// True if tiles of an image stay while this process's casters near them do: it has all casters.
   bool reusesTiles = true;
+  bool transmits = false;     ///< true if translucent casters scale the lights' visibility
   bool moves = false;         ///< true if the frame is one of a moving picture
   bool isApproximate = false; ///< true if a picture at rest may differ from it
   AutoHistory history;        ///< for the next frame

@@ -42,7 +42,8 @@ struct FrameWishes
   int reductionFactor = 1;   ///< of the delegate's viewport, whose lower left part is the picture
   double memoryBudget = 0.0; ///< bytes of lights' maps and images of visibility; 0: none
   SkyWish sky;
-  bool smoothTerminators = true; ///< true if receivers may lie on the surface that normals imply
+  bool translucentCasters = false; ///< true if translucent props cast without being asked
+  bool smoothTerminators = true;   ///< true if receivers may lie on the surface that normals imply
   ///@{
   /// For lights that leave their technique to the pass.
   double maximumError = 0.005;    ///< share of wrong pixels of hard shadows in moving frames

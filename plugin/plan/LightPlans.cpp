@@ -56,6 +56,21 @@ void compose(
   plan.estimator = composition.estimator;
 }
 
+/// Have a light's rays traced if its technique cannot tell how much light translucent casters let
+/// through.
+void traceSheets(LightPlan& plan, const Scene& scene, const FrameWishes& wishes, LightPlans& plans)
+{
+  if (plan.info().evaluation == Evaluation::ScreenCpu)
+  {
+    return;
+  }
+  plans.notes.push_back(nameOf(plan.light) + ": '" + plan.light.technique +
+    "' cannot show how much light translucent casters let through. It uses 'raytraced' instead");
+  plan.light.technique = "raytraced";
+  plan.light.estimator.clear();
+  compose(plan, scene, wishes, plans.misfits);
+}
+
 /// Fit the lights to the memory budget.
 void keepBudget(LightPlans& plans, const Scene& scene, const FrameWishes& wishes)
 {
@@ -229,6 +244,15 @@ LightPlans planLights(const Scene& scene, const FrameWishes& wishes)
     plan.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
     plan.light = std::move(light);
     compose(plan, scene, wishes, plans.misfits);
+    if (scene.props.transmits)
+    {
+      traceSheets(plan, scene, wishes, plans);
+    }
+  }
+  if (wishes.isShared && wishes.translucentCasters)
+  {
+    plans.notes.emplace_back("translucent props cast nothing where several processes draw the "
+                             "picture, unless their keys ask; then they block all light");
   }
   if (wishes.memoryBudget > 0.0 && !wishes.isShared) // what each process sees differs
   {

@@ -52,6 +52,10 @@ std::string whyNotDeferred(
   {
     return "shading reads the view of the sky";
   }
+  if (scene.props.transmits)
+  {
+    return "translucent casters let a part of the light through";
+  }
   if (lights.size() != 1)
   {
     return "the picture is drawn without one light's shadows, and " +
@@ -77,7 +81,7 @@ std::string whyNotDeferred(
 
 //------------------------------------------------------------------------------
 std::string whyNoInlineMaps(
-  const std::vector<LightPlan>& lights, const FrameWishes& wishes, const ScenePicture& picture)
+  const std::vector<LightPlan>& lights, const FrameWishes& wishes, const Scene& scene)
 {
   if (wishes.route == RouteWish::Image || wishes.route == RouteWish::Deferred)
   {
@@ -91,7 +95,11 @@ std::string whyNoInlineMaps(
   {
     return "rays find the view of the sky";
   }
-  if (picture.severalViews)
+  if (scene.props.transmits)
+  {
+    return "rays find how much light translucent casters let through";
+  }
+  if (scene.picture.severalViews)
   {
     return "several views are drawn and must look alike";
   }
@@ -145,6 +153,11 @@ PicturePlan planPicture(
     if (!whyNot.empty())
     {
       plan.notes.push_back(whyNot);
+    }
+    else if (scene.props.transmits)
+    {
+      plan.notes.emplace_back("translucent surfaces show the plain shadow map ('" +
+        std::string(plainTechnique) + "') of opaque casters, and no shadow of translucent ones");
     }
     else if (!needs.screenTechnique.empty())
     {

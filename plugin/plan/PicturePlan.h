@@ -28,7 +28,7 @@ std::string whyNotDeferred(
 /// Return why lights that leave their technique to the pass cannot have maps in VTK's shaders, as a
 /// clause; empty if they can.
 std::string whyNoInlineMaps(
-  const std::vector<LightPlan>& lights, const FrameWishes& wishes, const ScenePicture& picture);
+  const std::vector<LightPlan>& lights, const FrameWishes& wishes, const Scene& scene);
 
 /// @param lights that cast, with their techniques in this frame
 /// @param scene with DeferredFacts, if whyNotDeferred() is empty

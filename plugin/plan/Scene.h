@@ -55,6 +55,7 @@ struct SceneProps
   bool unseenReceiver = false; ///< a surface receives where no probe finds it
   bool seenThrough = false;    ///< the receivers lack a prop (DrawnProps::seenThrough)
   bool translucent = false;    ///< translucent surfaces receive
+  bool transmits = false;      ///< a caster lets a part of the light through (Surface::sheet)
 };
 
 /// Further facts for the deferred route. Reading them takes a walk over the props.

@@ -1,6 +1,7 @@
 #include "plugin/scene/DrawnProps.h"
 
 #include "plugin/scene/PropMemory.h"
+#include "plugin/scene/SheetReading.h"
 #include "plugin/scene/SolidSizes.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
@@ -43,7 +44,7 @@ void nameDrawer(const DrawnActor& taken, std::vector<const void*>& drawers)
   }
 }
 
-/// True if a prop was told to cast. Only then does a translucent prop cast.
+/// True if a prop was told to cast.
 bool askedToCast(vtkProp* viewProp)
 {
   vtkInformation* keys = viewProp->GetPropertyKeys();
@@ -60,9 +61,10 @@ bool mayCastOrReceive(vtkProp* viewProp)
 class Finder
 {
 public:
-  Finder(vtkRenderer* renderer, PropMemory& memory)
+  Finder(vtkRenderer* renderer, PropMemory& memory, TranslucentRole translucent)
     : renderer_(renderer)
     , memory_(memory)
+    , translucent_(translucent)
     , blocks_(renderer, drawn_.blocks,
         [this](vtkObjectBase* what, const char* why) { this->skip(what, why); })
   {
@@ -97,6 +99,14 @@ private:
   void addImage(vtkProp* leaf, vtkMatrix4x4* matrix);
   void addActor(vtkProp* leaf, vtkMatrix4x4* matrix);
   void addTaken(const DrawnActor& taken);
+  void addTranslucent(
+    const DrawnActor& taken, DrawnProp& prop, const TextureCutout& cutout, const char* whyUncut);
+  /// True if the view prop casts where it is translucent.
+  bool castsTranslucent() const
+  {
+    return this->translucent_.casts ? vtkGnomonPropKeys::GetCasts(this->viewProp_)
+                                    : askedToCast(this->viewProp_);
+  }
   void addPass(const DrawnActor& taken, DrawnProp& prop, const std::string& texture)
   {
     prop.firstBlock = this->drawn_.blocks.size();
@@ -127,12 +137,14 @@ private:
 
   vtkRenderer* renderer_;
   PropMemory& memory_;
+  TranslucentRole translucent_;
   DrawnProps drawn_;
   BlockFinder blocks_;
   int number_ = 0; ///< of the view prop
   vtkProp* viewProp_ = nullptr;
-  std::size_t path_ = 0;                      ///< DrawnProp::path of the leaf
-  std::map<std::string, NamedProps> skipped_; ///< props left out
+  std::size_t path_ = 0;                       ///< DrawnProp::path of the leaf
+  std::map<std::string, NamedProps> skipped_;  ///< props left out
+  std::map<std::string, NamedProps> blocking_; ///< translucent props that block light, by reason
   NamedProps unlit_, notCasting_, copied_;
   /// Reasons to cast without a texture's holes, each with its number of props.
   std::map<std::string, int> uncut_;
@@ -378,8 +390,8 @@ void Finder::addTaken(const DrawnActor& taken)
   prop.clipPlanes = clipPlanesOf(taken.drawing.mapper);
   prop.receives = prop.receives && taken.kind != MapperKind::Splats; // VTK does not light splats
   const char* uncutReason = nullptr;
-  const TextureCutout cutout = this->memory_.cutouts.find(
-    actor, taken.drawing.mapper, this->viewProp_->GetPropertyKeys(), uncutReason);
+  const TextureCutout cutout = this->memory_.cutouts.find(actor, taken.drawing.mapper,
+    this->viewProp_->GetPropertyKeys(), this->castsTranslucent(), uncutReason);
   prop.cutout = cutout.mask;
   prop.textureTransform = cutout.transform;
   prop.isMoved = mayMoveVertices(actor);
@@ -411,10 +423,9 @@ void Finder::addTaken(const DrawnActor& taken)
         this->memory_.plainProps.remember(static_cast<std::size_t>(this->number_), actor);
     }
   }
-  if (translucent && askedToCast(this->viewProp_))
+  if (translucent && this->castsTranslucent())
   {
-    prop.translucent = true;
-    this->addPass(taken, prop, cutout.texture);
+    this->addTranslucent(taken, prop, cutout, uncutReason);
   }
   else if (translucent && prop.casts)
   {
@@ -428,6 +439,33 @@ void Finder::addTaken(const DrawnActor& taken)
       ++this->uncut_[uncutReason];
     }
   }
+}
+
+//------------------------------------------------------------------------------
+/// Add what the translucent pass draws of an actor that casts.
+/// @param whyUncut why its texture's alpha does not count; null if it does
+void Finder::addTranslucent(
+  const DrawnActor& taken, DrawnProp& prop, const TextureCutout& cutout, const char* whyUncut)
+{
+  prop.translucent = true;
+  if (this->translucent_.transmits)
+  {
+    prop.transmits = vtkGnomonPropKeys::GetTransmits(this->viewProp_);
+  }
+  if (prop.transmits != vtkGnomonPropKeys::TRANSMITS_NOTHING)
+  {
+    const char* const why = whyUncut ? whyUncut : whyNoSheet(taken, prop);
+    if (why)
+    {
+      prop.transmits = vtkGnomonPropKeys::TRANSMITS_NOTHING;
+      this->name(this->blocking_[why], taken.mapper);
+    }
+    else
+    {
+      prop.cutout = cutout.alpha;
+    }
+  }
+  this->addPass(taken, prop, cutout.texture);
 }
 
 //------------------------------------------------------------------------------
@@ -448,8 +486,13 @@ DrawnProps Finder::take()
     tell(props, "neither casts nor receives, " + what, "neither cast nor receive, " + what);
   }
   tell(this->unlit_, "is unlit and shows no shadow", "are unlit and show no shadow");
-  tell(this->notCasting_, "is translucent and casts nothing unless its key asks",
-    "are translucent and cast nothing unless their keys ask");
+  tell(this->notCasting_,
+    "is translucent and casts nothing unless its key asks, or SetTranslucentCasters()",
+    "are translucent and cast nothing unless their keys ask, or SetTranslucentCasters()");
+  for (const auto& [why, props] : this->blocking_)
+  {
+    tell(props, "casts as if opaque (" + why + ")", "cast as if opaque (" + why + ")");
+  }
   tell(this->copied_, "is drawn into a framebuffer of its own and receives as if translucent",
     "are drawn into framebuffers of their own and receive as if translucent");
   for (const auto& [why, count] : this->uncut_)
@@ -474,12 +517,12 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 }
 
 //------------------------------------------------------------------------------
-DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory)
+DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, TranslucentRole translucent)
 {
   memory.stamps.beginFrame();
   memory.cutouts.beginFrame();
   memory.images.beginFrame();
-  Finder finder(renderer, memory);
+  Finder finder(renderer, memory, translucent);
   vtkPropCollection* viewProps = renderer->GetViewProps();
   vtkCollectionSimpleIterator cookie;
   viewProps->InitTraversal(cookie);

@@ -45,7 +45,8 @@ struct DrawnProp
   bool receives = true;
   bool oneSided = false;
   bool isMoved = false;     ///< a user's shader code may move its vertices
-  bool translucent = false; ///< listed because it was asked to cast
+  bool translucent = false; ///< listed because it casts
+  int transmits = 0;        ///< vtkGnomonPropKeys::TransmitsType of a translucent one
   bool isPlain = false;     ///< the actor is a PlainProp
 
   std::shared_ptr<const CutoutMask> cutout; ///< a texture's holes in its blocks; null for none
@@ -76,11 +77,23 @@ struct DrawnProps
   std::vector<std::string> notes;
 };
 
-/// List the surfaces that a renderer's opaque pass draws, and the translucent surfaces that are
-/// asked to cast. Props out of the camera's view are included. Updates the inputs of mappers first,
-/// as VTK does when it draws.
+/// The role of translucent props.
+struct TranslucentRole
+{
+  bool casts = false;    ///< they cast without being asked
+  bool transmits = true; ///< those that cast let light through; else they block it
+
+  bool operator==(const TranslucentRole& other) const
+  {
+    return this->casts == other.casts && this->transmits == other.transmits;
+  }
+};
+
+/// List the surfaces that a renderer's opaque pass draws, and the translucent surfaces that cast.
+/// Props out of the camera's view are included. Updates the inputs of mappers first, as VTK does
+/// when it draws.
 ///
 /// @param memory the same for all frames of the renderer. Its plain props have begun the frame.
-DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory);
+DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, TranslucentRole translucent);
 
 } // namespace gnomon

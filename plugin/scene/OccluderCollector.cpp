@@ -16,7 +16,7 @@ namespace gnomon
 SnapshotChange OccluderCollector::collect(
   vtkRenderer* renderer, CollectOptions options, Ranks& ranks)
 {
-  const std::pair collected(options.readsNormals, ranks.serial());
+  const std::tuple collected(options.readsNormals, options.translucent, ranks.serial());
   const bool areSame =
     this->propMemory_.plainProps.beginFrame(renderer->GetViewProps(), options.inputsHaveRun) &&
     this->collected_ == collected;
@@ -27,7 +27,7 @@ SnapshotChange OccluderCollector::collect(
     return {};
   }
   this->collected_.reset(); // in case of an error
-  DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
+  DrawnProps drawn = findDrawnProps(renderer, this->propMemory_, options.translucent);
   this->lookup_.setDrawers(drawn.translucentReceivers, drawn.seenThrough);
   this->notes_ = std::move(drawn.notes);
   this->leftOut_ = std::move(drawn.leftOut);

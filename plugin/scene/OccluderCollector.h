@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct CollectOptions
 {
   bool readsNormals = false;  ///< surfaces get the normals that VTK shades them with
   bool inputsHaveRun = false; ///< plain props need no update, see haveInputsRun()
+  TranslucentRole translucent = {};
 };
 
 /// Fills the snapshot from a renderer's visible props, in view or not, and keeps it up to date at
@@ -98,8 +100,9 @@ private:
   std::string noteOnBoxes(const std::vector<WantedSurface>& wanted) const;
 
   SnapshotSurfaces surfaces_;
-  /// CollectOptions::readsNormals and Ranks::serial() of the snapshot; none after an error.
-  std::optional<std::pair<bool, std::uint64_t>> collected_;
+  /// CollectOptions::readsNormals and translucent, and Ranks::serial(), of the snapshot; none after
+  /// an error.
+  std::optional<std::tuple<bool, TranslucentRole, std::uint64_t>> collected_;
   DrawnLookup lookup_;
   PropMemory propMemory_;
   std::size_t translucentReceivers_ = 0;

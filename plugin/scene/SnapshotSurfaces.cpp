@@ -388,7 +388,7 @@ void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
 }
 
 //------------------------------------------------------------------------------
-/// Store the props' flags and cut-outs; true if one changed.
+/// Store the props' flags, cut-outs and sheets; true if one changed.
 bool SnapshotSurfaces::updateFlags(const std::vector<WantedSurface>& wanted)
 {
   bool changed = false;
@@ -397,15 +397,40 @@ bool SnapshotSurfaces::updateFlags(const std::vector<WantedSurface>& wanted)
     Surface& surface = this->occluders_.surfaces[i];
     const DrawnProp& prop = *wanted[i].prop;
     const auto cutout = wanted[i].block.textureCoordinates ? prop.cutout : nullptr;
-    changed = changed || surface.casts != prop.casts || surface.receives != prop.receives ||
+    changed = this->updateSheet(wanted[i], i) || changed;
+    const bool blocks = prop.casts && !surface.sheet;
+    changed = changed || surface.casts != blocks || surface.receives != prop.receives ||
       surface.oneSided != prop.oneSided || surface.isMoved != prop.isMoved ||
       surface.cutout != cutout;
-    surface.casts = prop.casts;
+    surface.casts = blocks;
     surface.receives = prop.receives;
     surface.oneSided = prop.oneSided;
     surface.isMoved = prop.isMoved;
     surface.cutout = cutout;
   }
+  return changed;
+}
+
+//------------------------------------------------------------------------------
+/// Store a surface's sheet; true if it changed.
+bool SnapshotSurfaces::updateSheet(const WantedSurface& wanted, std::size_t index)
+{
+  Surface& surface = this->occluders_.surfaces[index];
+  SurfaceRecord& record = this->records_[index];
+  const SheetSource source = sheetSource(*wanted.prop, wanted.block, surface);
+  if (source == record.sheet)
+  {
+    return false;
+  }
+  record.sheet = source;
+  const auto sheet =
+    source == SheetSource() ? nullptr : readSheet(*wanted.prop, wanted.block, surface, record);
+  if (sheet && surface.sheet && *sheet == *surface.sheet)
+  {
+    return false;
+  }
+  const bool changed = surface.sheet || sheet;
+  surface.sheet = sheet;
   return changed;
 }
 

@@ -51,6 +51,7 @@ private:
   Outcome overwrite(WantedSurface& wanted);
   void rebuild(std::vector<WantedSurface>& wanted);
   bool updateFlags(const std::vector<WantedSurface>& wanted);
+  bool updateSheet(const WantedSurface& wanted, std::size_t index);
   void summarise();
 
   std::uint64_t newVersion() { return ++this->lastVersion_; }

@@ -3,6 +3,7 @@
 #include "lights/Hash.h"
 #include "plugin/scene/DrawnProps.h"
 #include "plugin/scene/KeptInstances.h"
+#include "plugin/scene/SheetReading.h"
 #include "plugin/scene/SurfaceExtraction.h"
 #include "shadowtech/base/Patches.h"
 
@@ -110,6 +111,7 @@ struct SurfaceRecord
   glm::dvec4 radiusFromWorld{ 0.0 }; ///< of solids sized in pixels
   CoordinatesSource coordinates;
   NormalsSource normals;
+  SheetSource sheet;
   float facetHeight = 0.0f;                 ///< Surface::facetHeight, in the normals' coordinates
   std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles, of one instance
   /// The places of the polydata in its prop's model coordinates: one as it is, any number as a

@@ -23,6 +23,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -97,8 +99,8 @@ TextureWrap wrapOf(vtkTexture* texture)
   }
 }
 
-/// Return a texture's mask; null if it cuts nothing out.
-std::shared_ptr<const CutoutMask> readMask(
+/// Return a texture's alpha; null if it is 1 everywhere.
+std::shared_ptr<const CutoutMask> readAlpha(
   vtkTexture* texture, vtkDataArray* texels, glm::ivec2 size)
 {
   const vtkSmartPointer<vtkDataArray> colors = colorsOf(texture, texels);
@@ -114,26 +116,53 @@ std::shared_ptr<const CutoutMask> readMask(
   mask.interpolated = texture->GetInterpolate() != 0;
   mask.borderDrawn = texture->GetBorderColor()[alpha] > 0.0f;
   mask.texels.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
-  const auto fill = [&](const auto& isDrawn)
+  const auto fill = [&](const auto& alphaOf)
   {
     for (std::size_t i = 0; i < mask.texels.size(); ++i)
     {
-      mask.texels[i] = isDrawn(static_cast<vtkIdType>(i)) ? 255 : 0;
+      mask.texels[i] = alphaOf(static_cast<vtkIdType>(i));
     }
   };
   if (auto* bytes = vtkArrayDownCast<vtkUnsignedCharArray>(colors.Get()))
   {
     const int components = bytes->GetNumberOfComponents();
     const unsigned char* first = bytes->GetPointer(alpha);
-    fill([=](vtkIdType i) { return first[i * components] > 0; });
+    fill([=](vtkIdType i) { return first[i * components]; });
   }
   else
   {
-    fill([&](vtkIdType i) { return !(colors->GetComponent(i, alpha) <= 0.0); });
+    const double whole = colors->GetDataType() == VTK_UNSIGNED_SHORT ? 65535.0 : 1.0;
+    fill(
+      [&](vtkIdType i)
+      {
+        const double value = colors->GetComponent(i, alpha) / whole;
+        return static_cast<std::uint8_t>(
+          value <= 0.0 ? 0.0 : std::clamp(std::round(255.0 * value), 1.0, 255.0));
+      });
   }
-  const bool holes = std::find(mask.texels.begin(), mask.texels.end(), 0) != mask.texels.end() ||
-    (mask.wrap == TextureWrap::ClampToBorder && !mask.borderDrawn);
-  return holes ? std::make_shared<const CutoutMask>(std::move(mask)) : nullptr;
+  const bool isOpaque = std::all_of(mask.texels.begin(), mask.texels.end(),
+                          [](std::uint8_t texel) { return texel == 255; }) &&
+    (mask.wrap != TextureWrap::ClampToBorder || mask.borderDrawn);
+  return isOpaque ? nullptr : std::make_shared<const CutoutMask>(std::move(mask));
+}
+
+/// Return the mask of a texture's alpha: null if it has no holes, the alpha itself if it has no
+/// values between.
+std::shared_ptr<const CutoutMask> maskOf(const std::shared_ptr<const CutoutMask>& alpha)
+{
+  const bool hasHoles = alpha &&
+    (std::find(alpha->texels.begin(), alpha->texels.end(), 0) != alpha->texels.end() ||
+      (alpha->wrap == TextureWrap::ClampToBorder && !alpha->borderDrawn));
+  if (!hasHoles)
+  {
+    return nullptr;
+  }
+  CutoutMask mask = *alpha;
+  for (std::uint8_t& texel : mask.texels)
+  {
+    texel = texel > 0 ? 255 : 0;
+  }
+  return mask == *alpha ? alpha : std::make_shared<const CutoutMask>(std::move(mask));
 }
 
 /// True for textures that materials read by name, not as colours to blend.
@@ -260,11 +289,16 @@ const TextureCutouts::Known& TextureCutouts::known(vtkTexture* texture)
     known.time = time;
     vtkDataArray* texels = image ? TextureAccess::texels(texture, image) : nullptr;
     const glm::ivec2 size = texels ? sizeOf(image, texels) : glm::ivec2(0);
-    auto mask = texels ? readMask(texture, texels, size) : nullptr;
-    if (!mask || !known.mask || !(*mask == *known.mask)) // other colours may have the same holes
+    // Other colours may have the same alpha, or the same holes.
+    const auto replace = [](auto& old, const auto& with)
     {
-      known.mask = std::move(mask);
-    }
+      if (!with || !old || !(*with == *old))
+      {
+        old = with;
+      }
+    };
+    replace(known.alpha, texels ? readAlpha(texture, texels, size) : nullptr);
+    replace(known.mask, maskOf(known.alpha));
     known.tooLarge = std::max(size.x, size.y) > largestSide;
   }
   return known;
@@ -272,7 +306,7 @@ const TextureCutouts::Known& TextureCutouts::known(vtkTexture* texture)
 
 //------------------------------------------------------------------------------
 TextureCutout TextureCutouts::find(
-  vtkActor* actor, vtkMapper* mapper, vtkInformation* keys, const char*& reason)
+  vtkActor* actor, vtkMapper* mapper, vtkInformation* keys, bool wantsAlpha, const char*& reason)
 {
   TextureCutout cutout;
   if (!actor->GetTexture() && actor->GetProperty()->GetNumberOfTextures() == 0)
@@ -280,7 +314,7 @@ TextureCutout TextureCutouts::find(
     return cutout; // nearly always
   }
   const std::vector<NamedTexture> textures = texturesWithAlpha(actor);
-  bool anyHoles = false;
+  bool counts = false;
   for (std::size_t i = 0; i < textures.size(); ++i)
   {
     const auto& [name, texture] = textures[i];
@@ -289,10 +323,11 @@ TextureCutout TextureCutouts::find(
       continue;
     }
     const Known& known = this->known(texture);
-    anyHoles = anyHoles || known.mask;
+    counts = counts || known.mask || (wantsAlpha && known.alpha);
     if (i == 0)
     {
       cutout.mask = known.mask;
+      cutout.alpha = known.alpha;
       cutout.texture = name;
       reason = known.tooLarge ? "texture too large" : nullptr;
     }
@@ -301,7 +336,7 @@ TextureCutout TextureCutouts::find(
       reason = "textures blended";
     }
   }
-  if (!anyHoles)
+  if (!counts)
   {
     reason = nullptr;
     return {};
@@ -320,7 +355,11 @@ std::size_t TextureCutouts::bytes() const
 {
   return bytesOfTable(this->known_) +
     bytesOfAll(this->known_,
-      [](const auto& entry) { return entry.second.mask ? entry.second.mask->bytes() : 0; });
+      [](const auto& entry)
+      {
+        const auto& [mask, alpha] = std::pair(entry.second.mask.get(), entry.second.alpha.get());
+        return (mask ? mask->bytes() : 0) + (alpha && alpha != mask ? alpha->bytes() : 0);
+      });
 }
 
 //------------------------------------------------------------------------------

@@ -28,9 +28,10 @@ namespace gnomon
 /// The holes that VTK cuts into an actor's surface by a texture.
 struct TextureCutout
 {
-  std::shared_ptr<const CutoutMask> mask; ///< null if nothing is cut out
-  std::string texture;                    ///< its name in VTK's shader
-  glm::mat4 transform{ 1.0f };            ///< of its texture coordinates (s, t, 0, 1)
+  std::shared_ptr<const CutoutMask> mask;  ///< null if nothing is cut out
+  std::shared_ptr<const CutoutMask> alpha; ///< with all its values; null if it is 1
+  std::string texture;                     ///< its name in VTK's shader
+  glm::mat4 transform{ 1.0f };             ///< of its texture coordinates (s, t, 0, 1)
 };
 
 /// Reads the alpha of textures, and caches it while it is in use.
@@ -44,9 +45,12 @@ public:
   /// half transparent, and with any albedo texture. Updates the texture's input, as VTK does when
   /// it draws.
   ///
+  /// @param wantsAlpha true if the surface may let light through, so that a texture without holes
+  /// counts, too
   /// @param keys those that the actor has while VTK draws it
   /// @param reason receives why a cut-out is not supported; then the mask is null
-  TextureCutout find(vtkActor* actor, vtkMapper* mapper, vtkInformation* keys, const char*& reason);
+  TextureCutout find(
+    vtkActor* actor, vtkMapper* mapper, vtkInformation* keys, bool wantsAlpha, const char*& reason);
 
   /// Return the bytes of memory of the masks.
   std::size_t bytes() const;
@@ -56,7 +60,7 @@ private:
   struct Known
   {
     vtkMTimeType time = 0;
-    std::shared_ptr<const CutoutMask> mask;
+    std::shared_ptr<const CutoutMask> mask, alpha; ///< as in TextureCutout; one if they are alike
     bool tooLarge = false;
     bool asked = false;
   };

@@ -49,22 +49,31 @@ int texelAt(int index, int size, TextureWrap wrap)
   return std::clamp(index, 0, size - 1); // a mirrored texture repeats its edge texel
 }
 
+/// Return the texel at indices that are out of range by no more than the size.
+std::uint8_t texelOf(const CutoutMask& mask, int x, int y)
+{
+  const int column = texelAt(x, mask.width, mask.wrap);
+  const int row = texelAt(y, mask.height, mask.wrap);
+  return column == border || row == border
+    ? (mask.borderDrawn ? 255 : 0)
+    : mask.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(mask.width) +
+        static_cast<std::size_t>(column)];
+}
+
+/// Return the place of texture coordinates in texels.
+glm::vec2 placeOf(const CutoutMask& mask, const glm::vec2& coordinates)
+{
+  return { reduced(coordinates.x, mask.wrap) * static_cast<float>(mask.width),
+    reduced(coordinates.y, mask.wrap) * static_cast<float>(mask.height) };
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
 bool CutoutMask::isDrawn(const glm::vec2& textureCoordinates) const
 {
-  const auto texelDrawn = [this](int x, int y)
-  {
-    const int column = texelAt(x, this->width, this->wrap);
-    const int row = texelAt(y, this->height, this->wrap);
-    return column == border || row == border
-      ? this->borderDrawn
-      : this->texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(this->width) +
-          static_cast<std::size_t>(column)] > 0;
-  };
-  const glm::vec2 place(reduced(textureCoordinates.x, this->wrap) * static_cast<float>(this->width),
-    reduced(textureCoordinates.y, this->wrap) * static_cast<float>(this->height));
+  const auto texelDrawn = [this](int x, int y) { return texelOf(*this, x, y) > 0; };
+  const glm::vec2 place = placeOf(*this, textureCoordinates);
   if (!this->interpolated)
   {
     return texelDrawn(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)));
@@ -79,6 +88,25 @@ bool CutoutMask::isDrawn(const glm::vec2& textureCoordinates) const
   const bool nextRow = fromCentre.y > first.y;
   return texelDrawn(x, y) || (nextColumn && texelDrawn(x + 1, y)) ||
     (nextRow && texelDrawn(x, y + 1)) || (nextColumn && nextRow && texelDrawn(x + 1, y + 1));
+}
+
+//------------------------------------------------------------------------------
+double CutoutMask::alphaAt(const glm::vec2& textureCoordinates) const
+{
+  constexpr double full = 255.0;
+  const glm::vec2 place = placeOf(*this, textureCoordinates);
+  if (!this->interpolated)
+  {
+    const glm::ivec2 texel(glm::floor(place));
+    return texelOf(*this, texel.x, texel.y) / full;
+  }
+  const glm::dvec2 fromCentre(place - 0.5f);
+  const glm::ivec2 first(glm::floor(fromCentre));
+  const glm::dvec2 weight = fromCentre - glm::dvec2(first);
+  const auto ofRow = [&](int y) {
+    return glm::mix<double>(texelOf(*this, first.x, y), texelOf(*this, first.x + 1, y), weight.x);
+  };
+  return glm::mix(ofRow(first.y), ofRow(first.y + 1), weight.y) / full;
 }
 
 } // namespace gnomon

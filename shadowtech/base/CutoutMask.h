@@ -29,7 +29,8 @@ struct CutoutMask
 {
   int width = 0;  ///< texels
   int height = 0; ///< texels
-  /// Row by row from texture coordinate v = 0: 255 where alpha is above 0, else 0.
+  /// Row by row from texture coordinate v = 0: 255 where alpha is above 0, else 0. For translucent
+  /// surfaces: alpha times 255, and at least 1 where it is above 0.
   std::vector<std::uint8_t> texels;
   TextureWrap wrap = TextureWrap::Repeat; ///< in both directions
   bool interpolated = false;              ///< bilinearly; else the nearest texel counts
@@ -39,6 +40,10 @@ struct CutoutMask
   /// profile 4.5, section 8.14), but with unrounded weights. All coordinates are allowed, NaN
   /// included.
   bool isDrawn(const glm::vec2& textureCoordinates) const;
+
+  /// Return the filtered texel at these coordinates, from 0 to 1. Without rounding the weights, as
+  /// in isDrawn().
+  double alphaAt(const glm::vec2& textureCoordinates) const;
 
   bool operator==(const CutoutMask& other) const
   {

@@ -36,7 +36,8 @@ struct Surface
   /// Set if it casts and lets light through; null, as nearly always, if it does not.
   std::shared_ptr<const Sheet> sheet;
 
-  /// The holes that its texture cuts; null, as nearly always, if it has none.
+  /// The holes that its texture cuts; null, as nearly always, if it has none. Of a sheet, with all
+  /// values of the texture's alpha.
   std::shared_ptr<const CutoutMask> cutout;
   /// One per vertex, only if the surface has a cut-out. They are affine on each triangle.
   std::vector<glm::vec2> textureCoordinates;

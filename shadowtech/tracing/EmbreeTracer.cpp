@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace gnomon
@@ -120,6 +121,38 @@ bool isTurnedBlocked(const EmbreeCasters& casters, const TracedPicture& picture,
     meets(lifted.origin, lifted.direction, picture.rayFar());
 }
 
+/// Subtract what a filter keeps of a tile's rays from the visibility of their pixels.
+/// @param needed, before the tile's rays, and its visibility before blocked ones took off theirs
+void filterRays(const RayFilter& filter, const TracedTile::Plane<int>& needed,
+  const std::array<TracedTile::Plane<float>, 3>& before, float rayFar, TracedTile& tile)
+{
+  const auto isBlocked = [&](std::size_t pixel)
+  {
+    bool is = false;
+    for (std::size_t channel = 0; channel < tile.channels; ++channel)
+    {
+      is = is || tile.visibility[channel][pixel] != before[channel][pixel];
+    }
+    return is;
+  };
+  for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
+  {
+    if (needed[pixel] != 0 && !isBlocked(pixel))
+    {
+      const glm::dvec3 kept =
+        1.0 - filter.transmittanceOf(tile.origin(pixel), tile.direction(pixel), rayFar);
+      for (std::size_t channel = 0; channel < tile.channels; ++channel)
+      {
+        float& visibility = tile.visibility[channel][pixel];
+        visibility = std::max(visibility -
+            static_cast<float>(kept[static_cast<glm::length_t>(channel)]) *
+              tile.samplesOfRay[channel][pixel],
+          0.0f);
+      }
+    }
+  }
+}
+
 /// Return the hit triangle's normal, in centred coordinates.
 glm::vec3 normalOf(const EmbreeCasters& casters, const RTCHit& hit)
 {
@@ -164,18 +197,30 @@ std::size_t EmbreeTracer::tracePicture(const TracedPicture& picture)
   const Impl& impl = *this->impl_;
   const RTCScene scene = impl.scene.get();
   const float rayFar = picture.rayFar();
-  return picture.visitTiles(picture.allSamples(),
-    [&](TracedTile& tile) -> std::size_t
+  const auto traceBlocking = [&](TracedTile& tile) -> std::size_t
+  {
+    if (impl.casters.empty())
     {
-      if (impl.casters.empty())
-      {
-        return 0;
-      }
-      const std::size_t turned = this->traceTurned(picture, tile, nullptr,
-        [&](std::size_t pixel, bool isBlocked) { darken(tile, pixel, isBlocked); });
-      return turned +
-        (impl.lanes16 ? TileTracer<RTCRay16>(scene, rayFar).trace(tile)
-                      : TileTracer<RTCRay8>(scene, rayFar).trace(tile));
+      return 0;
+    }
+    const std::size_t turned = this->traceTurned(picture, tile, nullptr,
+      [&](std::size_t pixel, bool isBlocked) { darken(tile, pixel, isBlocked); });
+    return turned +
+      (impl.lanes16 ? TileTracer<RTCRay16>(scene, rayFar).trace(tile)
+                    : TileTracer<RTCRay8>(scene, rayFar).trace(tile));
+  };
+  if (!this->filter_ || !picture.isOfArea())
+  {
+    return picture.visitTiles(picture.allSamples(), traceBlocking);
+  }
+  return picture.visitTiles(picture.allSamples(),
+    [&](TracedTile& tile)
+    {
+      const TracedTile::Plane<int> needed = tile.needed;
+      const std::array<TracedTile::Plane<float>, 3> before = tile.visibility;
+      const std::size_t rays = traceBlocking(tile);
+      filterRays(*this->filter_, needed, before, rayFar, tile);
+      return rays;
     });
 }
 

@@ -3,6 +3,7 @@
 #include "shadowtech/base/Patches.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/tracing/CasterHits.h"
+#include "shadowtech/tracing/RayFilter.h"
 #include "shadowtech/tracing/TracedPicture.h"
 
 #include <cstddef>
@@ -40,6 +41,11 @@ public:
   /// @throws std::runtime_error if there is no structure, or for casters beyond Embree's range
   Update update(const Occluders& occluders);
 
+  /// Have traceArea() multiply each sample's ray by what a filter leaves of it; null: none. One ray
+  /// a pixel, as in trace(), can be multiplied afterwards.
+  /// @param filter must outlive its use
+  void filterSamples(const RayFilter* filter) { this->filter_ = filter; }
+
   /// Trace the visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1
   /// lit; 0 in shadow, facing away from the light (facesLight()), or outside its cone or box.
   /// Pixels that are not covered, or whose surface does not receive, get 1.
@@ -67,6 +73,7 @@ public:
   /// A light with a texture has three channels, one image after the other: the share of the
   /// samples' colours that the receiver sees, times the texture's mean. Lit pixels without rays get
   /// the texture's mean.
+  /// With a filter all samples are traced, since what is certain holds for blocking casters alone.
   /// @param light with an area
   /// @param chooser chooses the rays that decide the others; null: all are traced. Must be null for
   /// textures
@@ -78,8 +85,11 @@ public:
     const TileVerdicts* verdicts = nullptr)
   {
     const LightSamples samples(light);
-    const TracedPicture picture(light, occluders, receivers, decider, visibility, classes, tiles,
-      verdicts, &samples, chooser);
+    const TracedPicture picture = this->filter_
+      ? TracedPicture(
+          light, occluders, receivers, nullptr, visibility, classes, tiles, nullptr, &samples)
+      : TracedPicture(light, occluders, receivers, decider, visibility, classes, tiles, verdicts,
+          &samples, chooser);
     const std::size_t rays = this->tracePicture(picture);
     picture.finish();
     return rays;
@@ -114,6 +124,7 @@ protected:
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  const RayFilter* filter_ = nullptr;
 };
 
 } // namespace gnomon

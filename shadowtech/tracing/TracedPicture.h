@@ -164,6 +164,7 @@ public:
 
   /// Return the number of rays of a pixel that has any.
   int samples() const { return this->samples_ ? this->samples_->count() : 1; }
+  bool isOfArea() const { return this->samples_ != nullptr; }
   SampleRange allSamples() const { return { 0, this->samples() }; }
   /// Return the channels of the visibility: 3 of an area light with a texture, else 1.
   std::size_t channels() const { return this->texture_ ? 3 : 1; }

@@ -4,6 +4,7 @@
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/WeldedVertices.h"
 #include "shadowtech/tracing/EmbreeHandle.h"
+#include "shadowtech/tracing/TracedPicture.h"
 #include "shadowtech/transmittance/TriangleCrossing.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -116,20 +118,21 @@ glm::dvec4 colourAt(const CrossedSurface& crossed, std::uint32_t triangle,
   return { glm::dvec3(mapped), own.a * mapped.a };
 }
 
-/// True if a texture cuts a surface out at a crossing.
-bool isHole(const CrossedSurface& crossed, const glm::uvec3& vertices, const glm::dvec3& weights)
+/// Return the alpha of a surface's texture at a crossing; 1 without one.
+double textureAlphaAt(
+  const CrossedSurface& crossed, const glm::uvec3& vertices, const glm::dvec3& weights)
 {
   const Surface& surface = *crossed.surface;
   if (!surface.cutout)
   {
-    return false;
+    return 1.0;
   }
   glm::dvec2 place(0.0);
   for (int corner = 0; corner < 3; ++corner)
   {
     place += weights[corner] * glm::dvec2(surface.textureCoordinates[vertices[corner]]);
   }
-  return !surface.cutout->isDrawn(glm::vec2(place));
+  return surface.cutout->alphaAt(glm::vec2(place));
 }
 
 /// Multiply a single ray's transmittance where it crosses a triangle. The ray goes on unless it is
@@ -163,11 +166,8 @@ void crossSheet(const RTCOccludedFunctionNArguments* arguments)
     return;
   }
   const glm::uvec3 vertices = triangle - surface.firstVertex;
-  if (isHole(crossed, vertices, crossing->weights))
-  {
-    return;
-  }
-  const glm::dvec4 colour = colourAt(crossed, number, vertices, crossing->weights);
+  glm::dvec4 colour = colourAt(crossed, number, vertices, crossing->weights);
+  colour.a *= textureAlphaAt(crossed, vertices, crossing->weights);
   auto& query = *reinterpret_cast<CrossingQuery*>(arguments->context);
   query.transmittance *= surface.sheet->isColoured ? 1.0 - colour.a * (1.0 - glm::dvec3(colour))
                                                    : glm::dvec3(1.0 - colour.a);
@@ -437,6 +437,34 @@ glm::dvec3 Sheets::transmittanceOf(
     0.0f, rayFar, 0xffffffffu, 0, 0 };
   occlude(this->impl_->scene.get(), query.context, ray);
   return query.transmittance;
+}
+
+//------------------------------------------------------------------------------
+std::size_t Sheets::scale(const ShadowLight& light, const Occluders& occluders,
+  const Receivers& receivers, std::vector<float>& visibility) const
+{
+  std::vector<float> transmittance;
+  const TracedPicture picture(
+    light, occluders, receivers, nullptr, transmittance, nullptr, nullptr, nullptr, nullptr);
+  const float rayFar = picture.rayFar();
+  const std::size_t rays = picture.visitTiles(picture.allSamples(),
+    [&](TracedTile& tile)
+    {
+      std::size_t count = 0;
+      for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
+      {
+        if (tile.needed[pixel] != 0 && visibility[tile.pixelOfPicture(pixel)] > 0.0f)
+        {
+          tile.visibility[0][pixel] = static_cast<float>(
+            this->transmittanceOf(tile.origin(pixel), tile.direction(pixel), rayFar).x);
+          ++count;
+        }
+      }
+      return count;
+    });
+  std::transform(visibility.begin(), visibility.end(), transmittance.begin(), visibility.begin(),
+    std::multiplies<float>());
+  return rays;
 }
 
 //------------------------------------------------------------------------------

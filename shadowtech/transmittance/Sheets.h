@@ -1,11 +1,14 @@
 #pragma once
 
 #include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/tracing/RayFilter.h"
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace gnomon
 {
@@ -14,12 +17,12 @@ namespace gnomon
 ///
 /// Each crossing of a ray counts once. Embree finds the triangles whose boxes the ray passes, and
 /// crossingOf() decides in double, so that triangles with a common edge share no ray and lose none.
-class Sheets
+class Sheets : public RayFilter
 {
 public:
   /// @throws std::runtime_error if Embree cannot be started
   Sheets();
-  ~Sheets();
+  ~Sheets() override;
   Sheets(const Sheets&) = delete;
   Sheets& operator=(const Sheets&) = delete;
 
@@ -31,14 +34,18 @@ public:
   /// True if no surface lets light through.
   bool empty() const;
 
-  /// Return the share of light, by channel, that passes all sheets which a ray crosses: the product
-  /// over its crossings (Sheet). All channels are equal without coloured sheets. Called from
-  /// several threads at once.
-  /// @param origin, direction centred; the origin in the box around the snapshot
-  /// (Occluders::allCentred), the direction of any length but 0
-  /// @param rayFar far end of the ray, in lengths of its direction (ShadowRay.h)
+  /// Return the product over the ray's crossings (Sheet). All channels are equal without coloured
+  /// sheets.
   glm::dvec3 transmittanceOf(
-    const glm::vec3& origin, const glm::vec3& direction, float rayFar) const;
+    const glm::vec3& origin, const glm::vec3& direction, float rayFar) const override;
+
+  /// Multiply a picture's visibility by what the sheets leave of each pixel's shadow ray to the
+  /// light's centre. Only rays of pixels that are not dark are asked.
+  /// @param occluders the snapshot of the last update
+  /// @param visibility one value per pixel of the picture
+  /// @return the number of rays
+  std::size_t scale(const ShadowLight& light, const Occluders& occluders,
+    const Receivers& receivers, std::vector<float>& visibility) const;
 
   /// Return the bytes of the structure and of its tables.
   std::size_t bytes() const;

@@ -137,7 +137,7 @@ class Shadows(unittest.TestCase):
         scene.window.Render()
         said = said_of(scene.renderer)
         self.assertIn("Light 1 casts nothing: a headlight.", said)
-        self.assertIn("is translucent and casts nothing unless its key asks", said)
+        self.assertIn("is translucent and casts nothing unless its key asks, or Set", said)
         steps = vtkRenderStepsPass()
         scene.renderer.SetPass(steps)
         scene.window.Render()

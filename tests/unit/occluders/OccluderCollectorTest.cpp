@@ -478,7 +478,13 @@ TEST(OccluderProps, TranslucentOnesAreHeldIfAskedToCast)
   EXPECT_EQ(scene.collector.translucentReceivers(), 1u);
   vtkGnomonPropKeys::SetCasts(pane, true);
   ASSERT_EQ(scene.collectSurfaces(), 1u);
+  EXPECT_FALSE(scene.surface(0).casts);
+  ASSERT_TRUE(scene.surface(0).sheet);
+  EXPECT_EQ(scene.surface(0).sheet->colour.a, 0.5f);
+  vtkGnomonPropKeys::SetTransmits(pane, vtkGnomonPropKeys::TRANSMITS_NOTHING);
+  scene.collect();
   EXPECT_TRUE(scene.surface(0).casts);
+  EXPECT_FALSE(scene.surface(0).sheet);
   vtkGnomonPropKeys::SetReceives(pane, false);
   scene.collect();
   EXPECT_EQ(scene.collector.translucentReceivers(), 0u);

@@ -260,6 +260,7 @@ TEST_P(Cutouts, ofTranslucentSurfacesCountWhereTheseCast)
   square->SetTexture(makeTexture(letter, interpolated));
   this->expectPattern({ "." }, {}, "not asked to cast");
   EXPECT_FALSE(square->HasOpaqueGeometry());
+  vtkGnomonPropKeys::SetTransmits(square, vtkGnomonPropKeys::TRANSMITS_NOTHING);
   vtkGnomonPropKeys::SetCasts(square, true);
   this->expectPattern(letter, interpolated, "asked to cast");
 }

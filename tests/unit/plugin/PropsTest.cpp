@@ -468,6 +468,7 @@ TEST_P(Props, translucentOnesCastIfAsked)
   vtkActor* square = this->addSquare(true);
   square->GetProperty()->SetOpacity(0.5);
   EXPECT_FALSE(this->dark(2.5, 0.0));
+  vtkGnomonPropKeys::SetTransmits(square, vtkGnomonPropKeys::TRANSMITS_NOTHING);
   vtkGnomonPropKeys::SetCasts(square, true);
   EXPECT_TRUE(this->dark(2.5, 0.0));
   EXPECT_FALSE(this->dark(3.5, 0.0));

@@ -1,0 +1,259 @@
+// Shadows of translucent casters: what they let through, as VTK draws them.
+
+#include "PassScene.h"
+
+#include <vtkCellData.h>
+#include <vtkLookupTable.h>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// A lit floor that panes lie above, seen from above. The panes receive nothing and are black, so
+/// that they add no light.
+class Glass : public PassTest
+{
+protected:
+  Glass()
+  {
+    this->scene.addFloor(8.0);
+    this->sun = this->scene.addSun({ 0.0, 0.0, -1.0 });
+    this->scene.lookDown(2.0);
+    this->scene.pass->TranslucentCastersOn();
+  }
+
+  vtkActor* addPane(double z, double opacity, double extent = 4.0)
+  {
+    return this->asGlass(this->scene.addFloor(extent, z), opacity);
+  }
+  vtkActor* asGlass(vtkActor* actor, double opacity)
+  {
+    actor->GetProperty()->SetOpacity(opacity);
+    actor->GetProperty()->SetDiffuse(0.0);
+    vtkGnomonPropKeys::SetReceives(actor, false);
+    return actor;
+  }
+  /// Return the visibility of the middle of the picture.
+  float middle(const char* text = "")
+  {
+    const VisibilityImages& kept = drawKept(this->scene, text);
+    return kept.visibility[0][24 * 48 + 24];
+  }
+  /// Return the picture's shadow at a place, by the floor's light there: the pane's own colour is
+  /// taken away by what VTK draws without shadows.
+  void expectShadowLikeDrawing(double x, double y)
+  {
+    const double plain = this->scene.redAt(this->scene.renderPlain(), x, y) / 255.0;
+    EXPECT_NEAR(this->scene.redAt(this->scene.render(), x, y), 255.0 * plain * plain, 2.0)
+      << "at " << x << ", " << y << " with " << plain;
+  }
+  std::string notes() { return testing::PrintToString(this->scene.report().notes); }
+
+  PassScene scene{ 48, 48 };
+  vtkLight* sun;
+};
+
+struct TracedGlass
+  : Glass
+  , testing::WithParamInterface<const char*>
+{
+};
+
+TEST_P(TracedGlass, LeavesTheProductOfWhatPanesLetThrough)
+{
+  double expected = 1.0;
+  double z = 1.0;
+  for (const double opacity : { 0.5, 0.1, 0.3 })
+  {
+    this->addPane(z, opacity);
+    z += 0.5;
+    expected *= 1.0 - opacity;
+    EXPECT_NEAR(this->middle(this->GetParam()), expected, 1e-6);
+  }
+  // An opaque box blocks all light.
+  this->scene.addBox({ 0.5, -1.0, 3.0 }, { 1.5, 1.0, 3.2 });
+  EXPECT_NEAR(this->middle(), expected, 1e-6);
+  this->sun->SetFocalPoint(-1.0, 0.0, -3.0); // from above the box to the middle
+  EXPECT_EQ(this->middle(), 0.0f);
+}
+
+INSTANTIATE_TEST_SUITE_P(, TracedGlass,
+  testing::Values("raytraced", "silhouette", "crsm", "crsma", "selective", "coherence",
+    "raytraced edge_samples=4", "auto"),
+  [](const auto& technique)
+  {
+    std::string name = technique.param;
+    std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+    return name;
+  });
+
+TEST_F(Glass, ClosedBoxesCountTwoWalls)
+{
+  this->asGlass(this->scene.addBox({ -1.0, -1.0, 1.0 }, { 1.0, 1.0, 1.001 }), 0.4);
+  EXPECT_NEAR(this->middle("raytraced"), 0.36, 1e-6);
+}
+
+TEST_F(Glass, OtherTechniquesTakeRaysAndSayWhy)
+{
+  this->addPane(1.0, 0.25);
+  for (const char* const technique : { "nsm", "pcf", "vsm", "planar" })
+  {
+    EXPECT_NEAR(this->middle(technique), 0.75, 1e-6) << technique;
+    EXPECT_THAT(this->notes(),
+      testing::HasSubstr(
+        std::string("'") + technique + "' cannot show how much light translucent casters let"));
+    EXPECT_EQ(this->scene.report().lights[0].technique, "raytraced");
+  }
+}
+
+TEST_F(Glass, AreaLightsLoseLightSampleBySample)
+{
+  this->scene.renderer->RemoveAllLights();
+  vtkNew<vtkGnomonAreaLight> lamp;
+  lamp->SetPosition(0.0, 0.0, 8.0);
+  lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  lamp->SetPositional(true);
+  lamp->SetRadius(2.0);
+  this->scene.renderer->AddLight(lamp);
+  // The left half of the lamp's light passes a pane.
+  vtkActor* const pane = this->addPane(4.0, 0.5);
+  pane->SetPosition(-4.0, 0.0, 0.0);
+  for (const char* const technique : { "raytraced", "penumbra" })
+  {
+    this->scene.choose(technique);
+    this->scene.set("light_samples", 256);
+    EXPECT_NEAR(this->middle(), 0.75, 0.02) << technique;
+    vtkActor* const whole = this->addPane(2.0, 0.5);
+    EXPECT_NEAR(this->middle(), 0.375, 0.01) << technique;
+    // An opaque body takes the right half, as far as it does not hide the middle pixel.
+    vtkActor* const body = this->scene.addFloor(4.0, 7.9);
+    body->SetPosition(4.08, 0.0, 0.0);
+    EXPECT_NEAR(this->middle(), 0.138, 0.01) << technique;
+    this->scene.renderer->RemoveActor(whole);
+    this->scene.renderer->RemoveActor(body);
+  }
+}
+
+TEST_F(Glass, CastsOnlyIfAskedAndAsItsKeysSay)
+{
+  vtkActor* const pane = this->addPane(1.0, 0.25);
+  EXPECT_NEAR(this->middle("raytraced"), 0.75, 1e-6);
+  vtkGnomonPropKeys::SetTransmits(pane, vtkGnomonPropKeys::TRANSMITS_NOTHING);
+  EXPECT_EQ(this->middle(), 0.0f);
+  vtkGnomonPropKeys::SetTransmits(pane, vtkGnomonPropKeys::TRANSMITS_GREY);
+  EXPECT_NEAR(this->middle(), 0.75, 1e-6);
+  vtkGnomonPropKeys::SetCasts(pane, false);
+  EXPECT_EQ(this->middle(), 1.0f);
+  this->scene.pass->TranslucentCastersOff();
+  vtkGnomonPropKeys::SetCasts(pane, true);
+  EXPECT_NEAR(this->middle(), 0.75, 1e-6);
+  pane->GetPropertyKeys()->Clear();
+  EXPECT_EQ(this->middle(), 1.0f);
+  EXPECT_THAT(this->notes(),
+    testing::HasSubstr("casts nothing unless its key asks, or SetTranslucentCasters()"));
+  vtkGnomonPropKeys::SetTransmits(pane, 7);
+  EXPECT_THAT(this->takeErrors(), testing::HasSubstr("TRANSMITS was to be 7"));
+}
+
+TEST_F(Glass, FollowsChangesOfOpacityAndPlace)
+{
+  vtkActor* const pane = this->addPane(1.0, 0.25);
+  EXPECT_NEAR(this->middle("raytraced"), 0.75, 1e-6);
+  pane->GetProperty()->SetOpacity(0.5);
+  EXPECT_NEAR(this->middle(), 0.5, 1e-6);
+  pane->SetPosition(6.0, 0.0, 0.0);
+  EXPECT_EQ(this->middle(), 1.0f);
+  pane->SetPosition(0.0, 0.0, 0.5);
+  EXPECT_NEAR(this->middle(), 0.5, 1e-6);
+  pane->GetProperty()->SetOpacity(1.0);
+  EXPECT_EQ(this->middle(), 1.0f) << "the pane itself is seen, lit";
+}
+
+TEST_F(Glass, OpacityOfScalarsAndTexturesIsThatOfTheDrawing)
+{
+  vtkActor* const pane = this->addPane(1.0, 0.8, 2.5);
+  auto* const data = vtkPolyData::SafeDownCast(pane->GetMapper()->GetInputAsDataSet());
+  pane->GetMapper()->Update();
+  // Alpha of the corners, by a table of colours.
+  vtkNew<vtkFloatArray> heights;
+  for (const float height : { 0.0f, 0.3f, 0.6f, 1.0f })
+  {
+    heights->InsertNextValue(height);
+  }
+  data->GetPointData()->SetScalars(heights);
+  vtkNew<vtkLookupTable> table;
+  table->SetTableRange(0.0, 1.0);
+  table->SetAlphaRange(0.2, 0.9);
+  table->SetValueRange(0.0, 0.0); // black
+  pane->GetMapper()->SetLookupTable(table);
+  pane->GetMapper()->SetScalarRange(0.0, 1.0);
+  for (const auto& [x, y] : { std::pair(0.0, 0.0), std::pair(1.2, 0.9), std::pair(-1.4, 0.3) })
+  {
+    this->expectShadowLikeDrawing(x, y);
+  }
+  // Alpha of cells.
+  data->GetPointData()->SetScalars(nullptr);
+  vtkNew<vtkFloatArray> ofCells;
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    ofCells->InsertNextValue(0.5f);
+  }
+  data->GetCellData()->SetScalars(ofCells);
+  data->Modified();
+  this->expectShadowLikeDrawing(0.3, 0.4);
+  EXPECT_LT(this->middle("raytraced"), 0.8f);
+  // Alpha of a texture.
+  data->GetCellData()->SetScalars(nullptr);
+  data->Modified();
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 2, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  for (int i = 0; i < 4; ++i)
+  {
+    auto* const texel = static_cast<unsigned char*>(image->GetScalarPointer(i % 2, i / 2, 0));
+    std::fill_n(texel, 3, static_cast<unsigned char>(0));
+    texel[3] = static_cast<unsigned char>(40 + 60 * i);
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  for (const bool interpolates : { false, true })
+  {
+    texture->SetInterpolate(interpolates);
+    pane->SetTexture(texture);
+    for (const auto& [x, y] : { std::pair(0.2, 0.3), std::pair(1.2, 0.9), std::pair(-1.4, -0.3) })
+    {
+      this->expectShadowLikeDrawing(x, y);
+    }
+  }
+  EXPECT_EQ(this->scene.report().notes.size(), 0u) << this->notes();
+}
+
+TEST_F(Glass, LooksAlikeByAllWaysToBlend)
+{
+  this->addPane(1.0, 0.3);
+  this->addPane(1.5, 0.4, 1.0);
+  const float expected = this->middle("raytraced");
+  for (const bool peels : { true, false })
+  {
+    this->scene.renderer->SetUseDepthPeeling(peels);
+    EXPECT_EQ(this->middle(), expected);
+  }
+}
+
+TEST_F(Glass, ScenesWithoutItKeepTheirBytes)
+{
+  this->scene.addThings();
+  for (const char* const technique : { "raytraced", "crsm", "pcf", "auto" })
+  {
+    this->scene.choose(technique);
+    this->scene.pass->TranslucentCastersOff();
+    const Picture without = this->scene.render();
+    this->scene.pass->TranslucentCastersOn();
+    EXPECT_TRUE(this->scene.render() == without) << technique;
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
