@@ -63,7 +63,8 @@ struct RenderOptions
   bool parallel = false;
   std::optional<bool> ground;    ///< none: the scene decides
   std::optional<double> ambient; ///< none: the surfaces decide
-  double sky = 0.0;              ///< intensity; 0: none
+  bool glass = false;
+  double sky = 0.0; ///< intensity; 0: none
   std::string skyModel = skyModels().front();
   std::string visibility;
   std::string stats;
@@ -353,6 +354,7 @@ void render(const RenderOptions& options)
   const PictureSize size = parseSize(options.size);
   Progress progress("reading " + options.scene);
   Scene scene = loadWithOptions(options, size.aspect());
+  scene.isGlass = options.glass;
   const int samplesPerFrame = mostOf("progressive", scene);
   if (options.shadeSamples)
   {
@@ -383,6 +385,7 @@ void render(const RenderOptions& options)
   const bool givesVisibility = !options.visibility.empty() || !options.classes.empty();
   shadows->SetKeepVisibility(givesVisibility);
   shadows->SetSmoothTerminators(!givesVisibility); // visibility files compare triangles
+  shadows->SetTranslucentCasters(options.glass);
   shadows->SetSkyIntensity(options.sky);
   shadows->SetSkyUp(0.0, 1.0, 0.0);
   shadows->SetSkyModel(static_cast<int>(
@@ -527,6 +530,9 @@ void addRenderCommand(CLI::App& app)
           ? ""
           : "found \"" + text + "\", expected a number between 0 and 1";
       });
+  command->add_flag("--glass", options->glass,
+    "Have translucent models let light through, as much as VTK draws of what is behind them; "
+    "without it they block all light");
   command
     ->add_option("--sky", options->sky,
       "The intensity of a sky, which lights surfaces as far as they see it; 0.4 brightens what is "

@@ -54,7 +54,7 @@ Scene makeModelScene(const std::string& path, bool ground)
   return scene;
 }
 
-vtkSmartPointer<vtkActor> makeActor(const SceneModel& model)
+vtkSmartPointer<vtkActor> makeActor(const SceneModel& model, bool isGlass)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(model.surface);
@@ -73,7 +73,8 @@ vtkSmartPointer<vtkActor> makeActor(const SceneModel& model)
   matrix->DeepCopy(model.matrix.data());
   actor->SetUserMatrix(matrix);
   vtkGnomonPropKeys::SetCasts(actor, model.casts);
-  vtkGnomonPropKeys::SetTransmits(actor, vtkGnomonPropKeys::TRANSMITS_NOTHING);
+  vtkGnomonPropKeys::SetTransmits(
+    actor, isGlass ? vtkGnomonPropKeys::TRANSMITS_GREY : vtkGnomonPropKeys::TRANSMITS_NOTHING);
   vtkGnomonPropKeys::SetReceives(actor, model.receives);
   vtkGnomonPropKeys::SetOneSided(actor, model.oneSided);
   return actor;
@@ -225,7 +226,7 @@ vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect)
   renderer->SetBackground(scene.background[0], scene.background[1], scene.background[2]);
   for (const SceneModel& model : scene.models)
   {
-    renderer->AddActor(makeActor(model));
+    renderer->AddActor(makeActor(model, scene.isGlass));
   }
   for (const SceneProp& prop : scene.props)
   {

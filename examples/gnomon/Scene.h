@@ -98,6 +98,7 @@ struct Scene
 {
   std::string name;
   std::vector<SceneModel> models;
+  bool isGlass = false; ///< translucent models let light through; else they block it
   std::vector<SceneProp> props;
   std::vector<SceneLight> lights;
   bool hasDefaultLight = false; ///< a model's file has none; see placeDefaultLight()

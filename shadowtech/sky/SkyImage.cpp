@@ -121,6 +121,11 @@ struct SkyPacket
     const std::size_t traced = std::exchange(this->rays, 0);
     tracer.areBlocked(
       traced, arrays(this->from), arrays(this->towards), farthest, this->blocked.data());
+    if (const RayFilter* const filter = tracer.filter())
+    {
+      this->addFiltered(*filter, traced, farthest, all, seen);
+      return traced;
+    }
     for (std::size_t ray = 0; ray < traced; ++ray)
     {
       const std::size_t of = this->pixel[ray % this->count];
@@ -128,6 +133,26 @@ struct SkyPacket
       seen[of] += this->blocked[ray] != 0 ? 0.0f : this->radiance[ray];
     }
     return traced;
+  }
+
+  /// Add traced rays to the sums of their pixels, less what a filter keeps.
+  void addFiltered(const RayFilter& filter, std::size_t traced, float farthest,
+    std::vector<float>& all, std::vector<float>& seen) const
+  {
+    const auto at = [](const auto& of, std::size_t ray)
+    { return glm::vec3(of[0][ray], of[1][ray], of[2][ray]); };
+    for (std::size_t ray = 0; ray < traced; ++ray)
+    {
+      const std::size_t of = this->pixel[ray % this->count];
+      all[of] += this->radiance[ray];
+      if (this->blocked[ray] == 0)
+      {
+        // The sky's layer has one channel.
+        const glm::dvec3 left =
+          filter.transmittanceOf(at(this->from, ray), at(this->towards, ray), farthest);
+        seen[of] += this->radiance[ray] * static_cast<float>((left.x + left.y + left.z) / 3.0);
+      }
+    }
   }
 
   /// Add a ray of each pixel.

@@ -45,6 +45,7 @@ public:
   /// a pixel, as in trace(), can be multiplied afterwards.
   /// @param filter must outlive its use
   void filterSamples(const RayFilter* filter) { this->filter_ = filter; }
+  const RayFilter* filter() const { return this->filter_; }
 
   /// Trace the visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1
   /// lit; 0 in shadow, facing away from the light (facesLight()), or outside its cone or box.

@@ -559,6 +559,21 @@ class Shadows(unittest.TestCase):
         self.assertEqual(table.GetValueByName(0, "casts").ToDouble(), 1.0)
 
 
+    def test_glass_lets_light_through(self):
+        scene = Scene()
+        scene.ball.GetProperty().SetOpacity(0.5)
+
+        def shades(glass):
+            shadows = gnomon.add_shadows(scene.renderer, glass=glass)
+            shadows.KeepVisibilityOn()
+            scene.window.Render()
+            seen = gnomon.visibility(shadows)
+            light = next(name for name in seen if name.startswith("light"))
+            return set(numpy.unique(seen[light].round(4)).tolist())
+
+        self.assertLessEqual(shades(False), {0.0, 1.0})
+        self.assertIn(0.25, shades(True))  # two walls of the ball
+
     def test_a_sky(self):
         scene = Scene()
         shadows = gnomon.add_shadows(scene.renderer, sky=0.4)

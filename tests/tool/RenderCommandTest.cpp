@@ -168,6 +168,19 @@ TEST_F(RenderCommand, TheSkyBrightensShadows)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(RenderCommand, GlassLeavesTranslucentModelsTheirLight)
+{
+  writeBytes(this->folder / "glass.mtl", "newmtl glass\nKd 0.5 0.5 0.5\nd 0.25\n");
+  writeBytes(this->folder / "pane.obj",
+    "mtllib glass.mtl\nv -1 0 0\nv 1 0 0\nv 1 2 1\nv -1 2 1\nvt 0 0\nusemtl glass\n"
+    "f 1/1 2/1 3/1 4/1\n");
+  const std::string pane = this->folder / "pane.obj";
+  const std::string options = "--ambient 0 --technique raytraced";
+  EXPECT_EQ(darkest(this->pictureOf(pane, options)), 0);
+  EXPECT_GT(darkest(this->pictureOf(pane, options + " --glass")), 40);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(RenderCommand, ParallelCameraShowsSizesAsTheyAre)
 {
   // The picture is 4 high: the pyramid, 2 wide where it stands, takes half of a row there.

@@ -127,6 +127,7 @@ def add_shadows(
     technique: Technique | None = None,
     light: Literal["auto", "key+fill"] | None = "auto",
     sky: float = 0.0,
+    glass: bool = False,
     keep_visibility: bool = False,
     casting: Literal["auto", "all", "brightest"] = "auto",
     **settings: str | float | bool,
@@ -144,6 +145,8 @@ def add_shadows(
         exchanges all lights; None leaves all as they are.
     sky : float, optional
         Intensity of a sky: 0.4 brightens what is in shadow, but for corners.
+    glass : bool, optional
+        True has translucent props cast: vtkGnomonShadowPass.SetTranslucentCasters().
     keep_visibility : bool, optional
         True to keep the data that `visibility` returns.
     casting : str, optional
@@ -185,6 +188,8 @@ def add_shadows(
         shadows.technique = technique
     with naming("sky"):
         shadows.sky_intensity = sky
+    with naming("glass"):
+        shadows.translucent_casters = glass
     shadows.keep_visibility = keep_visibility
     shadows.casting = casting
     for name, value in settings.items():

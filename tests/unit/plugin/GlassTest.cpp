@@ -242,6 +242,18 @@ TEST_F(Glass, LooksAlikeByAllWaysToBlend)
   }
 }
 
+TEST_F(Glass, TakesItsShareOfTheSky)
+{
+  this->sun->SetPosition(0.0, 0.0, -1.0); // from below
+  this->sun->SetFocalPoint(0.0, 0.0, 0.0);
+  this->scene.pass->SetSkyIntensity(1.0);
+  this->scene.pass->SetSkyDirections(64);
+  EXPECT_EQ(this->scene.redAt(this->scene.render(), 0.0, 0.0), 255);
+  this->addPane(0.02, 0.25); // nearly all rays to the sky cross it
+  const double seen = 255.0 * 0.75;
+  EXPECT_NEAR(this->scene.redAt(this->scene.render(), 0.0, 0.0), 0.75 * seen, 2.0);
+}
+
 TEST_F(Glass, ScenesWithoutItKeepTheirBytes)
 {
   this->scene.addThings();
