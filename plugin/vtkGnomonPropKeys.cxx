@@ -55,7 +55,7 @@ void vtkGnomonPropKeys::SetCasts(vtkProp* prop, bool casts)
 //------------------------------------------------------------------------------
 void vtkGnomonPropKeys::SetTransmits(vtkProp* prop, int transmits)
 {
-  if (transmits < TRANSMITS_NOTHING || transmits > TRANSMITS_GREY)
+  if (transmits < TRANSMITS_NOTHING || transmits > TRANSMITS_COLORED)
   {
     vtkErrorWithObjectMacro(
       prop, "TRANSMITS was to be " << transmits << ", which is no TransmitsType.");

@@ -35,7 +35,8 @@ public:
   enum TransmitsType
   {
     TRANSMITS_NOTHING = 0, ///< it blocks all light
-    TRANSMITS_GREY = 1     ///< 1 - a, where a is the opacity with which VTK draws it there
+    TRANSMITS_GREY = 1,    ///< 1 - a, where a is the opacity with which VTK draws it there
+    TRANSMITS_COLORED = 2  ///< 1 - a (1 - c) of each channel, where c is its diffuse colour there
   };
 
   ///@{

@@ -32,8 +32,9 @@ std::string visibilityOf(const HookVariant& variant, const ShadedLight& shaded, 
 {
   const Route route = variant.route;
   const char* const bit = variant.edgeBit == noBit ? "gnomonBit(" : "gnomonSmoothBit(";
-  // A visibility of one channel scales the mean colour of the light's texture.
-  const std::string even = shaded.light.texture ? litOf(shaded, light) + " * " : "";
+  // A visibility of one channel scales the mean colour of the light's texture, or white.
+  const bool isColour = shaded.light.texture || shaded.channels == 3;
+  const std::string even = isColour ? litOf(shaded, light) + " * " : "";
   const auto layer = [&](int channel)
   { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
   const std::string fetched = route == Route::Deferred ? litOf(shaded, light)
@@ -145,7 +146,9 @@ bool haveBits(const std::vector<ShadedLight>& lights)
 //------------------------------------------------------------------------------
 std::string litOf(const ShadedLight& shaded, int light)
 {
-  return shaded.light.texture ? "gnomonLit" + std::to_string(light) : "1.0";
+  return shaded.light.texture ? "gnomonLit" + std::to_string(light)
+    : shaded.channels == 3    ? "vec3(1.0)"
+                              : "1.0";
 }
 
 //------------------------------------------------------------------------------

@@ -109,7 +109,7 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
     casting.plan.bit == noBit ? layers.read(casting.plan.layer + channel, visibility)
                               : layers.readBit(casting.plan.bit, visibility);
   };
-  if (!casting.light().texture)
+  if (casting.plan.channels == 1 && !casting.light().texture)
   {
     read(0);
     add(visibility, LightChannel::All);

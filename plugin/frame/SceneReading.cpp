@@ -208,7 +208,9 @@ SceneProps readProps(const Occluders& occluders)
     const std::size_t instances = std::max<std::size_t>(surface.centredFromSource.size(), 1);
     props.triangles += surface.triangleCount * instances;
     props.drawn += surface.drawnCount() * instances;
-    props.transmits = props.transmits || (surface.sheet && surface.triangleCount > 0);
+    const bool transmits = surface.sheet && surface.triangleCount > 0;
+    props.transmits = props.transmits || transmits;
+    props.colours = props.colours || (transmits && surface.sheet->isColoured);
     props.unseenReceiver = props.unseenReceiver || isUnseenReceiver(surface);
   }
   return props;

@@ -158,7 +158,7 @@ void placeVisibility(FramePlan& plan)
   const int mostBits = VisibilityLayers::mostBits - (smooths ? 1 : 0);
   for (LightPlan& light : plan.lights)
   {
-    light.channels = channelsOf(light.info(), light.light);
+    light.channels = plan.colours ? 3 : channelsOf(light.info(), light.light);
     if (!plan.transmits && isBit(light.info(), light.light) && plan.bits < mostBits)
     {
       light.bit = plan.bits++;
@@ -198,6 +198,7 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   plan.isApproximate = plan.sky && plan.moves;
 
   plan.transmits = scene.props.transmits;
+  plan.colours = scene.props.colours;
   plan.hasShadows = !plan.lights.empty() || plan.sky || wishes.keepVisibility;
   if (!plan.hasShadows)
   {

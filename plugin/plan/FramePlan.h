@@ -51,6 +51,7 @@ struct FramePlan
   /// True if tiles of an image stay while this process's casters near them do: it has all casters.
   bool reusesTiles = true;
   bool transmits = false;     ///< true if translucent casters scale the lights' visibility
+  bool colours = false;       ///< and do so by channel
   bool moves = false;         ///< true if the frame is one of a moving picture
   bool isApproximate = false; ///< true if a picture at rest may differ from it
   AutoHistory history;        ///< for the next frame

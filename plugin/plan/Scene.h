@@ -56,6 +56,7 @@ struct SceneProps
   bool seenThrough = false;    ///< the receivers lack a prop (DrawnProps::seenThrough)
   bool translucent = false;    ///< translucent surfaces receive
   bool transmits = false;      ///< a caster lets a part of the light through (Surface::sheet)
+  bool colours = false;        ///< and colours it
 };
 
 /// Further facts for the deferred route. Reading them takes a walk over the props.

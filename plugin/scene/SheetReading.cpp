@@ -93,6 +93,11 @@ const char* whyNoSheet(const DrawnActor& drawn, const DrawnProp& prop)
   {
     return "its blocks may have opacities of their own";
   }
+  if (prop.transmits == vtkGnomonPropKeys::TRANSMITS_COLORED &&
+    (drawn.actor->GetTexture() || drawn.actor->GetProperty()->GetNumberOfTextures() > 0))
+  {
+    return "textures give it colours, which cannot be transmitted";
+  }
   if (!drawn.mapper->GetScalarVisibility())
   {
     return nullptr;
@@ -121,6 +126,7 @@ std::shared_ptr<const Sheet> readSheet(const DrawnProp& prop, const DrawnBlock& 
 {
   Sheet sheet;
   sheet.prop = static_cast<std::uint32_t>(prop.number);
+  sheet.isColoured = prop.transmits == vtkGnomonPropKeys::TRANSMITS_COLORED;
   vtkProperty* const property = prop.actor->GetProperty();
   const double* const colour = property->GetDiffuseColor();
   sheet.colour = { colour[0], colour[1], colour[2], property->GetOpacity() };

@@ -74,7 +74,8 @@ public:
   /// A light with a texture has three channels, one image after the other: the share of the
   /// samples' colours that the receiver sees, times the texture's mean. Lit pixels without rays get
   /// the texture's mean.
-  /// With a filter all samples are traced, since what is certain holds for blocking casters alone.
+  /// With a coloured filter all lights have three channels. With any filter all samples are traced,
+  /// since decider, verdicts and chooser know casters that block alone.
   /// @param light with an area
   /// @param chooser chooses the rays that decide the others; null: all are traced. Must be null for
   /// textures
@@ -87,8 +88,8 @@ public:
   {
     const LightSamples samples(light);
     const TracedPicture picture = this->filter_
-      ? TracedPicture(
-          light, occluders, receivers, nullptr, visibility, classes, tiles, nullptr, &samples)
+      ? TracedPicture(light, occluders, receivers, nullptr, visibility, classes, tiles, nullptr,
+          &samples, nullptr, this->filter_->isColoured())
       : TracedPicture(light, occluders, receivers, decider, visibility, classes, tiles, verdicts,
           &samples, chooser);
     const std::size_t rays = this->tracePicture(picture);

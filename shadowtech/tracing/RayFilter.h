@@ -11,6 +11,9 @@ class RayFilter
 public:
   virtual ~RayFilter() = default;
 
+  /// True if the channels of transmittanceOf() may differ.
+  virtual bool isColoured() const = 0;
+
   /// Return the share of light, by channel, that such casters leave of a ray. Called from several
   /// threads at once.
   /// @param origin, direction centred; the origin in the box around the snapshot

@@ -126,7 +126,7 @@ std::vector<PixelClass> classesOfTracing()
 TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluders,
   const Receivers& receivers, const ReceiverDecider* decider, std::vector<float>& visibility,
   std::vector<std::uint8_t>* classes, TracedTiles* tiles, const TileVerdicts* verdicts,
-  const LightSamples* samples, const SampleChooser* chooser)
+  const LightSamples* samples, const SampleChooser* chooser, bool isColoured)
   : occluders_(occluders)
   , receivers_(receivers)
   , decider_(decider)
@@ -138,6 +138,7 @@ TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluder
   , samples_(samples)
   , texture_(samples && light.texture ? &*light.texture : nullptr)
   , chooser_(chooser)
+  , isColoured_(isColoured)
 {
   this->visibility_.resize(this->channels() * this->pixels());
   if (this->classes_)
@@ -364,6 +365,14 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
       this->scale(traced.pixelOfPicture(pixel), sums.all);
     }
   }
+  const auto repeatInChannels = [&](std::array<TracedTile::Plane<float>, 3>& planes)
+  {
+    if (this->isColoured_ && !this->texture_)
+    {
+      planes[1] = planes[2] = planes[0];
+    }
+  };
+  repeatInChannels(traced.visibility);
   std::size_t count = 0;
   for (int number = samples.first; number < samples.end; ++number)
   {
@@ -399,6 +408,7 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
     {
       break;
     }
+    repeatInChannels(traced.samplesOfRay);
     count += trace(traced);
   }
   return count;

@@ -149,10 +149,11 @@ public:
   /// @param samples of the light's area, and of its texture, if any; null: its centre
   /// @param chooser chooses the rays that decide the others; null: all are traced. Must be null for
   /// textures
+  /// @param isColoured true for three channels without a texture
   TracedPicture(const ShadowLight& light, const Occluders& occluders, const Receivers& receivers,
     const ReceiverDecider* decider, std::vector<float>& visibility,
     std::vector<std::uint8_t>* classes, TracedTiles* tiles, const TileVerdicts* verdicts,
-    const LightSamples* samples, const SampleChooser* chooser = nullptr);
+    const LightSamples* samples, const SampleChooser* chooser = nullptr, bool isColoured = false);
 
   /// Return the number of tiles, and of the picture's columns of pixels.
   std::size_t tiles() const;
@@ -166,8 +167,9 @@ public:
   int samples() const { return this->samples_ ? this->samples_->count() : 1; }
   bool isOfArea() const { return this->samples_ != nullptr; }
   SampleRange allSamples() const { return { 0, this->samples() }; }
-  /// Return the channels of the visibility: 3 of an area light with a texture, else 1.
-  std::size_t channels() const { return this->texture_ ? 3 : 1; }
+  /// Return the channels of the visibility: 3 of an area light with a texture or a coloured filter,
+  /// else 1.
+  std::size_t channels() const { return this->texture_ || this->isColoured_ ? 3 : 1; }
 
   /// Fill visibility and classes, tile by tile, by several threads at once.
   /// @param samples the range of rays to trace; the range that begins at 0 also fills visibility
@@ -211,6 +213,7 @@ private:
   const LightSamples* samples_;
   const PlacedTexture* texture_; ///< null: all samples count alike
   const SampleChooser* chooser_;
+  bool isColoured_;
   /// The answers of verdicts and the decider for each tile's receivers, row by row; empty until
   /// they are asked. Null without any.
   std::unique_ptr<std::vector<Certainty>[]> certain_;

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -429,6 +428,13 @@ bool Sheets::empty() const
 }
 
 //------------------------------------------------------------------------------
+bool Sheets::isColoured() const
+{
+  return std::any_of(this->impl_->structures.begin(), this->impl_->structures.end(),
+    [](const auto& entry) { return entry.second.crossed->surface->sheet->isColoured; });
+}
+
+//------------------------------------------------------------------------------
 glm::dvec3 Sheets::transmittanceOf(
   const glm::vec3& origin, const glm::vec3& direction, float rayFar) const
 {
@@ -443,28 +449,39 @@ glm::dvec3 Sheets::transmittanceOf(
 std::size_t Sheets::scale(const ShadowLight& light, const Occluders& occluders,
   const Receivers& receivers, std::vector<float>& visibility) const
 {
-  std::vector<float> transmittance;
+  const std::size_t pixels = visibility.size();
+  const std::size_t channels = this->isColoured() ? 3 : 1;
+  visibility.resize(channels * pixels);
+  for (std::size_t channel = 1; channel < channels; ++channel)
+  {
+    std::copy_n(visibility.begin(), pixels, &visibility[channel * pixels]);
+  }
+  std::vector<float> unfiltered;
   const TracedPicture picture(
-    light, occluders, receivers, nullptr, transmittance, nullptr, nullptr, nullptr, nullptr);
+    light, occluders, receivers, nullptr, unfiltered, nullptr, nullptr, nullptr, nullptr);
   const float rayFar = picture.rayFar();
-  const std::size_t rays = picture.visitTiles(picture.allSamples(),
+  return picture.visitTiles(picture.allSamples(),
     [&](TracedTile& tile)
     {
       std::size_t count = 0;
       for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
       {
-        if (tile.needed[pixel] != 0 && visibility[tile.pixelOfPicture(pixel)] > 0.0f)
+        const std::size_t of = tile.needed[pixel] != 0 ? tile.pixelOfPicture(pixel) : pixels;
+        if (of == pixels || visibility[of] == 0.0f)
         {
-          tile.visibility[0][pixel] = static_cast<float>(
-            this->transmittanceOf(tile.origin(pixel), tile.direction(pixel), rayFar).x);
-          ++count;
+          continue;
         }
+        const glm::dvec3 left =
+          this->transmittanceOf(tile.origin(pixel), tile.direction(pixel), rayFar);
+        for (std::size_t channel = 0; channel < channels; ++channel)
+        {
+          visibility[channel * pixels + of] *=
+            static_cast<float>(left[static_cast<glm::length_t>(channel)]);
+        }
+        ++count;
       }
       return count;
     });
-  std::transform(visibility.begin(), visibility.end(), transmittance.begin(), visibility.begin(),
-    std::multiplies<float>());
-  return rays;
 }
 
 //------------------------------------------------------------------------------

@@ -157,6 +157,36 @@ TEST_F(Glass, CastsOnlyIfAskedAndAsItsKeysSay)
   EXPECT_THAT(this->takeErrors(), testing::HasSubstr("TRANSMITS was to be 7"));
 }
 
+TEST_F(Glass, StainedPanesColourTheLight)
+{
+  const auto stain = [](vtkActor* pane, double red, double green, double blue)
+  {
+    pane->GetProperty()->SetDiffuseColor(red, green, blue);
+    vtkGnomonPropKeys::SetTransmits(pane, vtkGnomonPropKeys::TRANSMITS_COLORED);
+  };
+  stain(this->addPane(1.0, 0.5), 1.0, 0.25, 0.0);
+  stain(this->addPane(1.5, 0.8), 0.5, 0.5, 1.0);
+  const glm::dvec3 expected(1.0 * 0.6, 0.625 * 0.6, 0.5 * 1.0);
+  const auto expectColours = [&](double tolerance)
+  {
+    const VisibilityImages& kept = drawKept(this->scene);
+    ASSERT_EQ(kept.visibility.size(), 3u);
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      EXPECT_NEAR(kept.visibility[static_cast<std::size_t>(channel)][24 * 48 + 24],
+        expected[channel], tolerance);
+    }
+  };
+  for (const char* const technique : { "raytraced", "crsm", "nsm" })
+  {
+    this->scene.choose(technique);
+    expectColours(1e-6);
+  }
+  this->scene.choose("penumbra");
+  this->scene.set("light_radius", "0.05");
+  expectColours(1e-5);
+}
+
 TEST_F(Glass, FollowsChangesOfOpacityAndPlace)
 {
   vtkActor* const pane = this->addPane(1.0, 0.25);
