@@ -19,6 +19,7 @@
 #include <vtkOpenGLState.h>
 #include <vtkProp.h>
 #include <vtkPropCollection.h>
+#include <vtkProperty.h>
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 #include <vtkShaderProperty.h>
@@ -185,6 +186,21 @@ bool anyPropHasOwnShaders(const vtkRenderState* s)
       return (keys && keys->Has(vtkOpenGLRenderPass::RenderPasses())) || hasOwnShaders(prop) ||
         anyPart(
           prop, [](vtkProp*, vtkMapper* mapper) { return mapper && mayHaveOwnShaders(mapper); });
+    });
+}
+
+//------------------------------------------------------------------------------
+bool anyPropIsPhysicallyBased(const vtkRenderState* s)
+{
+  return std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
+    [](vtkProp* prop)
+    {
+      return anyPart(prop,
+        [](vtkProp* part, vtkMapper*)
+        {
+          auto* const actor = vtkActor::SafeDownCast(part);
+          return actor && actor->GetProperty()->GetInterpolation() == VTK_PBR;
+        });
     });
 }
 

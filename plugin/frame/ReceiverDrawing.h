@@ -27,6 +27,8 @@ std::size_t hashOfShownProps(const vtkRenderState* s, PropStamps& stamps);
 /// True if a prop has shaders of a user's own, a mapper that may have some, or shaders to which
 /// other render passes add.
 bool anyPropHasOwnShaders(const vtkRenderState* s);
+/// True if VTK shades a part of a prop by its physically based model.
+bool anyPropIsPhysicallyBased(const vtkRenderState* s);
 
 /// True if a part of a prop has shaders of a user's own. They may move vertices by uniforms, whose
 /// changes VTK does not time.

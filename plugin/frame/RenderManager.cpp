@@ -182,7 +182,7 @@ const FramePlan& RenderManager::plan(
     [s]
     {
       return DeferredFacts{ anyPropHasOwnShaders(s), hasPartsOfBothKinds(s),
-        DeferredPicture::whyUnsupported() };
+        anyPropIsPhysicallyBased(s), DeferredPicture::whyUnsupported() };
     });
   if (plan.lights.empty())
   {

@@ -8,8 +8,13 @@ namespace
 {
 
 /// Return the reason against the deferred route that the props give, as a clause; empty if none.
-std::string whyPropsNotDeferred(const DeferredFacts& facts)
+/// @param mixes true if pixels at edges are between light and shadow
+std::string whyPropsNotDeferred(const DeferredFacts& facts, bool mixes)
 {
+  if (facts.physicallyBased && mixes)
+  {
+    return "physically based materials have a gamma, before which light and shadow mix at edges";
+  }
   if (facts.ownShaders)
   {
     return "a prop may have shaders of its own, which need not light twice";
@@ -138,7 +143,10 @@ PicturePlan planPicture(
   needs.whyNotDeferred = whyNotDeferred(lights, wishes, scene);
   if (needs.whyNotDeferred.empty())
   {
-    needs.whyNotDeferred = whyPropsNotDeferred(*scene.deferred);
+    const LightPlan& only = lights.front();
+    const bool mixes = edgeSamplesOf(only.info(), only.light) > 1 ||
+      (smoothsPictures(only.info(), only.light) && !picture.moves);
+    needs.whyNotDeferred = whyPropsNotDeferred(*scene.deferred, mixes);
   }
 
   PicturePlan plan;

@@ -64,6 +64,7 @@ struct DeferredFacts
 {
   bool ownShaders = false;       ///< a prop may have shaders that are not VTK's
   bool partsOfBothKinds = false; ///< an assembly has parts that passes cannot reach
+  bool physicallyBased = false;  ///< a prop's shading ends in a gamma
   std::string whyUnsupported;    ///< why OpenGL cannot draw such a picture; empty if it can
 };
 

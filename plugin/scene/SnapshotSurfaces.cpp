@@ -54,7 +54,7 @@ SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted, Rank
     const vtkMTimeType time = changeTime(*surface.prop, surface.block, surface.key.cells);
     const bool isMoved = !record || !isWhere(*record, *surface.prop, surface.block);
     if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes ||
-      !(record->coordinates == coordinatesSource(*surface.prop, surface.block)) ||
+      !(record->coordinates.get() == coordinatesSource(*surface.prop, surface.block)) ||
       !(record->normals == normalsSource(*surface.prop, surface.block)) ||
       (isMoved && reachesBeyondWorld(*record, *surface.prop)))
     {
@@ -418,7 +418,7 @@ bool SnapshotSurfaces::updateSheet(const WantedSurface& wanted, std::size_t inde
   Surface& surface = this->occluders_.surfaces[index];
   SurfaceRecord& record = this->records_[index];
   const SheetSource source = sheetSource(*wanted.prop, wanted.block, surface);
-  if (source == record.sheet)
+  if (source == record.sheet.get())
   {
     return false;
   }

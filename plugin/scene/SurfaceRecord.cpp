@@ -269,7 +269,7 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
     }
   }
   record.coordinates = coordinatesSource(prop, block);
-  if (record.coordinates.array)
+  if (record.coordinates.get().array)
   {
     fresh.textureCoordinates = readTextureCoordinates(
       block.textureCoordinates, prop.textureTransform, record.pointOfVertex, drawn.vertexCount);

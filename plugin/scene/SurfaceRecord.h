@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -101,6 +102,26 @@ struct NormalsSource
 };
 NormalsSource normalsSource(const DrawnProp& prop, const DrawnBlock& block);
 
+/// A value that nearly always is the default one, which takes no memory.
+template <typename Value>
+class Seldom
+{
+public:
+  Seldom& operator=(const Value& value)
+  {
+    this->other_ = value == Value() ? nullptr : std::make_unique<const Value>(value);
+    return *this;
+  }
+  const Value& get() const
+  {
+    static const Value usual;
+    return this->other_ ? *this->other_ : usual;
+  }
+
+private:
+  std::unique_ptr<const Value> other_;
+};
+
 /// A surface's cached state beside its triangles in the snapshot.
 struct SurfaceRecord
 {
@@ -109,9 +130,9 @@ struct SurfaceRecord
   glm::dmat4 worldFromModel{ 1.0 };
   std::vector<glm::dvec4> clipPlanes;
   glm::dvec4 radiusFromWorld{ 0.0 }; ///< of solids sized in pixels
-  CoordinatesSource coordinates;
+  Seldom<CoordinatesSource> coordinates;
   NormalsSource normals;
-  SheetSource sheet;
+  Seldom<SheetSource> sheet;
   float facetHeight = 0.0f;                 ///< Surface::facetHeight, in the normals' coordinates
   std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles, of one instance
   /// The places of the polydata in its prop's model coordinates: one as it is, any number as a

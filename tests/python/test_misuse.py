@@ -82,7 +82,9 @@ def valid_calls(scene):
     """Arguments of each function, of which all are right."""
     keywords = {"target": scene.renderer, "technique": "pcf", "light": None, "map_size": 64}
     return {
-        "add_shadows": {**keywords, "sky": 0.4, "keep_visibility": True, "casting": "all"},
+        "add_shadows": {
+            **keywords, "sky": 0.4, "glass": True, "keep_visibility": True, "casting": "all",
+        },
         "shadows": keywords,
         "remove_shadows": {"target": scene.renderer},
         "report": {"shadows": scene.renderer},

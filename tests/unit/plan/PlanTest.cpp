@@ -259,6 +259,19 @@ TEST(Plan, choosesTheRoute)
       Route::Image, "works on the whole screen" },
     { "parts", { &rays() }, [](W&, P&, S& scene) { scene.deferred->partsOfBothKinds = true; },
       Route::Image, "works on the whole screen" },
+    { "a gamma, no edges", { &rays() },
+      [](W&, P&, S& scene) { scene.deferred->physicallyBased = true; }, Route::Deferred,
+      "hard and of one light" },
+    { "a gamma, edges", { &raysWithEdges() },
+      [](W&, P&, S& scene) { scene.deferred->physicallyBased = true; }, Route::Image,
+      "works on the whole screen" },
+    { "a gamma, edges, in motion", { &raysWithEdges() },
+      [](W&, P& picture, S& scene)
+      {
+        picture.moves = true;
+        scene.deferred->physicallyBased = true;
+      },
+      Route::Deferred, "hard and of one light" },
     { "unsupported", { &rays() }, [](W&, P&, S& scene) { scene.deferred->whyUnsupported = "no"; },
       Route::Image, "works on the whole screen" },
     { "image asked", { &compare() }, wishing(RouteWish::Image), Route::Image, "asked for" },

@@ -271,6 +271,7 @@ TEST_P(Neighbours, translucentFacetsAreDarkOnlyWhereTheLightIsHidden)
     EXPECT_NE(this->scene.report().route, "none");
 
     vtkGnomonPropKeys::SetCasts(actor, true); // its facets hide their own light
+    vtkGnomonPropKeys::SetTransmits(actor, vtkGnomonPropKeys::TRANSMITS_NOTHING);
     EXPECT_GT(differingPixels(this->scene.render(), plain, 2), 20u) << "sun: " << isSun;
     vtkGnomonPropKeys::SetCasts(actor, false);
     EXPECT_EQ(differingPixels(this->scene.render(), plain, 2), 0u) << "sun: " << isSun;
