@@ -4,7 +4,8 @@
 #   tests/lab/pages/measure.sh NAME [ARGUMENT...]
 #
 # NAME is a function of this script that takes no other's part:
-#   bunny           all techniques on the bunny, and the pictures of README.md
+#   bunny           all techniques on the bunny
+#   picture         the picture of README.md
 #   exact_price     exact shadows of four scenes
 #   study           what accuracy costs: ten scenes; continues where it was interrupted
 #   conclusions     the publications' conclusions; a quarter of an hour
@@ -76,13 +77,25 @@ bunny()
     --route inline --frames 31
   compareInto bunny soft bunny --techniques pcss,montecarlo,sampled,penumbra,raytraced \
     --route image --frames 11 --light-radius 5
-  for name in first plain-VTK vtkShadowMapPass-1024 nsm-1024-inline raytraced; do
+  for name in plain-VTK vtkShadowMapPass-1024 nsm-1024-inline raytraced; do
     cp "out/bunny/bunny.hard/$name.png" docs/figures/
   done
   for name in pcss-1024-image montecarlo-1024 penumbra; do
     cp "out/bunny/bunny.soft/$name.png" "docs/figures/${name%%-*}.png"
   done
   put bunny
+}
+
+picture()
+{
+  local out=out/picture
+  prepare
+  compareOnce $out bunny --techniques raytraced --frames 0 --size 640x640 --truth-samples 1
+  $programs/gnomon render bunny -o $out/gnomon.png --size 640x640 --sky 0.3
+  /usr/bin/python3 $here/side_by_side.py docs/figures/first.png \
+    "plain VTK: no shadows=$out/plain-VTK.png" \
+    "VTK's own: vtkShadowMapPass=$out/vtkShadowMapPass-1024.png" \
+    "Gnomon: a sun and a sky=$out/gnomon.png"
 }
 
 exactPrices()
