@@ -349,9 +349,9 @@ TEST_F(PictureTimer, drawsARestingPictureAfterAProgramsMotion)
 /// The first picture at rest comes at once, with one sample a pixel; the next has smooth edges.
 TEST_F(PictureTimer, edgesAreSmoothInTheSecondPictureAtRest)
 {
-  for (const char* const technique : { "auto", "raytraced" })
+  for (const std::string technique : { "auto", "raytraced" })
   {
-    this->pass->SetTechnique(technique);
+    this->pass->SetTechnique(technique.c_str());
     this->render();
     std::vector<double> progress;
     this->on(
@@ -360,9 +360,11 @@ TEST_F(PictureTimer, edgesAreSmoothInTheSecondPictureAtRest)
     EXPECT_EQ(progress, std::vector<double>{ 1.0 }) << "in motion";
     const Picture hard = readPicture(this->window);
     waitForTimers(*this);
+    // `raytraced` has traced the resting picture's visibility already.
+    EXPECT_EQ(progress[1], technique == "auto" ? 1.0 / 16.0 : 1.0);
     EXPECT_EQ(progress.back(), 1.0);
     EXPECT_GT(differingPixels(readPicture(this->window), hard, 8), 5u) << technique;
-    EXPECT_TRUE(readPicture(this->window) == fresh(*this, { "", technique }));
+    EXPECT_TRUE(readPicture(this->window) == fresh(*this, { "", technique.c_str() }));
     this->renderer->RemoveObservers(vtkCommand::EndEvent);
   }
 }
