@@ -17,8 +17,8 @@ vtk_module_wrap_python(
 
 set(gnomon_python_folder "${PROJECT_SOURCE_DIR}/plugin/python/gnomon")
 set(gnomon_built_package "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}")
-set(gnomon_python_sources __init__.py arguments.py attributes.py catalogue.py data.py errors.py figure.py
-  holders.py images.py lighting.py why.py)
+set(gnomon_python_sources __init__.py arguments.py attributes.py catalogue.py data.py errors.py
+  figure.py holders.py images.py lighting.py why.py)
 foreach(source IN LISTS gnomon_python_sources)
   configure_file("${gnomon_python_folder}/${source}" "${gnomon_built_package}/gnomon/${source}"
     COPYONLY)
@@ -43,7 +43,8 @@ add_custom_command(
   COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${gnomon_built_package}"
     "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/python_stubs.py"
     "${gnomon_built_package}/gnomon" GnomonLights GnomonPlugin
-  DEPENDS "${CMAKE_CURRENT_LIST_DIR}/python_stubs.py" ${gnomon_built_sources} GnomonLightsPython GnomonPluginPython
+  DEPENDS "${CMAKE_CURRENT_LIST_DIR}/python_stubs.py" ${gnomon_built_sources} GnomonLightsPython
+    GnomonPluginPython
   COMMENT "Writing the type stubs of the Python package"
   VERBATIM)
 add_custom_target(GnomonPythonStubs ALL DEPENDS ${gnomon_stubs})

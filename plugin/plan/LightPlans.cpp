@@ -77,7 +77,9 @@ void keepBudget(LightPlans& plans, const Scene& scene, const FrameWishes& wishes
   std::vector<LightNeed> needs;
   for (const LightPlan& plan : plans.lights)
   {
-    needs.push_back(needOf(plan.light, plan.info(), scene.lights.seenWorld));
+    LightNeed& need = needs.emplace_back(needOf(plan.light, plan.info(), scene.lights.seenWorld));
+    need.isHard = need.isHard && !scene.props.transmits;
+    need.channels = scene.props.colours ? 3 : need.channels;
   }
   const bool mayBeInline = (wishes.route == RouteWish::Auto || wishes.route == RouteWish::Inline) &&
     !wishes.keepVisibility;

@@ -1,6 +1,7 @@
 #include "shadowtech/tracing/EmbreeCasters.h"
 
 #include "shadowtech/base/Bytes.h"
+#include "shadowtech/tracing/EmbreeInstances.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -103,23 +104,13 @@ void EmbreeCasters::attachOne(Caster& caster) const
 void EmbreeCasters::attachInstances(Caster& caster, const Surface& surface) const
 {
   rtcCommitGeometry(caster.geometry.get());
-  caster.attached.reserve(surface.centredFromSource.size());
   caster.source = EmbreeScene(rtcNewScene(this->device.get()));
   rtcSetSceneFlags(
     caster.source.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | queriesFilter));
   rtcAttachGeometry(caster.source.get(), caster.geometry.get());
   rtcCommitScene(caster.source.get());
-  for (const glm::mat4x3& instance : surface.centredFromSource)
-  {
-    if (Surface::isLeftOut(instance))
-    {
-      caster.attached.push_back(RTC_INVALID_GEOMETRY_ID);
-      continue;
-    }
-    const EmbreeGeometry geometry(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-    rtcSetGeometryInstancedScene(geometry.get(), caster.source.get());
-    caster.attached.push_back(rtcAttachGeometry(this->scene.get(), geometry.get()));
-  }
+  caster.attached =
+    gnomon::attachInstances(this->device.get(), this->scene.get(), caster.source.get(), surface);
   this->move(caster, surface);
 }
 
@@ -140,16 +131,7 @@ void EmbreeCasters::move(Caster& caster, const Surface& surface) const
     rtcCommitGeometry(caster.geometry.get());
     return;
   }
-  for (std::size_t i = 0; i < caster.attached.size(); ++i)
-  {
-    if (caster.attached[i] != RTC_INVALID_GEOMETRY_ID)
-    {
-      const RTCGeometry geometry = rtcGetGeometry(this->scene.get(), caster.attached[i]);
-      rtcSetGeometryTransform(
-        geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &surface.centredFromSource[i][0][0]);
-      rtcCommitGeometry(geometry);
-    }
-  }
+  placeInstances(this->scene.get(), caster.attached, surface);
 }
 
 //------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/WeldedVertices.h"
-#include "shadowtech/tracing/EmbreeHandle.h"
+#include "shadowtech/tracing/EmbreeInstances.h"
 #include "shadowtech/tracing/TracedPicture.h"
 #include "shadowtech/transmittance/TriangleCrossing.h"
 
@@ -282,17 +282,8 @@ Sheets::Impl::Structure Sheets::Impl::make(const Surface& surface, const Occlude
   structure.source = EmbreeScene(rtcNewScene(this->device.get()));
   rtcSetSceneFlags(structure.source.get(), RTC_SCENE_FLAG_ROBUST);
   rtcAttachGeometry(structure.source.get(), geometry);
-  for (const glm::mat4x3& instance : surface.centredFromSource)
-  {
-    if (Surface::isLeftOut(instance))
-    {
-      structure.attached.push_back(RTC_INVALID_GEOMETRY_ID);
-      continue;
-    }
-    const EmbreeGeometry placed(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-    rtcSetGeometryInstancedScene(placed.get(), structure.source.get());
-    structure.attached.push_back(rtcAttachGeometry(this->scene.get(), placed.get()));
-  }
+  structure.attached =
+    attachInstances(this->device.get(), this->scene.get(), structure.source.get(), surface);
   this->place(structure);
   return structure;
 }
@@ -308,16 +299,7 @@ void Sheets::Impl::place(const Structure& structure) const
     return;
   }
   rtcCommitScene(structure.source.get());
-  for (std::size_t i = 0; i < structure.attached.size(); ++i)
-  {
-    if (structure.attached[i] != RTC_INVALID_GEOMETRY_ID)
-    {
-      const RTCGeometry geometry = rtcGetGeometry(this->scene.get(), structure.attached[i]);
-      rtcSetGeometryTransform(
-        geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &surface.centredFromSource[i][0][0]);
-      rtcCommitGeometry(geometry);
-    }
-  }
+  placeInstances(this->scene.get(), structure.attached, surface);
 }
 
 //------------------------------------------------------------------------------
@@ -419,12 +401,6 @@ void Sheets::update(const Occluders& occluders)
   }
   impl.topologyVersion = occluders.topologyVersion;
   impl.positionsVersion = occluders.positionsVersion;
-}
-
-//------------------------------------------------------------------------------
-bool Sheets::empty() const
-{
-  return this->impl_->structures.empty();
 }
 
 //------------------------------------------------------------------------------

@@ -31,9 +31,6 @@ public:
   /// @throws std::runtime_error if there is no structure, or for casters beyond Embree's range
   void update(const Occluders& occluders);
 
-  /// True if no surface lets light through.
-  bool empty() const;
-
   /// True if a sheet is coloured.
   bool isColoured() const override;
   /// Return the product over the ray's crossings (Sheet).

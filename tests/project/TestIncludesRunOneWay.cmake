@@ -44,8 +44,8 @@ folder(plugin/scene lights shadowtech/base plugin/ranks plugin/vtk_versions plug
 folder(plugin/data lights shadowtech/base shadowtech/sky shadowtech/tracing plugin/scene)
 folder(plugin/plan lights shadowtech shadowtech/base shadowtech/probing shadowtech/sky
   shadowtech/tracing)
-folder(plugin/frame ${shared} shadowtech shadowtech/sky shadowtech/transmittance plugin/plan plugin/ranks plugin/scene
-  plugin/window)
+folder(plugin/frame ${shared} shadowtech shadowtech/sky shadowtech/transmittance plugin/plan
+  plugin/ranks plugin/scene plugin/window)
 folder(plugin/pass lights shadowtech shadowtech/base plugin/plan)
 folder(plugin ${shared} shadowtech shadowtech/sky plugin/data plugin/frame plugin/pass plugin/plan plugin/ranks
   plugin/scene plugin/vtk_versions plugin/window)

@@ -198,6 +198,19 @@ TEST(Plan, givesLightsTheirTechniques)
   }
 }
 
+/// Bits of hard shadows share an image; what glass leaves of a light takes a layer, or three.
+TEST(Plan, countsTheLayersOfLightsBehindGlass)
+{
+  Scene scene = sceneOf({ "raytraced", "raytraced" });
+  FrameWishes wishes;
+  wishes.memoryBudget = (8.0 + 4.1) * mebibyte; // the image of bits, and a layer
+  EXPECT_EQ(planLights(scene, wishes).lights.size(), 2u);
+  scene.props.transmits = true;
+  EXPECT_EQ(planLights(scene, wishes).lights.size(), 1u);
+  scene.props.colours = true;
+  EXPECT_EQ(planLights(scene, wishes).lights.size(), 0u);
+}
+
 TEST(Plan, tracesLightsWithoutRoomForAMap)
 {
   Scene scene = sceneOf({ "nsm", "nsm" });
