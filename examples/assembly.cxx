@@ -36,7 +36,6 @@ vtkSmartPointer<vtkActor> makePart(vtkAlgorithm* source, double red, double gree
   vtkNew<vtkActor> part;
   part->SetMapper(mapper);
   part->GetProperty()->SetColor(red, green, blue);
-  part->GetProperty()->SetAmbient(0.25); // ambient light is never shadowed
   return part;
 }
 
@@ -101,6 +100,7 @@ int main(int argc, char* argv[])
   vtkGnomonLightKeys::SetSetting(lamp, "light_radius", "2"); // its disc, in degrees
   renderer->AddLight(lamp);
   vtkNew<vtkGnomonShadowPass> shadows;
+  shadows->SetSkyIntensity(0.25);
   renderer->SetPass(shadows);
   renderer->GetActiveCamera()->SetPosition(5, -12.4, 12.4);
   renderer->GetActiveCamera()->SetFocalPoint(1.9, 0.9, 0.6);

@@ -72,7 +72,6 @@ void add(vtkRenderer* renderer, vtkAlgorithm* parts, double red, double green, d
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(red, green, blue);
-  actor->GetProperty()->SetAmbient(0.32); // ambient light is never shadowed
   renderer->AddActor(actor);
 }
 
@@ -103,6 +102,7 @@ int main(int argc, char* argv[])
   add(renderer, green, 0.45, 0.70, 0.36);
   renderer->SetBackground(0.16, 0.19, 0.25);
   vtkNew<vtkGnomonShadowPass> shadows;
+  shadows->SetSkyIntensity(0.32);
   renderer->SetPass(shadows);
   renderer->GetActiveCamera()->SetPosition(-24.0, 16.0, 25.0);
   renderer->GetActiveCamera()->SetFocalPoint(-1.5, 1.5, -2.0);

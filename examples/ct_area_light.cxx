@@ -66,7 +66,6 @@ int main(int argc, char* argv[])
   vtkNew<vtkActor> surface;
   surface->SetMapper(mapper);
   surface->GetProperty()->SetColor(0.97, 0.91, 0.79);
-  surface->GetProperty()->SetAmbient(0.12); // ambient light is never shadowed
 
   vtkNew<vtkGnomonAreaLight> lamp;
   lamp->SetPosition(-7.0, -8.0, 9.0);
@@ -89,6 +88,7 @@ int main(int argc, char* argv[])
     if (shadowed)
     {
       vtkNew<vtkGnomonShadowPass> shadows;
+      shadows->SetSkyIntensity(0.15);
       renderer->SetPass(shadows);
     }
     window->AddRenderer(renderer);

@@ -83,7 +83,6 @@ int main(int argc, char* argv[])
   mapper->SetLookupTable(colours);
   vtkNew<vtkActor> surface;
   surface->SetMapper(mapper);
-  surface->GetProperty()->SetAmbient(0.4); // ambient light is never shadowed
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->SetSize(argc > 3 ? std::atoi(argv[2]) : 1200, argc > 3 ? std::atoi(argv[3]) : 900);
   vtkNew<vtkScalarBarActor> scale;
@@ -103,6 +102,7 @@ int main(int argc, char* argv[])
   sun->SetPosition(-0.85, -0.1, 0.45);
   renderer->AddLight(sun);
   vtkNew<vtkGnomonShadowPass> shadows;
+  shadows->SetSkyIntensity(0.4);
   shadows->KeepVisibilityOn(); // for the EXR
   renderer->SetPass(shadows);
   renderer->GetActiveCamera()->SetPosition(5, -24, 28);

@@ -59,7 +59,6 @@ void add(vtkRenderer* renderer, vtkMapper* mapper, double red, double green, dou
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(red, green, blue);
-  actor->GetProperty()->SetAmbient(0.25); // ambient light is never shadowed
   renderer->AddActor(actor);
 }
 
@@ -102,6 +101,7 @@ int main(int argc, char* argv[])
   lamp->SetRadius(1.5);
   renderer->AddLight(lamp);
   vtkNew<vtkGnomonShadowPass> shadows;
+  shadows->SetSkyIntensity(0.25);
   renderer->SetPass(shadows);
   renderer->GetActiveCamera()->SetPosition(6, -27, 13);
   renderer->GetActiveCamera()->SetFocalPoint(2.0, 0, -1.5);

@@ -79,7 +79,6 @@ def main() -> None:
         actor = vtk.vtkActor()
         actor.SetMapper(mapper)
         actor.GetProperty().SetColor(0.72, 0.85, 0.80)
-        actor.GetProperty().SetAmbient(0.28)  # ambient light is never shadowed
         actor.GetProperty().SetDiffuse(0.8)
         renderer.AddActor(actor)
     lamp = gnomon.vtkGnomonAreaLight()
@@ -87,7 +86,7 @@ def main() -> None:
     lamp.SetFocalPoint(0, 0, 8)
     lamp.SetRadius(2)
     renderer.AddLight(lamp)
-    gnomon.add_shadows(renderer)
+    gnomon.add_shadows(renderer, sky=0.4, sky_distance=2)
     camera = renderer.GetActiveCamera()
     camera.SetPosition(26, -34, 20)
     camera.SetFocalPoint(0, 0, 9.1)

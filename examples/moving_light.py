@@ -67,7 +67,6 @@ def add(
     actor.SetMapper(mapper)
     actor.SetPosition(x, y, 0)
     actor.GetProperty().SetColor(colour)
-    actor.GetProperty().SetAmbient(0.2)  # ambient light is never shadowed
     actor.GetProperty().SetSpecular(0.2)
     actor.GetProperty().SetSpecularPower(40)
     renderer.AddActor(actor)
@@ -89,7 +88,7 @@ def main() -> None:
     lamp = gnomon.vtkGnomonAreaLight()
     lamp.SetRadius(0.6)
     renderer.AddLight(lamp)
-    gnomon.add_shadows(renderer)
+    gnomon.add_shadows(renderer, sky=0.2)
     camera = renderer.GetActiveCamera()
     camera.SetPosition(-7, -22, 17)
     camera.SetFocalPoint(0, -0.8, 0)

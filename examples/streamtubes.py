@@ -45,7 +45,6 @@ def add(
     mapper.SetInputConnection(algorithm.GetOutputPort())
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetAmbient(0.25)  # ambient light is never shadowed
     actor.GetProperty().SetDiffuse(0.85)
     renderer.AddActor(actor)
     if colours:
@@ -96,7 +95,7 @@ def main() -> None:
     lamp = vtk.vtkLight()
     lamp.SetPosition(-0.35, -0.5, 1)  # directional: it shines towards the origin
     renderer.AddLight(lamp)
-    gnomon.add_shadows(renderer, light_radius=2)  # its disc, in degrees
+    gnomon.add_shadows(renderer, sky=0.25, light_radius=2)  # its disc, in degrees
 
     camera = renderer.GetActiveCamera()
     camera.SetPosition(7.6, -18, 11)

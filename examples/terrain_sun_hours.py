@@ -73,7 +73,6 @@ def main() -> None:
     mapper.SetLookupTable(colours)
     terrain = vtk.vtkActor()
     terrain.SetMapper(mapper)
-    terrain.GetProperty().SetAmbient(0.45)  # the sky: ambient light is never shadowed
     terrain.GetProperty().SetDiffuse(0.75)
 
     scale = vtk.vtkScalarBarActor()
@@ -99,7 +98,7 @@ def main() -> None:
     sun.GetDirection(towards)
     light.SetPosition(towards)  # directional: its focal point is the origin
     renderer.AddLight(light)
-    gnomon.add_shadows(renderer)
+    gnomon.add_shadows(renderer, sky=0.45)
     camera = renderer.GetActiveCamera()
     camera.SetFocalPoint(0.54 * SIDE, 0.35 * SIDE, 0)
     camera.SetPosition(0.70 * SIDE, -1.1 * SIDE, 9000)

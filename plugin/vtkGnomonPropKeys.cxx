@@ -10,6 +10,7 @@ vtkStandardNewMacro(vtkGnomonPropKeys);
 vtkInformationKeyMacro(vtkGnomonPropKeys, CASTS, Integer);
 vtkInformationKeyMacro(vtkGnomonPropKeys, TRANSMITS, Integer);
 vtkInformationKeyMacro(vtkGnomonPropKeys, RECEIVES, Integer);
+vtkInformationKeyMacro(vtkGnomonPropKeys, SHADOW_CATCHER, Integer);
 vtkInformationKeyMacro(vtkGnomonPropKeys, ONE_SIDED, Integer);
 
 namespace
@@ -71,6 +72,12 @@ void vtkGnomonPropKeys::SetReceives(vtkProp* prop, bool receives)
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonPropKeys::SetShadowCatcher(vtkProp* prop, bool catches)
+{
+  setKey(prop, SHADOW_CATCHER(), catches ? 1 : 0);
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonPropKeys::SetOneSided(vtkProp* prop, bool oneSided)
 {
   setKey(prop, ONE_SIDED(), oneSided ? 1 : 0);
@@ -92,6 +99,12 @@ int vtkGnomonPropKeys::GetTransmits(vtkProp* prop)
 bool vtkGnomonPropKeys::GetReceives(vtkProp* prop)
 {
   return getKey(prop, RECEIVES(), 1) != 0;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonPropKeys::GetShadowCatcher(vtkProp* prop)
+{
+  return getKey(prop, SHADOW_CATCHER(), 0) != 0;
 }
 
 //------------------------------------------------------------------------------

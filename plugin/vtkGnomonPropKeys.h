@@ -48,12 +48,16 @@ public:
    * - TRANSMITS: what a translucent prop that casts lets through, one of TransmitsType. Default:
    *   TRANSMITS_GREY.
    * - RECEIVES: the prop shows shadows. Default: 1.
+   * - SHADOW_CATCHER: the prop shows nothing but shadows, in black. Their opacity is the share of
+   *   the light, of lights and sky, that casters keep from it, for pictures that are laid over a
+   *   page. VTK draws it in its turn: what is to be seen behind it comes before it. Default: 0.
    * - ONE_SIDED: the prop blocks light only with triangles whose front faces the light. The front
    *   shows the corners counter-clockwise. Default: 0, both sides block.
    */
   static vtkInformationIntegerKey* CASTS();
   static vtkInformationIntegerKey* TRANSMITS();
   static vtkInformationIntegerKey* RECEIVES();
+  static vtkInformationIntegerKey* SHADOW_CATCHER();
   static vtkInformationIntegerKey* ONE_SIDED();
   ///@}
 
@@ -64,6 +68,7 @@ public:
   static void SetCasts(vtkProp* prop, bool casts) VTK_EXPECTS(prop != nullptr);
   static void SetTransmits(vtkProp* prop, int transmits) VTK_EXPECTS(prop != nullptr);
   static void SetReceives(vtkProp* prop, bool receives) VTK_EXPECTS(prop != nullptr);
+  static void SetShadowCatcher(vtkProp* prop, bool catches) VTK_EXPECTS(prop != nullptr);
   static void SetOneSided(vtkProp* prop, bool oneSided) VTK_EXPECTS(prop != nullptr);
   ///@}
 
@@ -74,6 +79,7 @@ public:
   static bool GetCasts(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
   static int GetTransmits(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
   static bool GetReceives(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
+  static bool GetShadowCatcher(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
   static bool GetOneSided(vtkProp* prop) VTK_EXPECTS(prop != nullptr);
   ///@}
 

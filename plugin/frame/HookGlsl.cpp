@@ -128,6 +128,13 @@ void markEndOfMain(std::string& fragmentShader)
     "\n" + declarationMarker + "\nvoid main()\n{\n  gnomonMain();\n  " + endMarker + "\n}\n";
 }
 
+/// Return VTK's lighting, between the marks. A copy of it needs a scope of its own.
+std::string lightingOf(const std::string& fragmentShader)
+{
+  const std::size_t begin = fragmentShader.find(beginMarker) + beginMarker.size();
+  return fragmentShader.substr(begin, fragmentShader.find(endMarker) - begin);
+}
+
 /// Above this many layers, a loop is used. For fewer, Mesa makes a branch of each element of the
 /// loop's array, which compiles longer than separate fetches. First frames by fetches and by the
 /// loop, in s: with 14 lights 1.9 and 2.9, with 16 2.4 and 1.2, with 20 3.9 and 1.7 (llvmpipe,
@@ -195,6 +202,10 @@ HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& l
   if (variant.skyLayer != noSkyLayer)
   {
     this->declarations_ += frameShaders().at("plugin/frame/hook_sky.glsl");
+  }
+  if (variant.anyCatcher)
+  {
+    this->declarations_ += frameShaders().at("plugin/frame/hook_catcher.glsl");
   }
 }
 
@@ -265,13 +276,18 @@ void HookGlsl::addLights(const std::vector<ShadedLight>& lights)
     {
       this->darkenings_ += darkeningOf(shaded, number);
     }
+    if (this->variant_.anyCatcher)
+    {
+      this->brightenings_ += multiplicationOf(shaded, number, litOf(shaded, number));
+    }
   }
 }
 
 //------------------------------------------------------------------------------
 /// Return statements that light a fragment by the sky, before VTK's lights; empty if VTK does not
 /// light it.
-std::string HookGlsl::lightOfSky(const std::string& fragmentShader) const
+/// @param view the expression of the fragment's view of the sky
+std::string HookGlsl::lightOfSky(const std::string& fragmentShader, const std::string& view) const
 {
   // VTK may declare lights for unlit props, and computes nothing with them.
   if (this->variant_.skyLayer == noSkyLayer ||
@@ -282,10 +298,8 @@ std::string HookGlsl::lightOfSky(const std::string& fragmentShader) const
   // Edges of meshes have their colour in the ambient term, and are unlit.
   static const std::regex edges(R"(mix\(\s*ambientColor, edgeColor, emix\))");
   const std::string share = std::regex_search(fragmentShader, edges) ? "emix" : "0.0";
-  return "  gnomonSkyView = gnomonReceives == 0 || gnomonTranslucent == 1\n"
-         "    ? 1.0 : gnomonLayer(" +
-    std::to_string(this->variant_.skyLayer) +
-    ");\n  ambientColor = mix(\n"
+  return "  gnomonSkyView = " + view +
+    ";\n  ambientColor = mix(\n"
     "    gnomonSkyView * (ambientColor + gnomonSkyLight * diffuseColor), ambientColor, " +
     share + ");\n";
 }
@@ -382,7 +396,9 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
     {
       begin += "  vec3 gnomonCurve = " + curveNormal(fragmentShader, declarations) + ";\n";
     }
-    const std::string sky = this->lightOfSky(fragmentShader);
+    const std::string sky = this->lightOfSky(fragmentShader,
+      "gnomonReceives == 0 || gnomonTranslucent == 1\n    ? 1.0 : gnomonLayer(" +
+        std::to_string(this->variant_.skyLayer) + ")");
     begin += this->multiplications_ + sky;
     lightsBySky = !sky.empty();
   }
@@ -419,6 +435,14 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
       end += "    gl_FragData[2] = gnomonInShadow;\n";
     }
   }
+  if (receives && this->hasLights_ && this->variant_.anyCatcher)
+  {
+    const char* const gamma = has("color = pow(color, vec3(1.0/2.2));") ? "2.2" : "1.0";
+    begin = this->lightWithoutCasters(fragmentShader) + begin;
+    end += std::string("  if (gnomonCatches == 1)\n  {\n    gl_FragData[0] = gnomonCaught("
+                       "gl_FragData[0], gnomonUnshadowed, ") +
+      gamma + ");\n  }\n";
+  }
   // VTK puts its #version line at this mark, and extensions must follow it.
   replace(fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n" + this->extensions_);
   replace(fragmentShader, declarationMarker, declarations);
@@ -428,22 +452,33 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
   if (lightsBySky)
   {
     // Of physically based materials; other shaders have no such lines.
-    replace(fragmentShader, "vec3 Lo = vec3(0.0);",
+    vtkShaderProgram::Substitute(fragmentShader, "vec3 Lo = vec3(0.0);",
       "vec3 Lo = gnomonSkyView * gnomonSkyLight * (1.0 - metallic) * albedo;");
-    replace(fragmentShader, "vec3 color = iblDiffuse + iblSpecular;",
+    vtkShaderProgram::Substitute(fragmentShader, "vec3 color = iblDiffuse + iblSpecular;",
       "vec3 color = gnomonSkyView * iblDiffuse + iblSpecular;");
   }
 }
 
 //------------------------------------------------------------------------------
-/// Return statements that compute gnomonInShadow, the fragment's colour with the light hidden. They
-/// are a copy of VTK's lighting between the marks, in a scope of its own.
+/// Return statements that compute gnomonInShadow, the fragment's colour with the light hidden, in a
+/// scope of their own.
 std::string HookGlsl::lightInShadow(const std::string& fragmentShader) const
 {
-  const std::size_t begin = fragmentShader.find(beginMarker) + beginMarker.size();
-  const std::size_t end = fragmentShader.find(endMarker);
-  return "  vec4 gnomonInShadow;\n  {\n" + this->darkenings_ +
-    fragmentShader.substr(begin, end - begin) + "\n  gnomonInShadow = gl_FragData[0];\n  }\n";
+  return "  vec4 gnomonInShadow;\n  {\n" + this->darkenings_ + lightingOf(fragmentShader) +
+    "\n  gnomonInShadow = gl_FragData[0];\n  }\n";
+}
+
+//------------------------------------------------------------------------------
+/// Return statements that compute gnomonUnshadowed, the colour of a shadow catcher that nothing
+/// hides a light from. They end its highlights: these belong to the camera, not to the place.
+std::string HookGlsl::lightWithoutCasters(const std::string& fragmentShader) const
+{
+  const bool shines = fragmentShader.find("vec3 specularColor") != std::string::npos;
+  return "  vec4 gnomonUnshadowed;\n  if (gnomonCatches == 1)\n  {\n" +
+    std::string(shines ? "  specularColor = vec3(0.0);\n" : "") +
+    "  vec3 gnomonAmbient = ambientColor;\n" + this->brightenings_ +
+    this->lightOfSky(fragmentShader, "1.0") + lightingOf(fragmentShader) +
+    "\n  gnomonUnshadowed = gl_FragData[0];\n  ambientColor = gnomonAmbient;\n  }\n";
 }
 
 //------------------------------------------------------------------------------

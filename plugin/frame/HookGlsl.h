@@ -25,6 +25,7 @@ struct HookVariant
   bool namesTriangles = true;  ///< not on the inline route: triangle numbers may be written
   bool vtkViewIsRigid = true;  ///< ShownView::viewFromVtkView is the identity
   bool anySeenThrough = false; ///< true if DrawnProps::seenThrough has some
+  bool anyCatcher = false;     ///< DrawnProps::anyCatcher
   int layers = 0;              ///< image route: of visibility
   int skyLayer = noSkyLayer;   ///< image route: the layer of the view of the sky
   int edgeBit = noBit;         ///< image route: FramePlan::edgeBit
@@ -59,6 +60,8 @@ std::string litOf(const ShadedLight& shaded, int light);
 /// Physically based materials use neither. There the hook changes two of VTK's lines, with `Lo` for
 /// lights and `iblDiffuse` for an environment.
 ///
+/// A shadow catcher is lit twice, as if nothing cast and as it is, and shows the difference.
+///
 /// On the image route the same programs also serve the receivers stage. A uniform selects the
 /// stage, so VTK rebuilds no shader between stages. On the deferred route they light each fragment
 /// twice, as if all of it were lit and as if none were, and write its triangle.
@@ -86,8 +89,9 @@ public:
 private:
   void addImages(const std::vector<ShadedLight>& lights);
   void addLights(const std::vector<ShadedLight>& lights);
-  std::string lightOfSky(const std::string& fragmentShader) const;
+  std::string lightOfSky(const std::string& fragmentShader, const std::string& view) const;
   std::string lightInShadow(const std::string& fragmentShader) const;
+  std::string lightWithoutCasters(const std::string& fragmentShader) const;
   std::string writeReceiver(bool receives, const std::string& primitive) const;
 
   HookVariant variant_;
@@ -97,6 +101,7 @@ private:
   std::string uniformFlow_;     ///< statements that must be in uniform control flow
   std::string multiplications_; ///< and statements before VTK's light loop
   std::string darkenings_;      ///< deferred route: the same for the colour in shadow
+  std::string brightenings_;    ///< with shadow catchers: the same for that without casters
 };
 
 /// Make the vertex shader hand the drawn surface's number and the instance's first primitive to the

@@ -4,6 +4,7 @@
 #include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/scene/PlainProps.h"
 #include "plugin/scene/ShownView.h"
+#include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/GlState.h"
@@ -122,6 +123,7 @@ const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s
   const Occluders& occluders = this->collector_.occluders();
   frame.scene.props = gnomon::readProps(occluders);
   frame.scene.props.seenThrough = this->collector_.anySeenThrough();
+  frame.scene.props.catcher = this->collector_.anyCatcher();
   frame.scene.props.translucent = this->collector_.translucentReceivers() > 0;
   frame.size = sizeOf(s, frame.wishes.reductionFactor);
   const ShownView shown = shownView(s->GetRenderer(), occluders.frame);
@@ -219,7 +221,8 @@ void RenderManager::configureShaders(const vtkRenderState* s)
   this->programs_.shaders.configure(
     { frame.route(), this->receivers_.readsPoints(), frame.scene.picture.samples > 1, writes,
       this->stageValues_.viewFromVtkView == glm::dmat4(1.0), frame.scene.props.seenThrough,
-      frame.plan.layers, frame.plan.sky ? frame.plan.sky->layer : noSkyLayer, frame.plan.edgeBit },
+      frame.scene.props.catcher, frame.plan.layers,
+      frame.plan.sky ? frame.plan.sky->layer : noSkyLayer, frame.plan.edgeBit },
     shaded);
   this->stageValues_.skyLight = frame.plan.sky ? frame.plan.sky->light : glm::vec3(0.0f);
 }
@@ -442,6 +445,7 @@ void RenderManager::setShaderParameters(
       numbers.add(program, primitives, drawn.index);
     }
   }
+  drawn.catches = this->frame_.scene.props.catcher && vtkGnomonPropKeys::GetShadowCatcher(prop);
   // The layers of the image route hold what is behind.
   drawn.translucent |= this->frame_.route() == Route::Image && this->collector_.isSeenThrough(prop);
   drawn.receives =

@@ -217,8 +217,8 @@ ShaderManager::ReadyProgram& ShaderManager::makeReady(vtkShaderProgram* program)
     {
       ShaderLibrary::setUniform(handle, uniform);
     }
-    constexpr std::array<const char*, 6> names = { "gnomonOrigin", "gnomonReceives", "gnomonDrawn",
-      "gnomonTranslucent", "gnomonPrimitivesPerInstance", "gnomonFacetHeight" };
+    constexpr std::array<const char*, 7> names = { "gnomonOrigin", "gnomonReceives", "gnomonDrawn",
+      "gnomonTranslucent", "gnomonPrimitivesPerInstance", "gnomonCatches", "gnomonFacetHeight" };
     std::transform(names.begin(), names.end(), ready->second.locations.begin(),
       [handle](const char* name) { return glGetUniformLocation(handle, name); });
   }
@@ -238,9 +238,11 @@ void ShaderManager::setParameters(vtkShaderProgram* program, const HookedSurface
   now.drawn = drawn.index;
   now.translucent = drawn.translucent ? 1 : 0;
   now.primitivesPerInstance = static_cast<int>(drawn.primitivesPerInstance);
+  now.catches = drawn.catches ? 1 : 0;
   now.facetHeight = drawn.facetHeight;
 
-  const auto [origin, receives, drawnAs, translucent, perInstance, facetHeight] = ready.locations;
+  const auto [origin, receives, drawnAs, translucent, perInstance, catches, facetHeight] =
+    ready.locations;
   const std::optional<PropUniforms>& last = ready.last;
   const auto set = [&](GLint location, int PropUniforms::*member)
   {
@@ -257,6 +259,7 @@ void ShaderManager::setParameters(vtkShaderProgram* program, const HookedSurface
   set(drawnAs, &PropUniforms::drawn);
   set(translucent, &PropUniforms::translucent);
   set(perInstance, &PropUniforms::primitivesPerInstance);
+  set(catches, &PropUniforms::catches);
   if (!last || last->facetHeight != now.facetHeight)
   {
     glUniform1f(facetHeight, now.facetHeight);

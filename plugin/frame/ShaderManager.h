@@ -107,12 +107,13 @@ private:
     int drawn = -1;
     int translucent = 0;
     int primitivesPerInstance = 0;
+    int catches = 0;
     float facetHeight = 0.0f;
   };
   /// A program that has the stage's uniforms. Many props share one.
   struct ReadyProgram
   {
-    std::array<GLint, 6> locations{}; ///< of PropUniforms
+    std::array<GLint, 7> locations{}; ///< of PropUniforms
     std::optional<PropUniforms> last; ///< as set for the last prop
   };
   ReadyProgram& makeReady(vtkShaderProgram* program);

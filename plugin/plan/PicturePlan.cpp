@@ -61,6 +61,10 @@ std::string whyNotDeferred(
   {
     return "translucent casters let a part of the light through";
   }
+  if (scene.props.catcher)
+  {
+    return "a shadow catcher is seen through";
+  }
   if (lights.size() != 1)
   {
     return "the picture is drawn without one light's shadows, and " +

@@ -54,6 +54,7 @@ struct SceneProps
   std::size_t drawn = 0;
   bool unseenReceiver = false; ///< a surface receives where no probe finds it
   bool seenThrough = false;    ///< the receivers lack a prop (DrawnProps::seenThrough)
+  bool catcher = false;        ///< a prop shows nothing but shadows
   bool translucent = false;    ///< translucent surfaces receive
   bool transmits = false;      ///< a caster lets a part of the light through (Surface::sheet)
   bool colours = false;        ///< and colours it

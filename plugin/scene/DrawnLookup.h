@@ -35,6 +35,7 @@ struct HookedSurface
   bool translucent = false;
   float facetHeight = 0.0f;                ///< largest of its surfaces' heights
   std::uint32_t primitivesPerInstance = 0; ///< of a surface that VTK draws as instances; else 0
+  bool catches = false;                    ///< vtkGnomonPropKeys::SHADOW_CATCHER
 };
 
 /// Return the number of corners of the primitives that a mapper is about to draw as a surface; 0 if

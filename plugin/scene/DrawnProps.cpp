@@ -226,6 +226,8 @@ DrawnProp Finder::propOf(vtkActor* actor, vtkMapper* mapper, vtkMatrix4x4* matri
     prop.casts = vtkGnomonPropKeys::GetCasts(this->viewProp_);
     prop.receives = vtkGnomonPropKeys::GetReceives(this->viewProp_);
     prop.oneSided = vtkGnomonPropKeys::GetOneSided(this->viewProp_);
+    this->drawn_.anyCatcher =
+      this->drawn_.anyCatcher || vtkGnomonPropKeys::GetShadowCatcher(this->viewProp_);
   }
   return prop;
 }

@@ -70,6 +70,7 @@ struct DrawnProps
   /// The picture of receivers holds what is behind them (isSeenThrough(), hasOwnFramebuffer()).
   std::vector<const void*> seenThrough;
   ///@}
+  bool anyCatcher = false; ///< a prop shows nothing but shadows
   /// Kinds of props that are visible and lit but left out, each once.
   std::vector<std::string> leftOut;
   /// Sentences: each kind left out with its number of props, and effects that shadows of other

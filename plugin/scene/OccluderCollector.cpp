@@ -32,6 +32,7 @@ SnapshotChange OccluderCollector::collect(
   this->notes_ = std::move(drawn.notes);
   this->leftOut_ = std::move(drawn.leftOut);
   this->translucentReceivers_ = drawn.translucentReceivers.size();
+  this->anyCatcher_ = drawn.anyCatcher;
   std::vector<WantedSurface> wanted = wantedSurfaces(drawn, this->surfaces_.records());
   for (WantedSurface& surface : wanted)
   {

@@ -73,6 +73,8 @@ public:
 
   /// The number of DrawnProps::translucentReceivers, as of the last collect().
   std::size_t translucentReceivers() const { return this->translucentReceivers_; }
+  /// DrawnProps::anyCatcher of the same.
+  bool anyCatcher() const { return this->anyCatcher_; }
   ///@{
   /// As in DrawnLookup, of the last collect().
   bool isSeenThrough(vtkProp* prop) const { return this->lookup_.isSeenThrough(prop); }
@@ -106,6 +108,7 @@ private:
   DrawnLookup lookup_;
   PropMemory propMemory_;
   std::size_t translucentReceivers_ = 0;
+  bool anyCatcher_ = false;
   std::vector<std::string> notes_;
   std::string noteOnBoxes_; ///< as of the last change
   std::vector<std::string> leftOut_;

@@ -369,7 +369,9 @@ void Stamper::addData(vtkAlgorithm* consumer, bool isStatic)
 int keysOf(vtkProp* prop)
 {
   return (vtkGnomonPropKeys::GetCasts(prop) ? 1 : 0) +
-    (vtkGnomonPropKeys::GetReceives(prop) ? 2 : 0) + (vtkGnomonPropKeys::GetOneSided(prop) ? 4 : 0);
+    (vtkGnomonPropKeys::GetReceives(prop) ? 2 : 0) +
+    (vtkGnomonPropKeys::GetOneSided(prop) ? 4 : 0) +
+    (vtkGnomonPropKeys::GetShadowCatcher(prop) ? 8 : 0);
 }
 
 //------------------------------------------------------------------------------

@@ -11,15 +11,29 @@ source cmake/debian.sh
 programs=build/lab/bin
 figures=docs/figures
 
+# drawPair PICTURE COMMAND... : what the command draws into {picture}, beside plain VTK's
+drawPair()
+{
+  local command=("${@:2}") plain=$PWD/build/lab/lib/libgnomon_plain_vtk.so
+  # A program may fail after its picture: plain VTK has no visibility to export.
+  LD_PRELOAD=$plain "${command[@]/'{picture}'/out/plain.png}" || true
+  "${command[@]/'{picture}'/out/gnomon.png}"
+  /usr/bin/python3 tests/lab/pages/side_by_side.py "$1" "plain VTK=out/plain.png" \
+    "Gnomon=out/gnomon.png"
+}
+
 gallery()
 {
-  local scene
-  for scene in terrain atrium bench-side office soft-window cups; do
-    $programs/gnomon render "$scene" -o "$figures/$scene.png" --size 400x300
+  local scene sky
+  for scene in terrain:0.4 atrium:0.4 bench-side:0.4 cups:0.4 office:0 soft-window:0; do
+    sky=${scene#*:}
+    scene=${scene%:*}
+    drawPair "$figures/$scene.png" $programs/gnomon render "$scene" -o '{picture}' \
+      --size 320x240 --sky "$sky"
   done
   $programs/gnomon render bunny -o $figures/no_sky.png --size 400x300
   $programs/gnomon render bunny -o $figures/sky.png --size 400x300 --sky 0.5
-  $programs/gnomon render props -o $figures/props.png --size 900x560 --camera "fov=32"
+  $programs/gnomon render props -o $figures/props.png --size 900x560 --camera "fov=32" --sky 0.3
 }
 
 techniques()
@@ -39,18 +53,14 @@ examples()
 {
   local example out=$figures/examples
   mkdir -p $out
-  for example in assembly atrium ct_area_light shader_waves; do
-    $programs/$example $out/$example.png 640 480
-  done
-  $programs/molecule $out/molecule.png 600 450 # at most 150 KB each
-  $programs/headless_figure out/headless_figure.png 640 480 # the EXR that goes with it stays there
-  mv out/headless_figure.png $out/
   export PYTHONPATH=$PWD/build/lab/lib/python3/dist-packages
-  for example in molecule_surface streamtubes technique_table; do
-    /usr/bin/python3 examples/$example.py $out/$example.png 640 480
+  for example in assembly atrium ct_area_light headless_figure molecule shader_waves; do
+    drawPair $out/$example.png $programs/$example '{picture}' 320 240
   done
-  /usr/bin/python3 examples/terrain_sun_hours.py $out/terrain_sun_hours.png 500 375
-  /usr/bin/python3 examples/moving_light.py $out/moving_light.png 640 480 1
+  for example in molecule_surface moving_light shadow_catcher streamtubes terrain_sun_hours; do
+    drawPair $out/$example.png /usr/bin/python3 examples/$example.py '{picture}' 320 240 1
+  done
+  /usr/bin/python3 examples/technique_table.py $out/technique_table.png 640 480
   GNOMON_REFRESH_BASELINES=1 /usr/bin/python3 examples/image_test.py
   xvfb-run -a $programs/qt_shadows $out/qt_shadows.png
 }
