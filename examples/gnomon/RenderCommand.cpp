@@ -64,8 +64,9 @@ struct RenderOptions
   std::optional<bool> ground;    ///< none: the scene decides
   std::optional<double> ambient; ///< none: the surfaces decide
   bool glass = false;
-  double sky = 0.0; ///< intensity; 0: none
+  std::optional<double> sky; ///< intensity; none: the scene's
   std::string skyModel = skyModels().front();
+  double skyDistance = 0.0; ///< beyond which nothing hides it; 0: no limit
   std::string visibility;
   std::string stats;
   std::string classes;
@@ -354,7 +355,7 @@ void render(const RenderOptions& options)
   const PictureSize size = parseSize(options.size);
   Progress progress("reading " + options.scene);
   Scene scene = loadWithOptions(options, size.aspect());
-  scene.isGlass = options.glass;
+  scene.isGlass = scene.isGlass || options.glass;
   const int samplesPerFrame = mostOf("progressive", scene);
   if (options.shadeSamples)
   {
@@ -385,8 +386,9 @@ void render(const RenderOptions& options)
   const bool givesVisibility = !options.visibility.empty() || !options.classes.empty();
   shadows->SetKeepVisibility(givesVisibility);
   shadows->SetSmoothTerminators(!givesVisibility); // visibility files compare triangles
-  shadows->SetTranslucentCasters(options.glass);
-  shadows->SetSkyIntensity(options.sky);
+  shadows->SetTranslucentCasters(scene.isGlass);
+  shadows->SetSkyIntensity(options.sky.value_or(scene.sky));
+  shadows->SetSkyDistance(options.skyDistance);
   shadows->SetSkyUp(0.0, 1.0, 0.0);
   shadows->SetSkyModel(static_cast<int>(
     std::find(skyModels().begin(), skyModels().end(), options.skyModel) - skyModels().begin()));
@@ -434,6 +436,15 @@ void render(const RenderOptions& options)
   {
     writeStats(report, options.stats);
   }
+}
+
+/// Return an error unless a text is a finite number of at least 0 (CLI::Option::check()).
+std::string isNotNegative(const std::string& text)
+{
+  const std::optional<double> number = parseNumber<double>(text);
+  return number && *number >= 0.0 && std::isfinite(*number)
+    ? ""
+    : "found \"" + text + "\", expected a number of at least 0";
 }
 
 } // namespace
@@ -537,14 +548,11 @@ void addRenderCommand(CLI::App& app)
     ->add_option("--sky", options->sky,
       "The intensity of a sky, which lights surfaces as far as they see it; 0.4 brightens what is "
       "in shadow, but for corners")
-    ->check(
-      [](const std::string& text)
-      {
-        const std::optional<double> intensity = parseNumber<double>(text);
-        return intensity && *intensity >= 0.0 && std::isfinite(*intensity)
-          ? ""
-          : "found \"" + text + "\", expected a number of at least 0";
-      });
+    ->check(isNotNegative);
+  command
+    ->add_option("--sky-distance", options->skyDistance,
+      "The length, in world units, beyond which nothing hides the sky, for rooms; 0 is no limit")
+    ->check(isNotNegative);
   command
     ->add_option("--sky-model", options->skyModel,
       "The sky: as bright from everywhere, from below, too; none below the horizon; CIE's overcast "

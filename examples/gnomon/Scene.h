@@ -104,6 +104,7 @@ struct Scene
   bool hasDefaultLight = false; ///< a model's file has none; see placeDefaultLight()
   SceneCamera camera;
   Vec3 background{ { 1, 1, 1 } };
+  double sky = 0.0; ///< intensity of a sky; 0: none
   /// Parts that reading left out or replaced, for users; each a sentence with the file's name.
   std::vector<std::string> notes;
 };

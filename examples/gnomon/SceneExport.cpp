@@ -157,6 +157,8 @@ std::string exportScene(const Scene& scene, const std::string& folder)
         scene.name + "-light-" + std::to_string(json["lights"].size()))));
   }
   json["background"] = scene.background;
+  json["sky"] = scene.sky;
+  json["glass"] = scene.isGlass;
 
   writeWholeFile(path, json.dump(2) + "\n");
   return path;

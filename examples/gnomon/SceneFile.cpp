@@ -105,6 +105,8 @@ std::optional<double> readSurroundings(
     scene.lights.push_back(readLight(value, folder));
   }
   scene.background = root.member("background").numbersOr(scene.background, colorChannel);
+  scene.sky = root.member("sky").numberOr(scene.sky, { 0.0, 1e30 });
+  scene.isGlass = root.member("glass").booleanOr(scene.isGlass);
   const JsonValue ambient = root.member("ambient");
   return ambient.present() ? std::optional(ambient.number({ 0.0, 1.0 })) : std::nullopt;
 }
@@ -114,7 +116,8 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground)
 {
   const nlohmann::json document = readJsonFile(path);
   const JsonValue root(path, document);
-  root.requireObject({ "camera", "models", "lights", "background", "ground", "ambient" });
+  root.requireObject(
+    { "camera", "models", "lights", "background", "ground", "ambient", "sky", "glass" });
 
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();

@@ -1,6 +1,7 @@
 #include "plugin/scene/SheetReading.h"
 
 #include "plugin/scene/DrawnProps.h"
+#include "plugin/scene/SolidSizes.h"
 #include "plugin/scene/SurfaceRecord.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "shadowtech/base/Occluders.h"

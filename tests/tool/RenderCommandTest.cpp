@@ -165,6 +165,13 @@ TEST_F(RenderCommand, TheSkyBrightensShadows)
   EXPECT_EQ(black, 0);
   EXPECT_GT(even, 20);
   EXPECT_LE(dome, even);
+
+  this->scene["ambient"] = 0;
+  this->scene["ground"] = true;
+  const Picture dark = this->pictureOf(this->sceneFile());
+  this->scene["sky"] = 0.5;
+  EXPECT_NE(darkest(this->pictureOf(this->sceneFile())), darkest(dark));
+  EXPECT_EQ(this->pictureOf(this->sceneFile(), "--sky 0").rgb, dark.rgb);
 }
 
 //------------------------------------------------------------------------------

@@ -24,13 +24,18 @@ drawPair()
 
 gallery()
 {
-  local scene sky
-  for scene in terrain:0.4 atrium:0.4 bench-side:0.4 cups:0.4 office:0 soft-window:0; do
-    sky=${scene#*:}
-    scene=${scene%:*}
+  local scene sky distance
+  while read -r scene sky distance; do
     drawPair "$figures/$scene.png" $programs/gnomon render "$scene" -o '{picture}' \
-      --size 320x240 --sky "$sky"
-  done
+      --size 320x240 --sky "$sky" --sky-distance "$distance"
+  done << END
+terrain 0.4 0
+atrium 0.5 100
+bench-side 0.3 0
+cups 0.4 0
+office 0.3 0.5
+soft-window 0.3 0
+END
   $programs/gnomon render bunny -o $figures/no_sky.png --size 400x300
   $programs/gnomon render bunny -o $figures/sky.png --size 400x300 --sky 0.5
   $programs/gnomon render props -o $figures/props.png --size 900x560 --camera "fov=32" --sky 0.3
@@ -54,12 +59,13 @@ examples()
   local example out=$figures/examples
   mkdir -p $out
   export PYTHONPATH=$PWD/build/lab/lib/python3/dist-packages
-  for example in assembly atrium ct_area_light headless_figure molecule shader_waves; do
+  for example in assembly atrium headless_figure molecule shader_waves; do
     drawPair $out/$example.png $programs/$example '{picture}' 320 240
   done
   for example in molecule_surface moving_light shadow_catcher streamtubes terrain_sun_hours; do
     drawPair $out/$example.png /usr/bin/python3 examples/$example.py '{picture}' 320 240 1
   done
+  $programs/ct_area_light $out/ct_area_light.png 640 320 # without and with shadows
   /usr/bin/python3 examples/technique_table.py $out/technique_table.png 640 480
   GNOMON_REFRESH_BASELINES=1 /usr/bin/python3 examples/image_test.py
   xvfb-run -a $programs/qt_shadows $out/qt_shadows.png

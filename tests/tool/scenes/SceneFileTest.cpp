@@ -79,7 +79,7 @@ nlohmann::json fullScene()
                {"type": "area", "position": [1, 2, 3], "target": [0, 0, 0], "shape": "disk",
                 "radius": 0.5, "up": [0, 0, 1], "texture": "t.png", "color": [1, 1, 1],
                 "intensity": 1}],
-    "background": [0.25, 0.5, 0.75]})");
+    "background": [0.25, 0.5, 0.75], "sky": 0.5, "glass": true})");
 }
 
 //------------------------------------------------------------------------------
@@ -270,6 +270,8 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
     { "/camera/position", { 1, 2, 1e31 }, "camera.position", "between -1e+30 and 1e+30" },
     { "/camera/parallel_scale", 2, "camera.fov", "means nothing" },
     { "/ambient", 1.5, "ambient", "found 1.5, expected a number between 0 and 1" },
+    { "/sky", -0.5, "sky", "found -0.5, expected a number between 0 and" },
+    { "/glass", 1, "glass", "true or false" },
     { "/ground", "yes", "ground", "true or false" },
     { "/models", nlohmann::json::array(), "models", "at least one model" },
     { "/models", null, "models", "missing, expected an array" },
@@ -414,16 +416,11 @@ TEST_F(SceneFile, PageOfTheFormatShowsWhatIsRead)
   examples.erase(std::remove_if(examples.begin(), examples.end(),
                    [](const std::string& text) { return text.rfind("json\n", 0) != 0; }),
     examples.end());
-  ASSERT_EQ(examples.size(), 2u);
-  nlohmann::json document = nlohmann::json::parse(examples[0].substr(5));
-  for (const nlohmann::json& light : nlohmann::json::parse(examples[1].substr(5)))
-  {
-    document["lights"].push_back(light);
-  }
+  ASSERT_EQ(examples.size(), 1u);
+  const nlohmann::json document = nlohmann::json::parse(examples[0].substr(5));
   writeBytes(this->folder / "bunny.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   writeBytes(this->folder / "screen.obj", sampleFile("textured.obj"));
   writeBytes(this->folder / "lattice.png", sampleFile("picture.png"));
-  writeBytes(this->folder / "panes.png", sampleFile("picture.png"));
   const Scene scene = this->load(document);
   EXPECT_EQ(scene.models.size(), 3u); // with the ground
   EXPECT_EQ(scene.lights.size(), document["lights"].size());

@@ -262,6 +262,12 @@ void vtkPVGnomonShadows::SetCasting(int casting)
 }
 
 //----------------------------------------------------------------------------
+void vtkPVGnomonShadows::SetSkyIntensity(double intensity)
+{
+  this->Pass->SetSkyIntensity(intensity);
+}
+
+//----------------------------------------------------------------------------
 void vtkPVGnomonShadows::SetSmoothTerminators(bool smooth)
 {
   this->Pass->SetSmoothTerminators(smooth);

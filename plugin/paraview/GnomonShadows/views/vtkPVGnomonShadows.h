@@ -45,11 +45,16 @@ public:
 
   ///@{
   /**
-   * Have translucent surfaces cast, as opaque ones do. Default off.
+   * Have translucent surfaces cast: each takes its opacity's share of the light. Default off.
    */
   vtkSetMacro(TranslucentCasts, bool);
   vtkGetMacro(TranslucentCasts, bool);
   ///@}
+
+  /**
+   * As vtkGnomonShadowPass::SetSkyIntensity(). Default 0.
+   */
+  void SetSkyIntensity(double intensity);
 
   /**
    * As vtkGnomonShadowPass::SetSmoothTerminators(). Default on.
