@@ -1,8 +1,8 @@
 // A gear box whose housing is transparent: the gears cast shadows on each other and on the table.
 //
-// Translucent surfaces cast no shadow unless a key of their prop asks for it, so that light reaches
-// what is inside. They receive shadows; this one is told not to, and stays clear. A key of an
-// assembly goes before those of its parts, so the housing is a prop of its own.
+// Translucent surfaces cast if asked: the housing takes a part of the light. They receive shadows;
+// this one is told not to, and stays clear. A key of an assembly goes before those of its parts, so
+// the housing is a prop of its own.
 //
 //   assembly [picture.png [width height]]
 
@@ -101,6 +101,7 @@ int main(int argc, char* argv[])
   renderer->AddLight(lamp);
   vtkNew<vtkGnomonShadowPass> shadows;
   shadows->SetSkyIntensity(0.25);
+  shadows->SetTranslucentCasters(true);
   renderer->SetPass(shadows);
   renderer->GetActiveCamera()->SetPosition(5, -12.4, 12.4);
   renderer->GetActiveCamera()->SetFocalPoint(1.9, 0.9, 0.6);
