@@ -89,13 +89,20 @@ std::vector<LightView> awaitingViews(const ShadowLight& light, const LightView& 
 std::vector<LightView> layViews(const ShadowLight& light, const ViewFitting& fitting,
   LightView view, std::vector<HalfSpace> reach)
 {
-  if (!fitting.camera)
+  if (!fitting.camera && !fitting.holdsReceiversAlone)
   {
     view.mapFromAcross = scaling(fitting.texels.inside()) * view.mapFromAcross;
     return { view };
   }
   const std::vector<HalfSpace> map = mapHalfSpaces(view, fitting.texels);
   reach.insert(reach.end(), map.begin(), map.end());
+  if (!fitting.camera)
+  {
+    const std::vector<glm::dvec3> receivers =
+      ConvexBody(fitting.receiversCentred, view.rays.viewFromCentred).clipped(reach).vertices();
+    const auto fit = fitted(view, receivers, fitting.texels, light.snap);
+    return fit ? std::vector<LightView>{ *fit } : std::vector<LightView>();
+  }
   const CameraView& camera = *fitting.camera;
   const ConvexBody body = visibleBody(camera, fitting.receiversCentred, view.rays, reach);
   const std::vector<glm::dvec3> visible = body.vertices();

@@ -98,11 +98,14 @@ struct ViewFitting
   MapTexels texels;              ///< of each layer
   /// The camera that the views are for; none: the views hold the whole scene.
   std::optional<CameraView> camera;
+  /// Without a camera: true if views hold the receivers alone.
+  bool holdsReceiversAlone = false;
 };
 
 /// Fit a light's views.
 ///
-/// Without a camera, a view covers the casters in the light's reach, and projections are uniform.
+/// Without a camera, a view covers the casters in the light's reach, or the part of them that is in
+/// front of receivers (ViewFitting::holdsReceiversAlone), and projections are uniform.
 /// With a camera, it covers what the camera may see in the light's reach (VisibleBody.h). Depths
 /// always cover all casters, so casters between the light and the visible receivers are kept.
 ///

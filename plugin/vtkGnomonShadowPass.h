@@ -312,7 +312,7 @@ public:
    * not known beforehand (`selective`, `coherence`, `crsm`, `crsma`, `silhouette`), takes rays. A
    * light whose image does not fit shows no shadow. GetReport() says so. The budget is each
    * renderer's and view's. Not counted is what lights share (the snapshot, the rays' structure, the
-   * receivers), and the plain maps by which translucent surfaces show shadows of other techniques,
+   * receivers), and the maps by which translucent surfaces show shadows of other techniques,
    * of 256 texels where a light takes rays for the budget's sake. Negative numbers are an error and
    * change nothing. 0, the default, is no budget.
    */

@@ -59,9 +59,12 @@ inline constexpr const char* automaticSummary =
 /// The technique of lights and passes that name none. No other file states this default.
 inline constexpr const char* defaultTechnique = automaticTechnique;
 
-/// The pointwise technique that shades translucent surfaces where the light's own technique works
-/// on the screen, because screen techniques cover opaque surfaces only.
+/// The plain shadow map: the technique of lights that cannot have theirs.
 inline constexpr const char* plainTechnique = "nsm";
+
+/// The pointwise technique that shades points in no layer, such as those of translucent surfaces,
+/// where the light's own technique works on the screen: screen techniques cover opaque surfaces.
+inline constexpr const char* pointTechnique = "pcf";
 
 ///@{
 /// True if an estimator has a setting. All estimators have the settings that choose a technique,

@@ -12,6 +12,11 @@ const EstimatorEntry& plainEstimator()
   return *findTechnique(plainTechnique)->estimator;
 }
 
+const EstimatorEntry& pointEstimator()
+{
+  return *findTechnique(pointTechnique)->estimator;
+}
+
 /// True if a light that leaves its technique to the pass may have a map, in this frame or another:
 /// the map must not be one of a larger memory budget.
 bool mayTakeMap(const LightPlan& plan)
@@ -28,8 +33,8 @@ const PointwiseTechnique* CastingLight::pointwise() const
   {
     case ShadedBy::Own:
       return this->own->as<PointwiseTechnique>();
-    case ShadedBy::Plain:
-      return this->plain->as<PointwiseTechnique>();
+    case ShadedBy::AtPoints:
+      return this->atPoints->as<PointwiseTechnique>();
     case ShadedBy::Fetch:
       break;
   }
@@ -50,7 +55,8 @@ void CastingLights::begin(const std::vector<LightPlan>& lights, TechniqueCache& 
           [&](const LightPlan& of) { return of.light.sceneIndex == sceneIndex; });
         return plan != lights.end() && &this->cacheOf(plan->light) == cache &&
           (plan->estimator == &estimator || plan->resting == &estimator ||
-            (&estimator == &plainEstimator() && (!plan->asked || mayTakeMap(*plan))));
+            &estimator == &pointEstimator() ||
+            (&estimator == &plainEstimator() && mayTakeMap(*plan)));
       });
   }
 }
@@ -61,9 +67,12 @@ void CastingLights::take(const std::vector<LightPlan>& lights)
   for (const LightPlan& plan : lights)
   {
     LightTechnique& own = this->techniqueOf(plan.light, *plan.estimator);
-    LightTechnique* const plain =
-      plan.shadedBy == ShadedBy::Plain ? &this->techniqueOf(plan.light, plainEstimator()) : nullptr;
-    this->lights_.push_back({ plan, &own, plain });
+    CastingLight& casting = this->lights_.emplace_back(CastingLight{ plan, &own });
+    if (plan.shadedBy == ShadedBy::AtPoints)
+    {
+      casting.atPoints = &this->techniqueOf(plan.light, pointEstimator());
+      casting.lightInShaders = lightAtPoints(plan.light);
+    }
   }
 }
 

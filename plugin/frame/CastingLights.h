@@ -16,8 +16,9 @@ namespace gnomon
 struct CastingLight
 {
   const LightPlan& plan;
-  LightTechnique* own;             ///< lasts as long as the frame, as the next
-  LightTechnique* plain = nullptr; ///< of ShadedBy::Plain; else null
+  LightTechnique* own;                     ///< lasts as long as the frame, as the next
+  LightTechnique* atPoints = nullptr;      ///< of ShadedBy::AtPoints; else null
+  ShadowLight lightInShaders = plan.light; ///< of pointwise()
   LightCounts counts = {};
   bool isStale = true;       ///< true if this frame computes its visibility for all pixels
   bool mayKeepTiles = false; ///< and true if the changes may leave some tiles valid

@@ -85,7 +85,9 @@ LightViews LightTechnique::layOut(
   ViewFitting& fitting = this->fitting_ = ViewFitting();
   fitting.centreWorld = stage.occluders.frame.centre;
   fitting.castersCentred = stage.occluders.castersCentred;
-  fitting.receiversCentred = stage.occluders.allCentred;
+  fitting.receiversCentred = stage.servesPointsAlone ? Bounds() : stage.occluders.allCentred;
+  fitting.receiversCentred.add(stage.pointsCentred);
+  fitting.holdsReceiversAlone = stage.servesPointsAlone;
   fitting.texels = { light.mapSizeTexels, reach.borderTexels() };
   const ShadowLight seen = this->technique().lightOfMap(light);
   if (isFittedToCamera(seen))

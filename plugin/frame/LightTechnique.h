@@ -35,6 +35,9 @@ struct MapStage
   ///@}
   bool bakesOptional; ///< false: bakes of optional maps wait for a later frame
   FrameCounts& counts;
+  /// The box around surfaces that show shadows and are not in the snapshot; empty: none are known.
+  Bounds pointsCentred = {};
+  bool servesPointsAlone = false; ///< true if maps need to serve no others
 };
 
 /// One light's technique, with its maps and their inputs, cached from frame to frame. BakeBackoff

@@ -209,7 +209,8 @@ void RenderManager::configureShaders(const vtkRenderState* s)
   for (const CastingLight& casting : frame.lights)
   {
     const LightPlan& plan = casting.plan;
-    shaded.push_back({ plan.light, plan.channels, plan.layer, plan.bit, casting.pointwise() });
+    shaded.push_back(
+      { casting.lightInShaders, plan.channels, plan.layer, plan.bit, casting.pointwise() });
   }
   bool writes = true;
   if (frame.route() != Route::Inline)
@@ -261,7 +262,7 @@ MapStage RenderManager::mapStage(bool bakesOptional)
   return { this->frame_.camera, this->collector_.occluders(), this->buffers_,
     this->programs_.library, this->frame_.view->receivers.target,
     this->frame_.space.centredFromView, this->frame_.view->receivers.number, bakesOptional,
-    this->frame_.counts };
+    this->frame_.counts, this->collector_.translucentCentred() };
 }
 
 //------------------------------------------------------------------------------
@@ -277,9 +278,11 @@ void RenderManager::bakeMaps()
     {
       casting.own->updateMaps(plan.light, stage, casting.counts);
     }
-    if (plan.shadedBy == ShadedBy::Plain)
+    if (casting.atPoints)
     {
-      casting.plain->updateMaps(plan.light, stage, casting.counts);
+      MapStage ofPoints = stage;
+      ofPoints.servesPointsAlone = !stage.pointsCentred.empty();
+      casting.atPoints->updateMaps(casting.lightInShaders, ofPoints, casting.counts);
     }
   }
   this->frame_.endStage("maps");

@@ -293,7 +293,16 @@ ShadedBy planShading(const LightPlan& plan, Route route, bool translucent)
   {
     return translucent || route == Route::Inline ? ShadedBy::Own : ShadedBy::Fetch;
   }
-  return translucent ? ShadedBy::Plain : ShadedBy::Fetch;
+  return translucent ? ShadedBy::AtPoints : ShadedBy::Fetch;
+}
+
+//------------------------------------------------------------------------------
+ShadowLight lightAtPoints(const ShadowLight& light)
+{
+  ShadowLight atPoints = light;
+  atPoints.kernel = {};
+  atPoints.pcf = {};
+  return atPoints;
 }
 
 //------------------------------------------------------------------------------

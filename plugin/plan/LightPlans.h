@@ -18,9 +18,9 @@ namespace gnomon
 /// The technique that VTK's shaders call for a light.
 enum class ShadedBy
 {
-  Fetch, ///< nothing: they fetch its visibility
-  Own,   ///< its own technique
-  Plain  ///< the plain technique, on translucent surfaces; they fetch what opaque ones show
+  Fetch,   ///< nothing: they fetch its visibility
+  Own,     ///< its own technique
+  AtPoints ///< pointTechnique at points in no layer; opaque surfaces fetch
 };
 
 /// The points that the views of a light's map are fitted to.
@@ -96,6 +96,10 @@ Composition planAsCentre(const ShadowLight& asked, const SceneLights& scene);
 /// Return what VTK's shaders call for a light.
 /// @param translucent true if translucent surfaces show shadows
 ShadedBy planShading(const LightPlan& plan, Route route, bool translucent);
+
+/// Return a light as pointTechnique shades it (ShadedBy::AtPoints). The light's own technique lacks
+/// the settings of its filter, so these are the defaults.
+ShadowLight lightAtPoints(const ShadowLight& light);
 
 /// Plan how the picture smooths the edges of a light's shadows.
 /// @param mayFollow true if more frames at rest follow

@@ -168,13 +168,13 @@ PicturePlan planPicture(
     }
     else if (scene.props.transmits)
     {
-      plan.notes.emplace_back("translucent surfaces show the plain shadow map ('" +
-        std::string(plainTechnique) + "') of opaque casters, and no shadow of translucent ones");
+      plan.notes.emplace_back("translucent surfaces show a filtered shadow map ('" +
+        std::string(pointTechnique) + "') of opaque casters, and no shadow of translucent ones");
     }
     else if (!needs.screenTechnique.empty())
     {
-      plan.notes.push_back("translucent surfaces show the plain shadow map ('" +
-        std::string(plainTechnique) + "') of lights with '" + needs.screenTechnique + "'");
+      plan.notes.push_back("translucent surfaces show a filtered shadow map ('" +
+        std::string(pointTechnique) + "') of lights with '" + needs.screenTechnique + "'");
     }
   }
   if (plan.route.route == Route::Image && picture.samples > 1)

@@ -44,6 +44,13 @@ void nameDrawer(const DrawnActor& taken, std::vector<const void*>& drawers)
   }
 }
 
+/// True if a shader places what an actor draws: solids, or a user's vertices.
+bool isPlacedByShader(const DrawnActor& taken, const DrawnProp& prop)
+{
+  return prop.isMoved || taken.kind == MapperKind::Solids || taken.kind == MapperKind::Molecule ||
+    isSizedInPixels(taken.actor->GetProperty());
+}
+
 /// True if a prop was told to cast.
 bool askedToCast(vtkProp* viewProp)
 {
@@ -116,6 +123,15 @@ private:
       this->drawn_.props.push_back(prop);
     }
   }
+  /// Add a box of VTK's to that of translucent receivers.
+  void addBox(const double* sides, const glm::dmat4& worldFromModel)
+  {
+    const Bounds model{ { sides[0], sides[2], sides[4] }, { sides[1], sides[3], sides[5] } };
+    if (!model.empty())
+    {
+      this->drawn_.translucentWorld.add(affinelyTransformed(model, worldFromModel));
+    }
+  }
   DrawnProp propOf(vtkActor* actor, vtkMapper* mapper, vtkMatrix4x4* matrix);
   void skip(vtkObjectBase* what, const char* why)
   {
@@ -148,7 +164,8 @@ private:
   NamedProps unlit_, notCasting_, copied_;
   /// Reasons to cast without a texture's holes, each with its number of props.
   std::map<std::string, int> uncut_;
-  int moved_ = 0; ///< number of props whose vertices shader code may move
+  bool isBoxed_ = true; ///< false: translucent receivers may leave their mappers' boxes
+  int moved_ = 0;       ///< number of props whose vertices shader code may move
 };
 
 //------------------------------------------------------------------------------
@@ -405,6 +422,8 @@ void Finder::addTaken(const DrawnActor& taken)
   if (prop.receives && (translucent || taken.seenThrough))
   {
     nameDrawer(taken, this->drawn_.translucentReceivers);
+    this->isBoxed_ = this->isBoxed_ && !isPlacedByShader(taken, prop);
+    this->addBox(taken.drawing.mapper->GetBounds(), prop.worldFromModel);
     if (taken.copies)
     {
       this->name(this->copied_, taken.mapper);
@@ -507,6 +526,7 @@ DrawnProps Finder::take()
     this->drawn_.notes.push_back("shadows ignore shader code that may move vertices (" +
       std::to_string(this->moved_) + (this->moved_ == 1 ? " prop)" : " props)"));
   }
+  this->drawn_.translucentWorld = this->isBoxed_ ? this->drawn_.translucentWorld : Bounds();
   return std::move(this->drawn_);
 }
 

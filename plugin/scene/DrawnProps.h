@@ -2,6 +2,7 @@
 
 #include "plugin/scene/DrawnBlocks.h"
 
+#include "lights/Bounds.h"
 #include "lights/vtkGnomonVersions.h"
 
 #include <glm/glm.hpp>
@@ -67,6 +68,8 @@ struct DrawnProps
   /// Actors as VTK hands them to a render pass, each followed by its mapper unless it is a
   /// vtkOpenGLActor: ParaView's actors draw by an inner one, which has the mapper.
   std::vector<const void*> translucentReceivers; ///< that receive, or are seenThrough and receive
+  /// The box around what these draw, in world coordinates; empty if a shader places some of it.
+  Bounds translucentWorld;
   /// The picture of receivers holds what is behind them (isSeenThrough(), hasOwnFramebuffer()).
   std::vector<const void*> seenThrough;
   ///@}

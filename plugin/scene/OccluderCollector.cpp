@@ -33,6 +33,7 @@ SnapshotChange OccluderCollector::collect(
   this->leftOut_ = std::move(drawn.leftOut);
   this->translucentReceivers_ = drawn.translucentReceivers.size();
   this->anyCatcher_ = drawn.anyCatcher;
+  this->translucentWorld_ = drawn.translucentWorld;
   std::vector<WantedSurface> wanted = wantedSurfaces(drawn, this->surfaces_.records());
   for (WantedSurface& surface : wanted)
   {
@@ -127,6 +128,14 @@ std::string OccluderCollector::noteOnBoxes(const std::vector<WantedSurface>& wan
   }
   return std::string(radii.back().second->GetClassName()) +
     ": its box is more than 2^20 times as large as the median prop's, as a fill value makes it";
+}
+
+//------------------------------------------------------------------------------
+Bounds OccluderCollector::translucentCentred() const
+{
+  return this->translucentWorld_.empty() ? Bounds()
+                                         : affinelyTransformed(this->translucentWorld_,
+                                             this->occluders().frame.centredFrom(glm::dmat4(1.0)));
 }
 
 //------------------------------------------------------------------------------

@@ -75,6 +75,8 @@ public:
   std::size_t translucentReceivers() const { return this->translucentReceivers_; }
   /// DrawnProps::anyCatcher of the same.
   bool anyCatcher() const { return this->anyCatcher_; }
+  /// DrawnProps::translucentWorld in centred coordinates, as of the last collect().
+  Bounds translucentCentred() const;
   ///@{
   /// As in DrawnLookup, of the last collect().
   bool isSeenThrough(vtkProp* prop) const { return this->lookup_.isSeenThrough(prop); }
@@ -109,6 +111,7 @@ private:
   PropMemory propMemory_;
   std::size_t translucentReceivers_ = 0;
   bool anyCatcher_ = false;
+  Bounds translucentWorld_;
   std::vector<std::string> notes_;
   std::string noteOnBoxes_; ///< as of the last change
   std::vector<std::string> leftOut_;

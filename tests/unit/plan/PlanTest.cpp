@@ -336,7 +336,7 @@ TEST(Plan, letsTranslucentSurfacesReceive)
   EXPECT_FALSE(planPicture(one, wishes, scene).shadesTranslucent) << "none receives";
   scene.props.translucent = true;
   EXPECT_TRUE(planPicture(one, wishes, scene).shadesTranslucent);
-  EXPECT_THAT(planPicture(one, wishes, scene).notes, Contains(HasSubstr("plain shadow map")));
+  EXPECT_THAT(planPicture(one, wishes, scene).notes, Contains(HasSubstr("filtered shadow map")));
   EXPECT_FALSE(planPicture(nine, wishes, scene).shadesTranslucent);
   EXPECT_THAT(planPicture(nine, wishes, scene).notes, Contains(HasSubstr("8 are the most")));
   scene.picture.drawsMaps = false;
@@ -419,13 +419,27 @@ TEST(Plan, shadesLights)
     { &compare(), Route::Image, false, ShadedBy::Fetch },
     { &compare(), Route::Image, true, ShadedBy::Own },
     { &rays(), Route::Image, false, ShadedBy::Fetch },
-    { &rays(), Route::Image, true, ShadedBy::Plain },
-    { &rays(), Route::Deferred, true, ShadedBy::Plain },
+    { &rays(), Route::Image, true, ShadedBy::AtPoints },
+    { &rays(), Route::Deferred, true, ShadedBy::AtPoints },
   };
   for (const auto& [entry, route, translucent, by] : cases)
   {
     EXPECT_EQ(planShading(planOf(*entry), route, translucent), by)
       << entry->info.name << " " << nameOf(route) << " " << translucent;
+  }
+}
+
+TEST(FramePlans, leaveOpaqueSurfacesTheirTechniquesWhereTranslucentOnesReceive)
+{
+  for (const char* technique : { "auto", "raytraced", "sampled", "nsm" })
+  {
+    Scene scene = sceneOf({ technique });
+    scene.deferred = DeferredFacts{};
+    const FramePlan without = planFrame(scene, {}, {}, {});
+    scene.props.translucent = true;
+    const FramePlan with = planFrame(scene, {}, {}, {});
+    EXPECT_EQ(with.lights[0].estimator, without.lights[0].estimator) << technique;
+    EXPECT_EQ(with.picture.route.route, without.picture.route.route) << technique;
   }
 }
 
