@@ -1,12 +1,11 @@
 """Draw the charts of docs/ (pages.py --charts)."""
 
-from itertools import product
 from pathlib import Path
 
 import matplotlib
 
 matplotlib.use("Agg")
-from matplotlib import pyplot, ticker  # noqa: E402
+from matplotlib import pyplot, ticker, transforms  # noqa: E402
 
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 PLAIN = "plain VTK"
@@ -27,13 +26,17 @@ def set_ticks(axis, values):
 
 
 def label(axes, text, point, taken):
-    """Write a text beside a point where it covers no other text."""
+    """Write a text near a point where it covers no other text and no point, with a line to it."""
     renderer = axes.figure.canvas.get_renderer()
-    for up, right in product((4, -10, 14, -20, 24, -30, 34), (6, -40)):
+    places = [(6, 0, "left"), (-6, 0, "right")]
+    places += [(0, up, "center") for up in (10, -10, 22, -22, 34, 46, 58)]
+    for right, up, side in places:
         note = axes.annotate(
-            text, point, xytext=(right, up), textcoords="offset points", fontsize=8)
-        box = note.get_window_extent(renderer)
-        if not any(box.overlaps(other) for other in taken):
+            text, point, xytext=(right, up), textcoords="offset points", fontsize=8, ha=side,
+            va="center", arrowprops={"arrowstyle": "-", "color": "0.7"} if abs(up) > 10 else None)
+        note.update_positions(renderer)
+        box = matplotlib.text.Text.get_window_extent(note, renderer)
+        if box.y0 > axes.bbox.y0 and not any(box.overlaps(other) for other in taken):
             break
         note.remove()
     taken.append(box)
@@ -50,14 +53,18 @@ def error_over_time(rows):
     axes.set_xscale("log")
     axes.set_yscale("symlog", linthresh=0.01, linscale=0.3)
     axes.set_xlim(0.9 * min(times), 1.25 * max(times))  # room for names
-    axes.set_ylim(-0.003, 2)
+    axes.set_ylim(-0.006, 2)
     best = [
         point for point in points.values()
         if not any(x <= point[0] and y <= point[1] and (x, y) != point for x, y in points.values())
     ]
     axes.plot(*zip(*points.values()), "o", color="0.6")
     axes.plot(*zip(*sorted(best)), "o-", color="tab:blue")
-    taken = []
+    radius = 5  # of a dot, in pixels
+    taken = [
+        transforms.Bbox([pixel - radius, pixel + radius])
+        for pixel in axes.transData.transform(list(points.values()))
+    ]
     for name, point in points.items():
         label(axes, name, point, taken)
     set_ticks(axes.xaxis, [x for x in (1, 1.5, 2, 3, 4, 6, 10) if x > 0.9 * min(times)])
