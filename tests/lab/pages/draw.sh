@@ -62,7 +62,8 @@ examples()
   for example in assembly atrium headless_figure molecule shader_waves; do
     drawPair $out/$example.png $programs/$example '{picture}' 320 240
   done
-  for example in molecule_surface moving_light shadow_catcher streamtubes terrain_sun_hours; do
+  for example in molecule_surface moving_light nested_surfaces shadow_catcher streamtubes \
+    terrain_sun_hours; do
     drawPair $out/$example.png /usr/bin/python3 examples/$example.py '{picture}' 320 240 1
   done
   $programs/ct_area_light $out/ct_area_light.png 640 320 # without and with shadows
