@@ -7,6 +7,7 @@
 #include "plugin/data/SkyRun.h"
 #include "plugin/data/VisibilityRun.h"
 #include "plugin/scene/SurfaceExtraction.h"
+#include "shadowtech/sky/SkyPatches.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include "vtkCellData.h"
@@ -293,6 +294,27 @@ void vtkGnomonVisibilityFilter::AddSky(int model, int directions)
   this->Internal->skyDirections = directions;
   this->Internal->lightsTime.Modified();
   this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonVisibilityFilter::AddSkyPatches(const double up[3], const double north[3])
+{
+  const glm::dvec3 zenith = glm::make_vec3(up);
+  const glm::dvec3 ahead = glm::make_vec3(north);
+  if (!gnomon::isDirection(zenith) || !gnomon::isDirection(ahead) ||
+    !gnomon::isDirection(glm::cross(glm::normalize(zenith), glm::normalize(ahead))))
+  {
+    vtkErrorMacro("The sky's up (" << up[0] << ", " << up[1] << ", " << up[2] << ") and north ("
+                                   << north[0] << ", " << north[1] << ", " << north[2]
+                                   << ") are to be two directions.");
+    return;
+  }
+  this->SetUp(up);
+  for (const gnomon::SkyPatch& patch :
+    gnomon::skyPatches(glm::normalize(zenith), glm::normalize(ahead)))
+  {
+    this->AddDirection(&patch.towards.x, patch.solidAngle);
+  }
 }
 
 //------------------------------------------------------------------------------

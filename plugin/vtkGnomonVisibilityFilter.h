@@ -129,6 +129,17 @@ public:
   int GetSkyDirections();
   ///@}
 
+  /**
+   * Add the 145 patches of a sky (Tregenza 1987) as directions to their middles, each with its
+   * solid angle in steradians as hours. So `Hours` is how much of the sky an element sees, and
+   * `Bits` are the matrix of elements and patches that daylight is computed with. Patches go from
+   * the horizon up, ring by ring, clockwise as seen from above. Each ring begins in the north.
+   *
+   * @param up towards the zenith, of any length; becomes Up
+   * @param north of any length, not along up
+   */
+  void AddSkyPatches(const double up[3], const double north[3]);
+
   ///@{
   /**
    * Set the distance, in world coordinates, beyond which nothing hides the sky; 0: no limit.

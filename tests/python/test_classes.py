@@ -24,6 +24,7 @@ GETTERS = {
     "vtkGnomonSun.SetNorthAndUp": ["GetNorth", "GetUp"],
     # Many directions at once.
     "vtkGnomonVisibilityFilter.AddDirections": ["GetNumberOfLights", "GetDirection", "GetHours"],
+    "vtkGnomonVisibilityFilter.AddSkyPatches": ["GetNumberOfLights", "GetDirection", "GetHours"],
     "vtkGnomonVisibilityFilter.AddSunDay": ["GetNumberOfLights", "GetDirection", "GetHours"],
     "vtkGnomonVisibilityFilter.AddSunYear": ["GetNumberOfLights", "GetDirection", "GetHours"],
     "vtkGnomonShadowPass.SetShaderParameters": [],  # mappers call it

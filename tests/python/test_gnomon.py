@@ -639,6 +639,16 @@ class Data(unittest.TestCase):
         (view,), _ = gnomon.sky_view(polydata.GetOutput(), [wall, self.roof], distance=1e-3)
         self.assertEqual(view, 1.0)
 
+    def test_patches_of_the_sky_are_seen_or_hidden(self):
+        wall = ([[1, -999, 0], [1, 999, 0], [1, 0, 999]], [[0, 1, 2]])
+        facade = ([[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0]], [[0, 1, 2]])
+        seen, directions, angles = gnomon.sky_patches(facade, casters=[wall])
+        self.assertEqual((seen.shape, seen.dtype), ((1, 145), bool))
+        self.assertAlmostEqual(angles.sum(), 2 * numpy.pi)
+        self.assertTrue(numpy.allclose(numpy.linalg.norm(directions, axis=1), 1))
+        self.assertTrue(seen[:, directions[:, 0] < -1e-9].all())
+        self.assertFalse(seen[:, directions[:, 0] > 0.5].any())
+
     def test_a_picture_of_arrays(self):
         # Seen from above, a roof of 1 x 1 beside its shadow, over a floor of 3 x 3.
         with tempfile.TemporaryDirectory() as folder:
@@ -667,6 +677,8 @@ class Data(unittest.TestCase):
             (lambda: gnomon.sky_view(self.floor, [([[0, 0]], [])]), r"casters\[0\]' points"),
             (lambda: gnomon.sky_view(self.floor, distance=-1.0), "SkyDistance"),
             (lambda: gnomon.sky_view(self.floor, model="dome", up=(0, 0, 0)), "horizon"),
+            (lambda: gnomon.sky_patches(self.floor, up=(0, 0, 0)), "up: expected"),
+            (lambda: gnomon.sky_patches(self.floor, north=(0, 0, 1)), "north: .*two directions"),
         ):
             with self.assertRaisesRegex(ValueError, what):
                 call()

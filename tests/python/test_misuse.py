@@ -75,6 +75,7 @@ TAKEN = {
     "surface": {"empty polydata"},
     "casters of hours_lit": {"empty polydata"},
     "casters of sky_view": {"an empty text", "an empty list", "an empty array"},
+    "casters of sky_patches": {"an empty text", "an empty list", "an empty array"},
 }
 
 
@@ -99,6 +100,10 @@ def valid_calls(scene):
         "sky_view": {
             "surface": SQUARE, "casters": [SQUARE], "model": "dome", "directions": 64,
             "distance": 0.0, "up": (0, 0, 1), "progress": bool,
+        },
+        "sky_patches": {
+            "surface": SQUARE, "casters": [SQUARE], "up": (0, 0, 1), "north": (0, 1, 0),
+            "progress": bool,
         },
         "sun_path": {
             "latitude": 52, "longitude": 13, "date": "2026-12-21", "minutes": 60.0, "zone": 1.0,

@@ -74,7 +74,7 @@ class Stubs(unittest.TestCase):
 
 class Functions(unittest.TestCase):
     def test_functions_have_types_and_text(self):
-        self.assertEqual(len(gnomon.__all__), 13)
+        self.assertEqual(len(gnomon.__all__), 14)
         for name in gnomon.__all__:
             function = getattr(gnomon, name)
             signature = inspect.signature(function)

@@ -71,6 +71,7 @@ if TYPE_CHECKING:
 
     from .data import (
         hours_lit as hours_lit,
+        sky_patches as sky_patches,
         sky_view as sky_view,
         sun_path as sun_path,
     )
@@ -92,6 +93,7 @@ __all__ = [
     "report",
     "settings",
     "shadows",
+    "sky_patches",
     "sky_view",
     "sun_path",
     "techniques",
@@ -112,7 +114,7 @@ if not TYPE_CHECKING:  # for which every name would exist, and classes made by a
 
     def __getattr__(name):
         # These need NumPy, which the rest can do without.
-        if name in ("draw", "hours_lit", "sky_view", "sun_path"):
+        if name in ("draw", "hours_lit", "sky_patches", "sky_view", "sun_path"):
             from . import data, figure
 
             return getattr(figure if name == "draw" else data, name)

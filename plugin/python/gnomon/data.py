@@ -203,12 +203,7 @@ def sky_view(
     choice("model", model, _SKIES)
     directions = number("directions", directions, 16, 65536, int)
     upwards = array("up", up, (3,))
-    shadows = vtkGnomonVisibilityFilter()
-    shadows.SetInputData(0, polydata_of("surface", surface))
-    with naming("casters"):
-        listed = list(casters)
-    for index, caster in enumerate(listed):
-        shadows.AddInputData(1, polydata_of(f"casters[{index}]", caster))
+    shadows = _filter_of(surface, casters)
     with naming("distance"), raising(shadows):
         shadows.SetSkyDistance(number("distance", distance))
     with naming("directions"), raising(shadows):
@@ -223,6 +218,70 @@ def sky_view(
         for name in (shadows.GetSkyViewName(), shadows.GetSkyViewErrorName())
     )
     return view, error
+
+
+def sky_patches(
+    surface: Mesh,
+    casters: Sequence[Mesh] = (),
+    up: ArrayLike = (0.0, 0.0, 1.0),
+    north: ArrayLike = (0.0, 1.0, 0.0),
+    progress: Callable[[float], Any] | None = None,
+) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]:
+    """Return which of the sky's 145 patches (Tregenza 1987) each cell sees.
+
+    Parameters
+    ----------
+    surface : (points, triangles), vtkPolyData, or what has vertices and faces
+        As the receivers of `hours_lit`. It casts, too.
+    casters : sequence of meshes, optional
+        Other surfaces that hide the sky.
+    up : array of 3
+        Of the horizon, of any length.
+    north : array of 3
+        Of any length, not along up. Patches go from the horizon up, ring by ring; each ring begins
+        in the north and goes on to the east.
+    progress : callable, optional
+        As for `hours_lit`.
+
+    Returns
+    -------
+    (numpy.ndarray, numpy.ndarray, numpy.ndarray)
+        For each cell and patch whether the ray to the patch's middle is free, of shape
+        (cells, 145); the patches' directions, of shape (145, 3); their solid angles in steradians.
+
+    Raises
+    ------
+    TypeError, ValueError, KeyboardInterrupt
+        As `sky_view`.
+    """
+    upwards, ahead = array("up", up, (3,)), array("north", north, (3,))
+    if not upwards.any():
+        raise ValueError("up: expected a vector with a length")
+    shadows = _filter_of(surface, casters)
+    with naming("north"), raising(shadows):
+        shadows.AddSkyPatches(upwards, ahead)
+    shadows.ComputeBitsOn()
+    shadows.ComputeReasonsOff()
+    with raising(shadows):
+        _run(shadows, progress)
+    count = shadows.GetNumberOfLights()
+    directions = numpy.zeros((count, 3))
+    for index, direction in enumerate(directions):
+        shadows.GetDirection(index, direction)
+    bits = vtk_to_numpy(shadows.GetOutput().GetCellData().GetArray(shadows.GetBitsName()))
+    seen = numpy.unpackbits(bits, axis=1, count=count, bitorder="little").astype(bool)
+    return seen, directions, numpy.array([shadows.GetHours(index) for index in range(count)])
+
+
+def _filter_of(surface, casters):
+    """A filter for what a surface sees of a sky."""
+    shadows = vtkGnomonVisibilityFilter()
+    shadows.SetInputData(0, polydata_of("surface", surface))
+    with naming("casters"):
+        listed = list(casters)
+    for index, caster in enumerate(listed):
+        shadows.AddInputData(1, polydata_of(f"casters[{index}]", caster))
+    return shadows
 
 
 def _run(algorithm, progress):

@@ -289,5 +289,45 @@ TEST_F(SkyTest, EachMistakeIsOneError)
   EXPECT_TRUE(shownArrayOf(this->filter, Filter::GetSkyViewName()).empty());
 }
 
+/// A wall from the ground hides a patch if the ray to its middle meets it.
+TEST_F(SkyTest, PatchesAreTheMatrixOfElementsAndSky)
+{
+  const double up[3] = { 0.0, 0.0, 2.0 };
+  const double north[3] = { 0.0, 3.0, 1.0 };
+  this->filter->AddSkyPatches(up, north);
+  this->filter->ComputeBitsOn();
+  this->filter->SetInputData(0, patchAt({ 0, 0, 0 }, { 0, 0, 1 }));
+  ASSERT_EQ(this->filter->GetNumberOfLights(), 145);
+  this->filter->Update();
+  const auto seen = [&] { return arrayOf(this->filter, Filter::GetHoursName()).front(); };
+  EXPECT_NEAR(seen(), 2.0 * glm::pi<double>(), 1e-6);
+
+  this->filter->AddInputData(1, wallAt(1.0, 2.0));
+  this->filter->Update();
+  const std::vector<double> bits = arrayOf(this->filter, Filter::GetBitsName());
+  ASSERT_EQ(bits.size(), 19u);
+  double free = 0.0;
+  for (int i = 0; i < 145; ++i)
+  {
+    double towards[3];
+    this->filter->GetDirection(i, towards);
+    const bool isFree = towards[0] <= 0.0 || towards[2] > 2.0 * towards[0];
+    EXPECT_EQ(static_cast<int>(bits[i / 8]) >> i % 8 & 1, isFree ? 1 : 0) << i;
+    free += isFree ? this->filter->GetHours(i) : 0.0;
+  }
+  EXPECT_NEAR(seen(), free, 1e-6);
+  double first[3];
+  this->filter->GetDirection(0, first); // in the north, 6 degrees up
+  EXPECT_NEAR(first[1], std::cos(glm::radians(6.0)), 1e-12);
+  this->filter->GetDirection(1, first);
+  EXPECT_GT(first[0], 0.0); // on to the east
+
+  const tool::VtkMessages refused;
+  this->filter->AddSkyPatches(up, up);
+  EXPECT_EQ(this->filter->GetNumberOfLights(), 145);
+  ASSERT_EQ(refused.errors().size(), 1u);
+  EXPECT_NE(refused.errors().front().find("two directions"), std::string::npos);
+}
+
 } // namespace
 } // namespace gnomon::test
