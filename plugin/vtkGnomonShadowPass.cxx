@@ -5,6 +5,7 @@
 #include "plugin/pass/Progress.h"
 #include "plugin/plan/FrameWishes.h"
 #include "plugin/scene/DrawnLookup.h"
+#include "plugin/scene/VolumeReceivers.h"
 #include "plugin/window/AroundOpaque.h"
 #include "plugin/window/RendererScopes.h"
 #include "shadowtech/base/TextureMemory.h"
@@ -18,6 +19,7 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkProp.h"
 #include "vtkRenderState.h"
+#include "vtkVolume.h"
 
 #include <glm/gtc/type_ptr.hpp>
 #include <tbb/global_control.h>
@@ -473,6 +475,7 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes(vtkRenderer* renderer) const
   wishes.measureStages = this->MeasureStages;
   wishes.smoothTerminators = this->SmoothTerminators;
   wishes.translucentCasters = this->TranslucentCasters;
+  wishes.volumesReceive = this->VolumesReceive;
   wishes.maximumError = this->MaximumError;
   wishes.maximumSoftError = this->MaximumSoftError;
   wishes.timeBudget = std::max(this->TimeBudget, 0.0);
@@ -558,9 +561,12 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
 //------------------------------------------------------------------------------
 bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* vtkNotUsed(mapper),
-  vtkProp* vtkNotUsed(prop))
+  vtkProp* prop)
 {
-  this->Internal->programs->shaders.glsl().mark(vertexShader, geometryShader, fragmentShader);
+  if (!vtkVolume::SafeDownCast(prop))
+  {
+    this->Internal->programs->shaders.glsl().mark(vertexShader, geometryShader, fragmentShader);
+  }
   return true;
 }
 
@@ -569,6 +575,14 @@ bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper,
   vtkProp* prop)
 {
+  if (auto* const volume = vtkVolume::SafeDownCast(prop))
+  {
+    if (!gnomon::reasonAgainst(volume))
+    {
+      this->Internal->programs->shaders.fillVolume(fragmentShader);
+    }
+    return true;
+  }
   // Where other passes write outputs of their own, this is not the receivers stage.
   vtkInformation* const keys = prop->GetPropertyKeys(); // null outside a frame
   const bool alone = keys && keys->Length(vtkOpenGLRenderPass::RenderPasses()) == 1;

@@ -15,8 +15,9 @@
  * what one prop does (casts, receives, one-sided) with vtkGnomonPropKeys. Opaque surfaces cast and
  * receive, by mappers of polydata, data sets, composite data and glyphs, under actors, assemblies,
  * followers and props with levels of detail (docs/guide/what_casts.md). Translucent surfaces
- * receive, and cast only if asked. Everything else is drawn as VTK draws it; a warning names what
- * is lit and left out. A headlight that is the only light casts only if asked.
+ * receive, and cast only if asked. Volumes receive, if shaded. Everything else is drawn as VTK
+ * draws it; a warning names what is lit and left out. A headlight that is the only light casts only
+ * if asked.
  *
  * Other passes may stand around it, or inside it as its delegate (docs/guide/passes.md).
  *
@@ -205,6 +206,18 @@ public:
   vtkSetMacro(TranslucentCasters, bool);
   vtkGetMacro(TranslucentCasters, bool);
   vtkBooleanMacro(TranslucentCasters, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Have samples of volumes show the shadows of opaque surfaces, where VTK's GPU mapper lights
+   * them: with ShadeOn, blended by opacity, unless the prop's key RECEIVES is 0. Volumes show the
+   * light's own technique if it works at points, else `pcf`. Other volumes stay as they are.
+   * Default on.
+   */
+  vtkSetMacro(VolumesReceive, bool);
+  vtkGetMacro(VolumesReceive, bool);
+  vtkBooleanMacro(VolumesReceive, bool);
   ///@}
 
   /**
@@ -555,6 +568,7 @@ protected:
   double TimeBudget = GNOMON_TIME_BUDGET_OF_WINDOW;
   double MemoryBudget = 0.0;
   bool TranslucentCasters = false;
+  bool VolumesReceive = true;
   double SkyIntensity = 0.0;
   double SkyColor[3] = { 1.0, 1.0, 1.0 };
   int SkyModel = SKY_UNIFORM;

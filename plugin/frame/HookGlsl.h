@@ -29,6 +29,8 @@ struct HookVariant
   int layers = 0;              ///< image route: of visibility
   int skyLayer = noSkyLayer;   ///< image route: the layer of the view of the sky
   int edgeBit = noBit;         ///< image route: FramePlan::edgeBit
+  bool translucent = true;     ///< translucent surfaces show shadows
+  bool volumes = false;        ///< samples of volumes show shadows (VolumeHook.h)
 };
 
 /// One casting light, as the shader hook needs it.

@@ -116,7 +116,8 @@ const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s
   Frame& frame = this->frame_;
   const SnapshotChange change = this->collector_.collect(s->GetRenderer(),
     { frame.wishes.smoothTerminators, haveInputsRun(s->GetRenderer()),
-      { frame.wishes.translucentCasters && !frame.wishes.isShared, !frame.wishes.isShared } },
+      { frame.wishes.translucentCasters && !frame.wishes.isShared, !frame.wishes.isShared,
+        frame.wishes.volumesReceive } },
     *frame.ranks);
   frame.counts.surfacesExtracted = change.extracted;
   frame.counts.surfacesRetransformed = change.retransformed;
@@ -125,6 +126,8 @@ const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s
   frame.scene.props.seenThrough = this->collector_.anySeenThrough();
   frame.scene.props.catcher = this->collector_.anyCatcher();
   frame.scene.props.translucent = this->collector_.translucentReceivers() > 0;
+  frame.scene.props.volumes =
+    this->collector_.volumeReceivers() > 0 && !occluders.castersCentred.empty();
   frame.size = sizeOf(s, frame.wishes.reductionFactor);
   const ShownView shown = shownView(s->GetRenderer(), occluders.frame);
   frame.camera = shown.camera;
@@ -223,7 +226,8 @@ void RenderManager::configureShaders(const vtkRenderState* s)
     { frame.route(), this->receivers_.readsPoints(), frame.scene.picture.samples > 1, writes,
       this->stageValues_.viewFromVtkView == glm::dmat4(1.0), frame.scene.props.seenThrough,
       frame.scene.props.catcher, frame.plan.layers,
-      frame.plan.sky ? frame.plan.sky->layer : noSkyLayer, frame.plan.edgeBit },
+      frame.plan.sky ? frame.plan.sky->layer : noSkyLayer, frame.plan.edgeBit,
+      frame.scene.props.translucent, frame.scene.props.volumes && frame.plan.picture.shadesPoints },
     shaded);
   this->stageValues_.skyLight = frame.plan.sky ? frame.plan.sky->light : glm::vec3(0.0f);
 }
@@ -262,7 +266,7 @@ MapStage RenderManager::mapStage(bool bakesOptional)
   return { this->frame_.camera, this->collector_.occluders(), this->buffers_,
     this->programs_.library, this->frame_.view->receivers.target,
     this->frame_.space.centredFromView, this->frame_.view->receivers.number, bakesOptional,
-    this->frame_.counts, this->collector_.translucentCentred() };
+    this->frame_.counts, this->collector_.pointsCentred() };
 }
 
 //------------------------------------------------------------------------------
@@ -433,7 +437,16 @@ void RenderManager::abandonFrame()
 void RenderManager::setShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
 {
-  HookedSurface drawn = this->collector_.drawn(mapper, prop);
+  HookedSurface drawn;
+  if (prop->IsA("vtkVolume"))
+  {
+    drawn.receives = vtkGnomonPropKeys::GetReceives(prop);
+    drawn.translucent = true;
+  }
+  else
+  {
+    drawn = this->collector_.drawn(mapper, prop);
+  }
   if (this->stageValues_.receiversStage && drawn.index >= 0)
   {
     TriangleNumbers& numbers = this->programs_.numbers;
@@ -451,8 +464,7 @@ void RenderManager::setShaderParameters(
   drawn.catches = this->frame_.scene.props.catcher && vtkGnomonPropKeys::GetShadowCatcher(prop);
   // The layers of the image route hold what is behind.
   drawn.translucent |= this->frame_.route() == Route::Image && this->collector_.isSeenThrough(prop);
-  drawn.receives =
-    drawn.receives && (!drawn.translucent || this->frame_.plan.picture.shadesTranslucent);
+  drawn.receives = drawn.receives && (!drawn.translucent || this->frame_.plan.picture.shadesPoints);
   if (!this->stageValues_.receiversStage &&
     !this->shadedView_->isShown(this->frame_.route() != Route::Inline))
   {

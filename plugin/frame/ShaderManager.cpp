@@ -27,9 +27,19 @@ GLenum bindingOf(GLenum target)
 //------------------------------------------------------------------------------
 void ShaderManager::configure(const HookVariant& variant, std::vector<ShadedLight> lights)
 {
-  HookGlsl glsl(variant, lights);
-  if (!(glsl == this->glsl_))
+  VolumeHook volumes = variant.volumes ? VolumeHook(variant.vtkViewIsRigid, lights) : VolumeHook();
+  std::vector<ShadedLight> ofSurfaces = lights;
+  if (variant.route != Route::Inline && !variant.translucent)
   {
+    for (ShadedLight& shaded : ofSurfaces)
+    {
+      shaded.pointwise = nullptr; // opaque ones fetch
+    }
+  }
+  HookGlsl glsl(variant, ofSurfaces);
+  if (!(glsl == this->glsl_) || !(volumes == this->volumes_))
+  {
+    this->volumes_ = std::move(volumes);
     this->glsl_ = std::move(glsl);
     this->samplers_ = this->glsl_.samplers();
     this->stageTime_.Modified();
@@ -55,6 +65,14 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
   this->glsl_.fill(vertexShader, geometryShader, fragmentShader, drawsReceivers,
     this->numbersByGeometryShaders_ ? corners : 0);
   this->programs_.insert(std::hash<std::string>()(vertexShader + geometryShader + fragmentShader));
+}
+
+//------------------------------------------------------------------------------
+void ShaderManager::fillVolume(std::string& fragmentShader)
+{
+  ++this->rebuilds_;
+  this->volumes_.fill(fragmentShader);
+  this->programs_.insert(std::hash<std::string>()(fragmentShader));
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 #include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/HookGlsl.h"
+#include "plugin/frame/VolumeHook.h"
 #include "plugin/scene/DrawnLookup.h"
 #include "shadowtech/base/Technique.h"
 
@@ -38,6 +39,9 @@ public:
   /// HookGlsl::fill() of the frame's GLSL.
   void fillShader(const std::string& vertexShader, std::string& geometryShader,
     std::string& fragmentShader, bool drawsReceivers, int corners);
+
+  /// VolumeHook::fill() of the frame's GLSL.
+  void fillVolume(std::string& fragmentShader);
 
   /// Number primitives by geometry shaders or not, from here on (TriangleNumbers.h). VTK's mappers
   /// rebuild their shaders.
@@ -80,6 +84,7 @@ private:
   bool findOrigin(glm::ivec2& origin);
 
   HookGlsl glsl_;
+  VolumeHook volumes_;
   std::map<std::string, std::vector<std::string>> samplers_; ///< HookGlsl::samplers()
   bool numbersByGeometryShaders_ = false;
   vtkTimeStamp stageTime_;

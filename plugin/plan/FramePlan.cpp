@@ -216,8 +216,8 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   for (LightPlan& light : plan.lights)
   {
     const PicturePlan& picture = plan.picture;
-    light.shadedBy = planShading(light, picture.route.route, picture.shadesTranslucent);
-    planFit(light, picture.route.route, picture.shadesTranslucent, scene.lights);
+    light.shadedBy = planShading(light, picture.route.route, picture.shadesPoints);
+    planFit(light, picture.route.route, picture.shadesPoints, scene.lights);
     planSamples(light, scene.picture.severalViews || wishes.isShared,
       !plan.moves ? light.light.lightSamples
                   : samplesInTime(wishes, plan.history.times, light.light.sceneIndex,

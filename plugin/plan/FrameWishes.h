@@ -43,6 +43,7 @@ struct FrameWishes
   double memoryBudget = 0.0; ///< bytes of lights' maps and images of visibility; 0: none
   SkyWish sky;
   bool translucentCasters = false; ///< true if translucent props cast without being asked
+  bool volumesReceive = true;      ///< true if samples of volumes show shadows
   bool smoothTerminators = true;   ///< true if receivers may lie on the surface that normals imply
   ///@{
   /// For lights that leave their technique to the pass.

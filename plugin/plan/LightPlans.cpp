@@ -168,7 +168,7 @@ void enter(LightPlans& plans, const SceneFrame& frame)
 
 /// Return why a light's views cannot be fitted to the drawn receivers; empty if they can.
 std::string whyNotReceivers(
-  const LightPlan& plan, const MapTraits& traits, Route route, bool translucent)
+  const LightPlan& plan, const MapTraits& traits, Route route, bool points)
 {
   const ShadowLight& light = plan.light;
   if (route == Route::Inline)
@@ -191,9 +191,9 @@ std::string whyNotReceivers(
   {
     return "a fit made once must also hold later views";
   }
-  if (translucent)
+  if (points)
   {
-    return "translucent surfaces receive, but the receivers drawn first are opaque";
+    return "translucent surfaces or volumes receive, but the receivers drawn first are opaque";
   }
   return traits.reachDependsOnViews
     ? "the border of a kernel with a width in world units, or of penumbrae, depends on the fit"
@@ -287,13 +287,13 @@ Composition planAsCentre(const ShadowLight& asked, const SceneLights& scene)
 }
 
 //------------------------------------------------------------------------------
-ShadedBy planShading(const LightPlan& plan, Route route, bool translucent)
+ShadedBy planShading(const LightPlan& plan, Route route, bool points)
 {
   if (plan.info().isPointwise())
   {
-    return translucent || route == Route::Inline ? ShadedBy::Own : ShadedBy::Fetch;
+    return points || route == Route::Inline ? ShadedBy::Own : ShadedBy::Fetch;
   }
-  return translucent ? ShadedBy::AtPoints : ShadedBy::Fetch;
+  return points ? ShadedBy::AtPoints : ShadedBy::Fetch;
 }
 
 //------------------------------------------------------------------------------
@@ -315,7 +315,7 @@ void planEdges(LightPlan& plan, bool moves, bool mayFollow)
 }
 
 //------------------------------------------------------------------------------
-void planFit(LightPlan& plan, Route route, bool translucent, const SceneLights& scene)
+void planFit(LightPlan& plan, Route route, bool points, const SceneLights& scene)
 {
   if (!plan.info().bakesMap())
   {
@@ -327,7 +327,7 @@ void planFit(LightPlan& plan, Route route, bool translucent, const SceneLights& 
     plan.fit = FitTarget::Casters;
     return;
   }
-  plan.fitReason = whyNotReceivers(plan, traits, route, translucent);
+  plan.fitReason = whyNotReceivers(plan, traits, route, points);
   plan.fit = plan.fitReason.empty() ? FitTarget::Receivers : FitTarget::Frustum;
   plan.light.fittedToReceivers = plan.fit == FitTarget::Receivers;
 }

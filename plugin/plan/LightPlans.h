@@ -94,8 +94,8 @@ Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const SceneLi
 Composition planAsCentre(const ShadowLight& asked, const SceneLights& scene);
 
 /// Return what VTK's shaders call for a light.
-/// @param translucent true if translucent surfaces show shadows
-ShadedBy planShading(const LightPlan& plan, Route route, bool translucent);
+/// @param points true if points in no layer show shadows
+ShadedBy planShading(const LightPlan& plan, Route route, bool points);
 
 /// Return a light as pointTechnique shades it (ShadedBy::AtPoints). The light's own technique lacks
 /// the settings of its filter, so these are the defaults.
@@ -107,6 +107,6 @@ void planEdges(LightPlan& plan, bool moves, bool mayFollow);
 
 /// Plan what a light's views are fitted to: the receivers that are drawn, as they give the tightest
 /// fit, unless there is a reason against it.
-void planFit(LightPlan& plan, Route route, bool translucent, const SceneLights& scene);
+void planFit(LightPlan& plan, Route route, bool points, const SceneLights& scene);
 
 } // namespace gnomon

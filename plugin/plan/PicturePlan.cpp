@@ -26,21 +26,27 @@ std::string whyPropsNotDeferred(const DeferredFacts& facts, bool mixes)
   return facts.whyUnsupported;
 }
 
-/// Return why translucent surfaces that receive show no shadows, as a clause; empty if they do.
-std::string whyNoTranslucent(
+/// Return the kinds of points that receive and are in no layer; empty if there are none.
+std::string pointsOf(const SceneProps& props)
+{
+  return std::string(props.translucent ? "translucent surfaces" : "") +
+    (props.translucent && props.volumes ? " and " : "") + (props.volumes ? "volumes" : "");
+}
+
+/// Return why points in no layer show no shadows, as the end of a clause; empty if they do.
+std::string whyNoPoints(
   std::size_t lights, Route route, const FrameWishes& wishes, const ScenePicture& picture)
 {
   if (wishes.isShared)
   {
-    return "translucent surfaces show no shadows: their maps have the casters of one process";
+    return " show no shadows: their maps have the casters of one process";
   }
   if (route != Route::Inline && lights > mostInlineLights)
   {
-    return "translucent surfaces show no shadows of " + std::to_string(lights) + " lights; " +
+    return " show no shadows of " + std::to_string(lights) + " lights; " +
       std::to_string(mostInlineLights) + " are the most";
   }
-  return picture.drawsMaps ? ""
-                           : "translucent surfaces show no shadows: their maps take OpenGL 4.3";
+  return picture.drawsMaps ? "" : " show no shadows: their maps take OpenGL 4.3";
 }
 
 } // namespace
@@ -158,23 +164,23 @@ PicturePlan planPicture(
   plan.isAsTold =
     (wishes.route != RouteWish::Inline || (needs.screenTechnique.empty() && !needs.seesSky)) &&
     (wishes.route != RouteWish::Deferred || needs.whyNotDeferred.empty());
-  if (scene.props.translucent)
+  if (const std::string points = pointsOf(scene.props); !points.empty())
   {
-    const std::string whyNot = whyNoTranslucent(lights.size(), plan.route.route, wishes, picture);
-    plan.shadesTranslucent = whyNot.empty();
+    const std::string whyNot = whyNoPoints(lights.size(), plan.route.route, wishes, picture);
+    const std::string map =
+      points + " show a filtered shadow map ('" + std::string(pointTechnique) + "') of ";
+    plan.shadesPoints = whyNot.empty();
     if (!whyNot.empty())
     {
-      plan.notes.push_back(whyNot);
+      plan.notes.push_back(points + whyNot);
     }
     else if (scene.props.transmits)
     {
-      plan.notes.emplace_back("translucent surfaces show a filtered shadow map ('" +
-        std::string(pointTechnique) + "') of opaque casters, and no shadow of translucent ones");
+      plan.notes.push_back(map + "opaque casters, and no shadow of translucent ones");
     }
     else if (!needs.screenTechnique.empty())
     {
-      plan.notes.push_back("translucent surfaces show a filtered shadow map ('" +
-        std::string(pointTechnique) + "') of lights with '" + needs.screenTechnique + "'");
+      plan.notes.push_back(map + "lights with '" + needs.screenTechnique + "'");
     }
   }
   if (plan.route.route == Route::Image && picture.samples > 1)

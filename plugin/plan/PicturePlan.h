@@ -15,8 +15,8 @@ namespace gnomon
 struct PicturePlan
 {
   RouteChoice route;
-  bool isAsTold = true;           ///< false if a route is asked for that cannot be taken
-  bool shadesTranslucent = false; ///< translucent surfaces show shadows
+  bool isAsTold = true;      ///< false if a route is asked for that cannot be taken
+  bool shadesPoints = false; ///< points in no layer show shadows: translucent surfaces, volumes
   std::vector<std::string> notes; ///< FrameReport::notes
 };
 

@@ -56,6 +56,7 @@ struct SceneProps
   bool seenThrough = false;    ///< the receivers lack a prop (DrawnProps::seenThrough)
   bool catcher = false;        ///< a prop shows nothing but shadows
   bool translucent = false;    ///< translucent surfaces receive
+  bool volumes = false;        ///< volumes receive, from casters that exist
   bool transmits = false;      ///< a caster lets a part of the light through (Surface::sheet)
   bool colours = false;        ///< and colours it
 };

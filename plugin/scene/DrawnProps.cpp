@@ -3,8 +3,10 @@
 #include "plugin/scene/PropMemory.h"
 #include "plugin/scene/SheetReading.h"
 #include "plugin/scene/SolidSizes.h"
+#include "plugin/scene/VolumeReceivers.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkActor.h"
 #include "vtkAssembly.h"
 #include "vtkAssemblyNode.h"
@@ -22,6 +24,7 @@
 #include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
+#include "vtkVolume.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -104,6 +107,7 @@ private:
   void addLeaf(vtkProp* leaf, vtkMatrix4x4* matrix);
   void addLevel(vtkProp* leaf, vtkMatrix4x4* matrix);
   void addImage(vtkProp* leaf, vtkMatrix4x4* matrix);
+  void addVolume(vtkProp* leaf, vtkMatrix4x4* matrix);
   void addActor(vtkProp* leaf, vtkMatrix4x4* matrix);
   void addTaken(const DrawnActor& taken);
   void addTranslucent(
@@ -129,7 +133,7 @@ private:
     const Bounds model{ { sides[0], sides[2], sides[4] }, { sides[1], sides[3], sides[5] } };
     if (!model.empty())
     {
-      this->drawn_.translucentWorld.add(affinelyTransformed(model, worldFromModel));
+      this->drawn_.pointsWorld.add(affinelyTransformed(model, worldFromModel));
     }
   }
   DrawnProp propOf(vtkActor* actor, vtkMapper* mapper, vtkMatrix4x4* matrix);
@@ -161,7 +165,7 @@ private:
   std::size_t path_ = 0;                       ///< DrawnProp::path of the leaf
   std::map<std::string, NamedProps> skipped_;  ///< props left out
   std::map<std::string, NamedProps> blocking_; ///< translucent props that block light, by reason
-  NamedProps unlit_, notCasting_, copied_;
+  NamedProps unlit_, notCasting_, copied_, volumes_;
   /// Reasons to cast without a texture's holes, each with its number of props.
   std::map<std::string, int> uncut_;
   bool isBoxed_ = true; ///< false: translucent receivers may leave their mappers' boxes
@@ -268,7 +272,7 @@ const Finder::LeafKind Finder::leafKinds[] = {
   { "vtkActor", &Finder::addActor },
   { "vtkLODProp3D", &Finder::addLevel },
   { "vtkImageSlice", &Finder::addImage },
-  { "vtkVolume", nullptr, "a volume" },
+  { "vtkVolume", &Finder::addVolume },
   { "vtkTextActor3D" }, // annotations show no shadows
   { "vtkBillboardTextActor3D" },
   { "vtkLightActor" },
@@ -345,6 +349,30 @@ void Finder::addImage(vtkProp* leaf, vtkMatrix4x4* matrix)
   block.drawnAs = rectangle.drawn;
   this->drawn_.blocks.push_back(block);
   this->drawn_.props.push_back(std::move(prop));
+}
+
+//------------------------------------------------------------------------------
+/// Add a volume that receives.
+void Finder::addVolume(vtkProp* leaf, vtkMatrix4x4* matrix)
+{
+  auto* const volume = static_cast<vtkVolume*>(leaf);
+  vtkAbstractVolumeMapper* const mapper = volume->GetMapper();
+  if (!this->translucent_.volumesReceive || !vtkGnomonPropKeys::GetReceives(this->viewProp_))
+  {
+    this->skip(volume, "a volume");
+    return;
+  }
+  if (const char* const whyNot = reasonAgainst(volume))
+  {
+    this->skip(mapper ? static_cast<vtkObjectBase*>(mapper) : volume, whyNot);
+    return;
+  }
+  ++this->drawn_.volumeReceivers;
+  this->addBox(mapper->GetBounds(), toGlm(matrix ? matrix : volume->GetMatrix()));
+  if (vtkGnomonPropKeys::GetCasts(this->viewProp_))
+  {
+    this->name(this->volumes_, nullptr);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -510,6 +538,11 @@ DrawnProps Finder::take()
   tell(this->notCasting_,
     "is translucent and casts nothing unless its key asks, or SetTranslucentCasters()",
     "are translucent and cast nothing unless their keys ask, or SetTranslucentCasters()");
+  if (this->volumes_.count > 0)
+  {
+    this->drawn_.leftOut.emplace_back("vtkVolume (casts nothing)");
+    tell(this->volumes_, "is a volume and casts nothing", "are volumes and cast nothing");
+  }
   for (const auto& [why, props] : this->blocking_)
   {
     tell(props, "casts as if opaque (" + why + ")", "cast as if opaque (" + why + ")");
@@ -526,7 +559,7 @@ DrawnProps Finder::take()
     this->drawn_.notes.push_back("shadows ignore shader code that may move vertices (" +
       std::to_string(this->moved_) + (this->moved_ == 1 ? " prop)" : " props)"));
   }
-  this->drawn_.translucentWorld = this->isBoxed_ ? this->drawn_.translucentWorld : Bounds();
+  this->drawn_.pointsWorld = this->isBoxed_ ? this->drawn_.pointsWorld : Bounds();
   return std::move(this->drawn_);
 }
 

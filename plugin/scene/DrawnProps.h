@@ -68,12 +68,14 @@ struct DrawnProps
   /// Actors as VTK hands them to a render pass, each followed by its mapper unless it is a
   /// vtkOpenGLActor: ParaView's actors draw by an inner one, which has the mapper.
   std::vector<const void*> translucentReceivers; ///< that receive, or are seenThrough and receive
-  /// The box around what these draw, in world coordinates; empty if a shader places some of it.
-  Bounds translucentWorld;
   /// The picture of receivers holds what is behind them (isSeenThrough(), hasOwnFramebuffer()).
   std::vector<const void*> seenThrough;
   ///@}
   bool anyCatcher = false; ///< a prop shows nothing but shadows
+  int volumeReceivers = 0;
+  /// The box around what these and translucentReceivers draw, in world coordinates; empty if a
+  /// shader places some of it.
+  Bounds pointsWorld;
   /// Kinds of props that are visible and lit but left out, each once.
   std::vector<std::string> leftOut;
   /// Sentences: each kind left out with its number of props, and effects that shadows of other
@@ -81,15 +83,17 @@ struct DrawnProps
   std::vector<std::string> notes;
 };
 
-/// The role of translucent props.
+/// The role of translucent props and of volumes.
 struct TranslucentRole
 {
-  bool casts = false;    ///< they cast without being asked
-  bool transmits = true; ///< those that cast let light through; else they block it
+  bool casts = false;         ///< translucent props cast without being asked
+  bool transmits = true;      ///< those that cast let light through; else they block it
+  bool volumesReceive = true; ///< volumes do, where VTK's shaders light them
 
   bool operator==(const TranslucentRole& other) const
   {
-    return this->casts == other.casts && this->transmits == other.transmits;
+    return this->casts == other.casts && this->transmits == other.transmits &&
+      this->volumesReceive == other.volumesReceive;
   }
 };
 

@@ -33,7 +33,8 @@ SnapshotChange OccluderCollector::collect(
   this->leftOut_ = std::move(drawn.leftOut);
   this->translucentReceivers_ = drawn.translucentReceivers.size();
   this->anyCatcher_ = drawn.anyCatcher;
-  this->translucentWorld_ = drawn.translucentWorld;
+  this->volumeReceivers_ = drawn.volumeReceivers;
+  this->pointsWorld_ = drawn.pointsWorld;
   std::vector<WantedSurface> wanted = wantedSurfaces(drawn, this->surfaces_.records());
   for (WantedSurface& surface : wanted)
   {
@@ -131,11 +132,11 @@ std::string OccluderCollector::noteOnBoxes(const std::vector<WantedSurface>& wan
 }
 
 //------------------------------------------------------------------------------
-Bounds OccluderCollector::translucentCentred() const
+Bounds OccluderCollector::pointsCentred() const
 {
-  return this->translucentWorld_.empty() ? Bounds()
-                                         : affinelyTransformed(this->translucentWorld_,
-                                             this->occluders().frame.centredFrom(glm::dmat4(1.0)));
+  return this->pointsWorld_.empty()
+    ? Bounds()
+    : affinelyTransformed(this->pointsWorld_, this->occluders().frame.centredFrom(glm::dmat4(1.0)));
 }
 
 //------------------------------------------------------------------------------

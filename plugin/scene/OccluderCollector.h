@@ -75,8 +75,10 @@ public:
   std::size_t translucentReceivers() const { return this->translucentReceivers_; }
   /// DrawnProps::anyCatcher of the same.
   bool anyCatcher() const { return this->anyCatcher_; }
-  /// DrawnProps::translucentWorld in centred coordinates, as of the last collect().
-  Bounds translucentCentred() const;
+  /// DrawnProps::volumeReceivers, as of the last collect().
+  int volumeReceivers() const { return this->volumeReceivers_; }
+  /// DrawnProps::pointsWorld in centred coordinates, as of the last collect().
+  Bounds pointsCentred() const;
   ///@{
   /// As in DrawnLookup, of the last collect().
   bool isSeenThrough(vtkProp* prop) const { return this->lookup_.isSeenThrough(prop); }
@@ -111,7 +113,8 @@ private:
   PropMemory propMemory_;
   std::size_t translucentReceivers_ = 0;
   bool anyCatcher_ = false;
-  Bounds translucentWorld_;
+  int volumeReceivers_ = 0;
+  Bounds pointsWorld_;
   std::vector<std::string> notes_;
   std::string noteOnBoxes_; ///< as of the last change
   std::vector<std::string> leftOut_;

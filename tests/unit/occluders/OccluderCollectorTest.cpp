@@ -416,7 +416,7 @@ TEST(OccluderProps, LinesPointsAndVolumesAreListed)
     EXPECT_TRUE(scene.occluders().allCentred.empty());
     EXPECT_THAT(scene.collector.leftOut(),
       UnorderedElementsAre("vtkOpenGLActor (as a wireframe)", "vtkOpenGLActor (as points)",
-        "vtkOpenGLPolyDataMapper (lines or points)", "vtkVolume (a volume)"));
+        "vtkOpenGLPolyDataMapper (lines or points)", "vtkVolume (mapper not served)"));
   }
   for (vtkProperty* property : { wires, points, outline })
   {

@@ -333,17 +333,22 @@ TEST(Plan, letsTranslucentSurfacesReceive)
   FrameWishes wishes;
   Scene scene;
   scene.deferred = DeferredFacts{};
-  EXPECT_FALSE(planPicture(one, wishes, scene).shadesTranslucent) << "none receives";
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints) << "none receives";
   scene.props.translucent = true;
-  EXPECT_TRUE(planPicture(one, wishes, scene).shadesTranslucent);
+  EXPECT_TRUE(planPicture(one, wishes, scene).shadesPoints);
   EXPECT_THAT(planPicture(one, wishes, scene).notes, Contains(HasSubstr("filtered shadow map")));
-  EXPECT_FALSE(planPicture(nine, wishes, scene).shadesTranslucent);
+  scene.props.volumes = true;
+  EXPECT_THAT(planPicture(one, wishes, scene).notes,
+    Contains(HasSubstr("translucent surfaces and volumes show a filtered shadow map")));
+  scene.props.translucent = false;
+  EXPECT_TRUE(planPicture(one, wishes, scene).shadesPoints);
+  EXPECT_FALSE(planPicture(nine, wishes, scene).shadesPoints);
   EXPECT_THAT(planPicture(nine, wishes, scene).notes, Contains(HasSubstr("8 are the most")));
   scene.picture.drawsMaps = false;
-  EXPECT_FALSE(planPicture(one, wishes, scene).shadesTranslucent);
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints);
   scene.picture.drawsMaps = true;
   wishes.isShared = true;
-  EXPECT_FALSE(planPicture(one, wishes, scene).shadesTranslucent);
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints);
 }
 
 namespace

@@ -96,7 +96,7 @@ TEST_P(KindsOfProps, castOrAreListed)
       // Without the prop, bounds and texels differ, so a few pixels at other shadows' edges change.
       const bool casts = without.darkGround + 30 < all.darkGround;
       const bool isListed = without.leftOut != all.leftOut;
-      EXPECT_EQ(casts, !isListed && !isAnnotation(name));
+      EXPECT_EQ(casts, !isListed && !isAnnotation(name) && name != "volume");
     });
 }
 

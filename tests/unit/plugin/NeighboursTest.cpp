@@ -94,7 +94,7 @@ protected:
     this->expectKept([](const Picture& picture, int x, int y)
       { return picture.at(x, y).b > 60 && picture.at(x, y).g < 10; });
     this->scene.render();
-    EXPECT_THAT(this->scene.report().notes, testing::ElementsAre(testing::HasSubstr("vtkVolume")));
+    EXPECT_THAT(this->scene.report().notes, testing::ElementsAre(testing::HasSubstr("Volume")));
 
     this->expectPlainWhereNothingCasts();
   }
@@ -294,6 +294,7 @@ TEST_P(Neighbours, volumesOnTheGpuAreDrawnAsVtkDrawsThem)
 {
   vtkNew<vtkOpenGLGPUVolumeRayCastMapper> mapper;
   mapper->AutoAdjustSampleDistancesOff();
+  this->scene.pass->VolumesReceiveOff();
   this->expectVolumeKept(mapper);
 }
 
