@@ -476,6 +476,8 @@ gnomon::FrameWishes vtkGnomonShadowPass::Wishes(vtkRenderer* renderer) const
   wishes.smoothTerminators = this->SmoothTerminators;
   wishes.translucentCasters = this->TranslucentCasters;
   wishes.volumesReceive = this->VolumesReceive;
+  wishes.volumeCasters = this->VolumeCasters;
+  wishes.volumeResolution = this->VolumeResolution;
   wishes.maximumError = this->MaximumError;
   wishes.maximumSoftError = this->MaximumSoftError;
   wishes.timeBudget = std::max(this->TimeBudget, 0.0);

@@ -220,6 +220,32 @@ public:
   vtkBooleanMacro(VolumesReceive, bool);
   ///@}
 
+  ///@{
+  /**
+   * Have all volumes cast, but for those whose key CASTS is 0. A ray keeps
+   * exp(-integral of extinction) of its light. The extinction is that of VTK's drawing with short
+   * steps: scalar and gradient opacity by the unit distance, components, mask, cropping, clipping
+   * planes. Techniques that draw on the screen without rays (`planar`) take `raytraced`. Images
+   * with composite blending are served; the pass's warning lists others. Default off: volumes cast
+   * if their key asks.
+   */
+  vtkSetMacro(VolumeCasters, bool);
+  vtkGetMacro(VolumeCasters, bool);
+  vtkBooleanMacro(VolumeCasters, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The resolution of the light that volumes leave, in steps along the longest side of a grid in
+   * the light's space: 16 to 512. Lights with `raytraced` march through the volumes instead. On
+   * scans of 64 samples a side, 99 % of points are wrong by at most 0.03 at 256, the default, by
+   * 0.13 at 128; of a lamp near a volume's face by 0.05 at 256. Time and memory grow with its cube:
+   * 34 MB at 256.
+   */
+  vtkSetClampMacro(VolumeResolution, int, 16, 512);
+  vtkGetMacro(VolumeResolution, int);
+  ///@}
+
   /**
    * Which lights cast, of those whose own key (vtkGnomonLightKeys::CASTS) does not say. A headlight
    * does not, nor a camera light that stands at the camera, which hardly sees their shadows.
@@ -568,6 +594,8 @@ protected:
   double TimeBudget = GNOMON_TIME_BUDGET_OF_WINDOW;
   double MemoryBudget = 0.0;
   bool TranslucentCasters = false;
+  bool VolumeCasters = false;
+  int VolumeResolution = 256;
   bool VolumesReceive = true;
   double SkyIntensity = 0.0;
   double SkyColor[3] = { 1.0, 1.0, 1.0 };

@@ -342,6 +342,8 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MemoryBudget: " << this->MemoryBudget << " MiB\n";
   os << indent << "TranslucentCasters: " << this->TranslucentCasters << "\n";
   os << indent << "VolumesReceive: " << this->VolumesReceive << "\n";
+  os << indent << "VolumeCasters: " << this->VolumeCasters << "\n";
+  os << indent << "VolumeResolution: " << this->VolumeResolution << "\n";
   os << indent << "SkyIntensity: " << this->SkyIntensity << "\n";
   os << indent << "SkyColor: " << this->SkyColor[0] << ", " << this->SkyColor[1] << ", "
      << this->SkyColor[2] << "\n";

@@ -64,6 +64,7 @@ struct RenderOptions
   std::optional<bool> ground;    ///< none: the scene decides
   std::optional<double> ambient; ///< none: the surfaces decide
   bool glass = false;
+  bool volumes = false;
   std::optional<double> sky; ///< intensity; none: the scene's
   std::string skyModel = skyModels().front();
   double skyDistance = 0.0; ///< beyond which nothing hides it; 0: no limit
@@ -387,6 +388,7 @@ void render(const RenderOptions& options)
   shadows->SetKeepVisibility(givesVisibility);
   shadows->SetSmoothTerminators(!givesVisibility); // visibility files compare triangles
   shadows->SetTranslucentCasters(scene.isGlass);
+  shadows->SetVolumeCasters(options.volumes);
   shadows->SetSkyIntensity(options.sky.value_or(scene.sky));
   shadows->SetSkyDistance(options.skyDistance);
   shadows->SetSkyUp(0.0, 1.0, 0.0);
@@ -544,6 +546,8 @@ void addRenderCommand(CLI::App& app)
   command->add_flag("--glass", options->glass,
     "Have translucent models let light through, as much as VTK draws of what is behind them; "
     "without it they block all light");
+  command->add_flag("--volumes", options->volumes,
+    "Have volumes cast, as much as VTK draws of them; without it they cast nothing");
   command
     ->add_option("--sky", options->sky,
       "The intensity of a sky, which lights surfaces as far as they see it; 0.4 brightens what is "

@@ -29,6 +29,10 @@ bool mayTakeMap(const LightPlan& plan)
 //------------------------------------------------------------------------------
 const PointwiseTechnique* CastingLight::pointwise() const
 {
+  if (this->throughVolumes && this->plan.shadedBy != ShadedBy::Fetch)
+  {
+    return this->throughVolumes.get();
+  }
   switch (this->plan.shadedBy)
   {
     case ShadedBy::Own:

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct CastingLight
   bool smooths = false;      ///< and true if it also smooths edges of the picture
   std::optional<double> tracedShare = {}; ///< VisibilityValue::tracedShare
   double milliseconds = 0.0;              ///< that this frame took for its visibility
+  /// Its pointwise technique, own or plain, where volumes cast; else null.
+  std::shared_ptr<const PointwiseTechnique> throughVolumes = {};
 
   const ShadowLight& light() const { return this->plan.light; }
   const TechniqueInfo& info() const { return this->plan.info(); }

@@ -117,7 +117,7 @@ const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s
   const SnapshotChange change = this->collector_.collect(s->GetRenderer(),
     { frame.wishes.smoothTerminators, haveInputsRun(s->GetRenderer()),
       { frame.wishes.translucentCasters && !frame.wishes.isShared, !frame.wishes.isShared,
-        frame.wishes.volumesReceive } },
+        frame.wishes.volumeCasters, frame.wishes.volumesReceive } },
     *frame.ranks);
   frame.counts.surfacesExtracted = change.extracted;
   frame.counts.surfacesRetransformed = change.retransformed;
@@ -126,8 +126,7 @@ const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s
   frame.scene.props.seenThrough = this->collector_.anySeenThrough();
   frame.scene.props.catcher = this->collector_.anyCatcher();
   frame.scene.props.translucent = this->collector_.translucentReceivers() > 0;
-  frame.scene.props.volumes =
-    this->collector_.volumeReceivers() > 0 && !occluders.castersCentred.empty();
+  frame.scene.props.volumes = this->collector_.volumeReceivers() > 0 && occluders.hasCasters();
   frame.size = sizeOf(s, frame.wishes.reductionFactor);
   const ShownView shown = shownView(s->GetRenderer(), occluders.frame);
   frame.camera = shown.camera;
@@ -208,6 +207,7 @@ const FramePlan& RenderManager::plan(
 void RenderManager::configureShaders(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
+  this->volumes_.attach();
   std::vector<ShadedLight> shaded;
   for (const CastingLight& casting : frame.lights)
   {
@@ -397,7 +397,8 @@ void RenderManager::endFrame(const vtkRenderState* s)
   totals.bytesOccluders = this->collector_.bytes() + this->patches_.bytes() +
     this->buffers_.bytes() + this->tracer_.bytesOfTable();
   totals.bytesBvh = this->tracer_.bytes();
-  totals.bytesMaps = frame.lights.bytesOfMaps() + this->views_.bytesOfMaps();
+  totals.bytesMaps =
+    frame.lights.bytesOfMaps() + this->views_.bytesOfMaps() + this->volumes_.bytes();
   totals.bytesImages = this->planner_.bytes();
   if (frame.route() != Route::Inline)
   {

@@ -203,14 +203,15 @@ SceneProps readProps(const Occluders& occluders)
   SceneProps props;
   props.frame = occluders.frame;
   props.casters = { occluders.topologyVersion, occluders.positionsVersion };
+  props.sheets = occluders.hasSheets();
+  props.transmits = props.sheets || !occluders.volumes.empty();
   for (const Surface& surface : occluders.surfaces)
   {
     const std::size_t instances = std::max<std::size_t>(surface.centredFromSource.size(), 1);
     props.triangles += surface.triangleCount * instances;
     props.drawn += surface.drawnCount() * instances;
-    const bool transmits = surface.sheet && surface.triangleCount > 0;
-    props.transmits = props.transmits || transmits;
-    props.colours = props.colours || (transmits && surface.sheet->isColoured);
+    props.colours =
+      props.colours || (surface.sheet && surface.triangleCount > 0 && surface.sheet->isColoured);
     props.unseenReceiver = props.unseenReceiver || isUnseenReceiver(surface);
   }
   return props;

@@ -1,15 +1,19 @@
 #include "plugin/frame/SnapshotTracer.h"
 
 #include <exception>
+#include <utility>
+#include <vector>
 
 namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-SnapshotTracer::SnapshotTracer(Frame& frame, const Occluders& occluders, const PatchNames& patches)
+SnapshotTracer::SnapshotTracer(
+  Frame& frame, const Occluders& occluders, const PatchNames& patches, VolumeStage& volumes)
   : frame_(frame)
   , occluders_(occluders)
   , patches_(patches)
+  , volumes_(volumes)
 {
 }
 
@@ -26,11 +30,12 @@ void SnapshotTracer::update()
     const EmbreeTracer::Update update = this->tracer_->update(this->occluders_);
     this->frame_.counts.bvhBuilds += update.builds;
     this->frame_.counts.bvhRefits += update.refits;
-    this->updateSheets();
+    this->updateFilters();
   }
   catch (const std::exception&)
   {
     this->tracer_.reset(); // it has a part of the casters
+    this->filters_.reset();
     this->sheets_.reset();
     throw;
   }
@@ -38,22 +43,49 @@ void SnapshotTracer::update()
 }
 
 //------------------------------------------------------------------------------
-/// Bring the structure of translucent casters up to date.
-void SnapshotTracer::updateSheets()
+/// Bring what lets light through up to date.
+void SnapshotTracer::updateFilters()
 {
-  if (!this->frame_.scene.props.transmits)
+  std::vector<const RayFilter*> filters;
+  if (!this->occluders_.hasSheets())
   {
     this->sheets_.reset();
   }
-  else if (!this->sheets_)
+  else
   {
-    this->sheets_.emplace();
+    if (!this->sheets_)
+    {
+      this->sheets_.emplace();
+    }
+    this->sheets_->update(this->occluders_);
+    filters.push_back(&*this->sheets_);
   }
+  const Volumes& volumes = this->volumes_.volumes();
+  if (!volumes.media().empty())
+  {
+    filters.push_back(&volumes);
+  }
+  this->filters_.reset();
+  if (!filters.empty())
+  {
+    this->filters_.emplace(std::move(filters));
+  }
+  this->tracer_->filterSamples(this->filters_ ? &*this->filters_ : nullptr);
+}
+
+//------------------------------------------------------------------------------
+const RayFilter& SnapshotTracer::filterOf(const LightPlan& light)
+{
+  if (light.marches || this->volumes_.volumes().media().empty())
+  {
+    return *this->filters_;
+  }
+  std::vector<const RayFilter*> filters{ &this->volumes_.stackOf(light) };
   if (this->sheets_)
   {
-    this->sheets_->update(this->occluders_);
+    filters.push_back(&*this->sheets_);
   }
-  this->tracer_->filterSamples(this->sheets());
+  return this->ofLight_.emplace(std::move(filters));
 }
 
 } // namespace gnomon

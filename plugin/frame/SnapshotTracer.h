@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plugin/frame/Frame.h"
+#include "plugin/frame/VolumeStage.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Patches.h"
 #include "shadowtech/tracing/SharedTracer.h"
@@ -19,15 +20,18 @@ class SnapshotTracer
 public:
   /// @param occluders the snapshot, which lives as long as this
   /// @param patches of the snapshot, likewise, if several processes draw the picture
-  SnapshotTracer(Frame& frame, const Occluders& occluders, const PatchNames& patches);
+  /// @param volumes of the snapshot, likewise
+  SnapshotTracer(
+    Frame& frame, const Occluders& occluders, const PatchNames& patches, VolumeStage& volumes);
 
   /// Bring the structure up to date with the snapshot.
   /// @throws std::runtime_error if there is no tracer
   void update();
   /// Return the tracer of the last update.
   EmbreeTracer& get() { return *this->tracer_; }
-  /// Return the translucent casters of the last update; null if there are none.
-  const Sheets* sheets() const { return this->sheets_ ? &*this->sheets_ : nullptr; }
+  /// Return what casters of the last update let through of rays to a light's centre. Some do.
+  /// @return valid until the next call
+  const RayFilter& filterOf(const LightPlan& light);
 
   ///@{
   /// Return bytes; 0 if nothing was traced.
@@ -41,13 +45,16 @@ public:
   ///@}
 
 private:
-  void updateSheets();
+  void updateFilters();
 
   Frame& frame_;
   const Occluders& occluders_;
   const PatchNames& patches_;
+  VolumeStage& volumes_;
   std::optional<SharedTracer> tracer_;
-  std::optional<Sheets> sheets_; ///< none without translucent casters
+  std::optional<Sheets> sheets_;      ///< none without translucent casters
+  std::optional<RayFilters> filters_; ///< of both; none if all casters block
+  std::optional<RayFilters> ofLight_;
 };
 
 } // namespace gnomon

@@ -74,6 +74,7 @@ ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
   key.add("the light", casting.plan.identity);
   key.add("its technique", std::pair(&casting.own->estimator(), casting.light().fittedToReceivers));
   key.add("its settings", settingsOf(info, SettingsOf::Estimator, casting.light()));
+  key.add("its volumes", std::pair(casting.plan.marches, this->frame_.wishes.volumeResolution));
   key.add("its layer", std::pair(casting.plan.layer, casting.plan.bit));
   return key;
 }
@@ -311,7 +312,8 @@ void VisibilityStage::fill(
   VisibilityLayers& layers = this->frame_.view->layers;
   if (auto* pointwise = casting.own->as<PointwiseTechnique>())
   {
-    layers.estimate(casting.plan.layer, *pointwise, light, receivers.target, this->frame_.space,
+    const auto& technique = casting.throughVolumes ? *casting.throughVolumes : *pointwise;
+    layers.estimate(casting.plan.layer, technique, light, receivers.target, this->frame_.space,
       this->shaders_, casting.info().classes.empty() ? nullptr : classes);
     this->frame_.endStage("visibility: estimate");
   }
@@ -407,8 +409,9 @@ void VisibilityStage::trace(
   }
   if (this->frame_.plan.transmits && !light.area)
   {
-    casting.counts.rays += static_cast<std::int64_t>(
-      this->tracer_.sheets()->scale(traced, onCpu.surfaces(), onCpu.receivers(), visibility));
+    casting.counts.rays +=
+      static_cast<std::int64_t>(scaleByFilter(this->tracer_.filterOf(casting.plan), traced,
+        onCpu.surfaces(), onCpu.receivers(), visibility));
     this->frame_.endStage("visibility: transmittance");
   }
   if (!hasBit)

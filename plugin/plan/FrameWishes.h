@@ -43,6 +43,8 @@ struct FrameWishes
   double memoryBudget = 0.0; ///< bytes of lights' maps and images of visibility; 0: none
   SkyWish sky;
   bool translucentCasters = false; ///< true if translucent props cast without being asked
+  bool volumeCasters = false;      ///< likewise volumes
+  int volumeResolution = 256;      ///< of VolumeStack
   bool volumesReceive = true;      ///< true if samples of volumes show shadows
   bool smoothTerminators = true;   ///< true if receivers may lie on the surface that normals imply
   ///@{

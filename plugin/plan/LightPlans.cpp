@@ -57,10 +57,11 @@ void compose(
 }
 
 /// Have a light's rays traced if its technique cannot tell how much light translucent casters let
-/// through.
+/// through. Shaders find what volumes leave.
 void traceSheets(LightPlan& plan, const Scene& scene, const FrameWishes& wishes, LightPlans& plans)
 {
-  if (plan.info().evaluation == Evaluation::ScreenCpu)
+  if (plan.info().evaluation == Evaluation::ScreenCpu ||
+    (plan.info().isPointwise() && !scene.props.sheets))
   {
     return;
   }
@@ -246,6 +247,7 @@ LightPlans planLights(const Scene& scene, const FrameWishes& wishes)
     plan.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
     plan.light = std::move(light);
     compose(plan, scene, wishes, plans.misfits);
+    plan.marches = !plan.asked && plan.light.technique == "raytraced";
     if (scene.props.transmits)
     {
       traceSheets(plan, scene, wishes, plans);
@@ -255,6 +257,10 @@ LightPlans planLights(const Scene& scene, const FrameWishes& wishes)
   {
     plans.notes.emplace_back("translucent props cast nothing where several processes draw the "
                              "picture, unless their keys ask; then they block all light");
+  }
+  if (wishes.isShared && wishes.volumeCasters)
+  {
+    plans.notes.emplace_back("volumes cast nothing where several processes draw the picture");
   }
   if (wishes.memoryBudget > 0.0 && !wishes.isShared) // what each process sees differs
   {

@@ -45,6 +45,7 @@ struct LightPlan
   int mostMapTexels = std::numeric_limits<int>::max();
   std::string budgetReason; ///< LightReport::budgetReason
   RayIdentity identity;     ///< of the light
+  bool marches = false; ///< true if its rays march through volumes, where a VolumeStack would do
   ///@{
   /// Planned last, like all members below.
   int firstSamples = 0; ///< of the first frame, if the light's image refines; 0: all

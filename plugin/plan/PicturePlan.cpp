@@ -110,7 +110,7 @@ std::string whyNoInlineMaps(
   {
     return "rays find the view of the sky";
   }
-  if (scene.props.transmits)
+  if (scene.props.sheets)
   {
     return "rays find how much light translucent casters let through";
   }
@@ -174,7 +174,7 @@ PicturePlan planPicture(
     {
       plan.notes.push_back(points + whyNot);
     }
-    else if (scene.props.transmits)
+    else if (scene.props.sheets)
     {
       plan.notes.push_back(map + "opaque casters, and no shadow of translucent ones");
     }

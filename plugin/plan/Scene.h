@@ -57,7 +57,8 @@ struct SceneProps
   bool catcher = false;        ///< a prop shows nothing but shadows
   bool translucent = false;    ///< translucent surfaces receive
   bool volumes = false;        ///< volumes receive, from casters that exist
-  bool transmits = false;      ///< a caster lets a part of the light through (Surface::sheet)
+  bool transmits = false;      ///< a caster lets a part of the light through
+  bool sheets = false;         ///< and is a surface, so that rays alone can tell how much
   bool colours = false;        ///< and colours it
 };
 

@@ -112,12 +112,13 @@ private:
   void addTaken(const DrawnActor& taken);
   void addTranslucent(
     const DrawnActor& taken, DrawnProp& prop, const TextureCutout& cutout, const char* whyUncut);
-  /// True if the view prop casts where it is translucent.
-  bool castsTranslucent() const
+  /// True if the view prop is to cast.
+  /// @param byDefault true if it is, but for its key
+  bool casts(bool byDefault) const
   {
-    return this->translucent_.casts ? vtkGnomonPropKeys::GetCasts(this->viewProp_)
-                                    : askedToCast(this->viewProp_);
+    return byDefault ? vtkGnomonPropKeys::GetCasts(this->viewProp_) : askedToCast(this->viewProp_);
   }
+  bool castsTranslucent() const { return this->casts(this->translucent_.casts); }
   void addPass(const DrawnActor& taken, DrawnProp& prop, const std::string& texture)
   {
     prop.firstBlock = this->drawn_.blocks.size();
@@ -352,24 +353,30 @@ void Finder::addImage(vtkProp* leaf, vtkMatrix4x4* matrix)
 }
 
 //------------------------------------------------------------------------------
-/// Add a volume that receives.
+/// Add a volume that casts, receives or does both.
 void Finder::addVolume(vtkProp* leaf, vtkMatrix4x4* matrix)
 {
   auto* const volume = static_cast<vtkVolume*>(leaf);
   vtkAbstractVolumeMapper* const mapper = volume->GetMapper();
-  if (!this->translucent_.volumesReceive || !vtkGnomonPropKeys::GetReceives(this->viewProp_))
+  vtkMatrix4x4* const place = matrix ? matrix : volume->GetMatrix();
+  const bool casts = this->translucent_.transmits && this->casts(this->translucent_.volumesCast);
+  const bool receives =
+    this->translucent_.volumesReceive && vtkGnomonPropKeys::GetReceives(this->viewProp_);
+  const char* why = receives ? reasonAgainst(volume) : nullptr;
+  if (receives && !why)
   {
-    this->skip(volume, "a volume");
-    return;
+    ++this->drawn_.volumeReceivers;
+    this->addBox(mapper->GetBounds(), toGlm(place));
   }
-  if (const char* const whyNot = reasonAgainst(volume))
+  if (auto read = casts ? this->memory_.volumes.find(volume, place, why) : nullptr)
   {
-    this->skip(mapper ? static_cast<vtkObjectBase*>(mapper) : volume, whyNot);
-    return;
+    this->drawn_.volumes.push_back(std::move(read));
   }
-  ++this->drawn_.volumeReceivers;
-  this->addBox(mapper->GetBounds(), toGlm(matrix ? matrix : volume->GetMatrix()));
-  if (vtkGnomonPropKeys::GetCasts(this->viewProp_))
+  if (why)
+  {
+    this->skip(mapper ? static_cast<vtkObjectBase*>(mapper) : volume, why);
+  }
+  if (!casts && vtkGnomonPropKeys::GetCasts(this->viewProp_))
   {
     this->name(this->volumes_, nullptr);
   }
@@ -541,7 +548,8 @@ DrawnProps Finder::take()
   if (this->volumes_.count > 0)
   {
     this->drawn_.leftOut.emplace_back("vtkVolume (casts nothing)");
-    tell(this->volumes_, "is a volume and casts nothing", "are volumes and cast nothing");
+    tell(this->volumes_, "is a volume and casts nothing unless its key asks, or SetVolumeCasters()",
+      "are volumes and cast nothing unless their keys ask, or SetVolumeCasters()");
   }
   for (const auto& [why, props] : this->blocking_)
   {
@@ -577,6 +585,7 @@ DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, Translucent
   memory.stamps.beginFrame();
   memory.cutouts.beginFrame();
   memory.images.beginFrame();
+  memory.volumes.beginFrame();
   Finder finder(renderer, memory, translucent);
   vtkPropCollection* viewProps = renderer->GetViewProps();
   vtkCollectionSimpleIterator cookie;

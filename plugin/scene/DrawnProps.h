@@ -25,6 +25,7 @@ namespace gnomon
 
 struct CutoutMask;
 struct PropMemory;
+struct Volume;
 
 /// Return a VTK matrix as a GLM matrix of the same transformation.
 glm::dmat4 toGlm(vtkMatrix4x4* matrix);
@@ -64,6 +65,7 @@ struct DrawnProps
   /// data and vtkGlyph3DMapper have any number, each polydata once. vtkMoleculeMapper has atoms and
   /// bonds.
   std::vector<DrawnBlock> blocks;
+  std::vector<std::shared_ptr<const Volume>> volumes; ///< that cast
   ///@{
   /// Actors as VTK hands them to a render pass, each followed by its mapper unless it is a
   /// vtkOpenGLActor: ParaView's actors draw by an inner one, which has the mapper.
@@ -87,13 +89,14 @@ struct DrawnProps
 struct TranslucentRole
 {
   bool casts = false;         ///< translucent props cast without being asked
-  bool transmits = true;      ///< those that cast let light through; else they block it
-  bool volumesReceive = true; ///< volumes do, where VTK's shaders light them
+  bool transmits = true;      ///< those that cast let light through; else surfaces block it
+  bool volumesCast = false;   ///< without being asked, if they let light through
+  bool volumesReceive = true; ///< where VTK's shaders light them
 
   bool operator==(const TranslucentRole& other) const
   {
     return this->casts == other.casts && this->transmits == other.transmits &&
-      this->volumesReceive == other.volumesReceive;
+      this->volumesCast == other.volumesCast && this->volumesReceive == other.volumesReceive;
   }
 };
 

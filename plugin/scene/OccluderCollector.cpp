@@ -40,7 +40,7 @@ SnapshotChange OccluderCollector::collect(
   {
     surface.block.normals = options.readsNormals ? surface.block.normals : nullptr;
   }
-  const SnapshotChange change = this->surfaces_.update(wanted, ranks);
+  const SnapshotChange change = this->surfaces_.update(wanted, std::move(drawn.volumes), ranks);
   if (change.any)
   {
     this->indexProps(wanted);

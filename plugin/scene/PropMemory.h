@@ -4,6 +4,7 @@
 #include "plugin/scene/PlainProps.h"
 #include "plugin/scene/PropStamps.h"
 #include "plugin/scene/TextureCutouts.h"
+#include "plugin/scene/VolumeReading.h"
 
 #include <cstddef>
 
@@ -17,10 +18,12 @@ struct PropMemory
   PropStamps stamps;
   TextureCutouts cutouts;
   ImageRectangles images;
+  VolumeReading volumes;
 
   std::size_t bytes() const
   {
-    return this->plainProps.bytes() + this->cutouts.bytes() + this->images.bytes();
+    return this->plainProps.bytes() + this->cutouts.bytes() + this->images.bytes() +
+      this->volumes.bytes();
   }
 };
 

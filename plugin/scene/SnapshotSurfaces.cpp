@@ -40,7 +40,8 @@ struct GlyphCount
 } // namespace
 
 //------------------------------------------------------------------------------
-SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted, Ranks& ranks)
+SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted,
+  std::vector<std::shared_ptr<const Volume>> volumes, Ranks& ranks)
 {
   SnapshotChange change;
   bool otherList = wanted.size() != this->records_.size();
@@ -91,7 +92,9 @@ SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted, Rank
     this->vertexOfPoint_.shrink_to_fit(); // as large as the largest input
   }
 
-  const bool flagsChanged = this->updateFlags(wanted);
+  const bool areOtherVolumes = this->occluders_.volumes != volumes;
+  this->occluders_.volumes = std::move(volumes);
+  const bool flagsChanged = this->updateFlags(wanted) || areOtherVolumes;
   if (trianglesChanged || flagsChanged)
   {
     this->occluders_.topologyVersion = this->newVersion();

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace gnomon
@@ -24,9 +25,10 @@ struct SnapshotChange
 class SnapshotSurfaces
 {
 public:
-  /// Make the snapshot hold these surfaces, in this order.
+  /// Make the snapshot hold these surfaces, in this order, and these volumes.
   /// @param ranks that share the frame, and the number of glyphs
-  SnapshotChange update(std::vector<WantedSurface>& wanted, Ranks& ranks);
+  SnapshotChange update(std::vector<WantedSurface>& wanted,
+    std::vector<std::shared_ptr<const Volume>> volumes, Ranks& ranks);
 
   const Occluders& occluders() const { return this->occluders_; }
   /// Return the records, one for each of the snapshot's surfaces.

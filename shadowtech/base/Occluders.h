@@ -6,6 +6,7 @@
 #include "shadowtech/base/Patches.h"
 #include "shadowtech/base/Sheet.h"
 #include "shadowtech/base/Solid.h"
+#include "shadowtech/base/Volume.h"
 
 #include <glm/glm.hpp>
 
@@ -105,8 +106,9 @@ struct Occluders
   /// The allocation extends at least 4 bytes beyond the last position: Embree reads each position
   /// as 16 bytes.
   std::vector<glm::vec3> positionsCentred;
-  std::vector<glm::uvec3> triangles; ///< indices into positionsCentred
-  std::vector<Surface> surfaces;     ///< in order of their triangles
+  std::vector<glm::uvec3> triangles;                  ///< indices into positionsCentred
+  std::vector<Surface> surfaces;                      ///< in order of their triangles
+  std::vector<std::shared_ptr<const Volume>> volumes; ///< that cast; the boxes leave them out
 
   Bounds castersCentred; ///< box around the casting surfaces
   Bounds allCentred;     ///< box around all surfaces
@@ -128,7 +130,18 @@ struct Occluders
       [](const Surface& surface) { return surface.casts && surface.solid != Solid::None; });
   }
 
-  /// Changes when surfaces are added or removed, or change their triangles, flags or cut-outs.
+  /// True if something casts.
+  bool hasCasters() const { return !this->castersCentred.empty() || !this->volumes.empty(); }
+
+  /// True if a surface lets light through.
+  bool hasSheets() const
+  {
+    return std::any_of(this->surfaces.begin(), this->surfaces.end(),
+      [](const Surface& surface) { return surface.sheet && surface.triangleCount > 0; });
+  }
+
+  /// Changes when surfaces are added or removed, or change their triangles, flags or cut-outs, and
+  /// with the volumes.
   std::uint64_t topologyVersion = 0;
   /// Changes with any centred position, and with topologyVersion.
   std::uint64_t positionsVersion = 0;

@@ -4,7 +4,6 @@
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/WeldedVertices.h"
 #include "shadowtech/tracing/EmbreeInstances.h"
-#include "shadowtech/tracing/TracedPicture.h"
 #include "shadowtech/transmittance/TriangleCrossing.h"
 
 #include <algorithm>
@@ -419,45 +418,6 @@ glm::dvec3 Sheets::transmittanceOf(
     0.0f, rayFar, 0xffffffffu, 0, 0 };
   occlude(this->impl_->scene.get(), query.context, ray);
   return query.transmittance;
-}
-
-//------------------------------------------------------------------------------
-std::size_t Sheets::scale(const ShadowLight& light, const Occluders& occluders,
-  const Receivers& receivers, std::vector<float>& visibility) const
-{
-  const std::size_t pixels = visibility.size();
-  const std::size_t channels = this->isColoured() ? 3 : 1;
-  visibility.resize(channels * pixels);
-  for (std::size_t channel = 1; channel < channels; ++channel)
-  {
-    std::copy_n(visibility.begin(), pixels, &visibility[channel * pixels]);
-  }
-  std::vector<float> unfiltered;
-  const TracedPicture picture(
-    light, occluders, receivers, nullptr, unfiltered, nullptr, nullptr, nullptr, nullptr);
-  const float rayFar = picture.rayFar();
-  return picture.visitTiles(picture.allSamples(),
-    [&](TracedTile& tile)
-    {
-      std::size_t count = 0;
-      for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
-      {
-        const std::size_t of = tile.needed[pixel] != 0 ? tile.pixelOfPicture(pixel) : pixels;
-        if (of == pixels || visibility[of] == 0.0f)
-        {
-          continue;
-        }
-        const glm::dvec3 left =
-          this->transmittanceOf(tile.origin(pixel), tile.direction(pixel), rayFar);
-        for (std::size_t channel = 0; channel < channels; ++channel)
-        {
-          visibility[channel * pixels + of] *=
-            static_cast<float>(left[static_cast<glm::length_t>(channel)]);
-        }
-        ++count;
-      }
-      return count;
-    });
 }
 
 //------------------------------------------------------------------------------

@@ -1,14 +1,12 @@
 #pragma once
 
 #include "shadowtech/base/Occluders.h"
-#include "shadowtech/base/Receivers.h"
 #include "shadowtech/tracing/RayFilter.h"
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 namespace gnomon
 {
@@ -36,15 +34,6 @@ public:
   /// Return the product over the ray's crossings (Sheet).
   glm::dvec3 transmittanceOf(
     const glm::vec3& origin, const glm::vec3& direction, float rayFar) const override;
-
-  /// Multiply a picture's visibility by what the sheets leave of each pixel's shadow ray to the
-  /// light's centre. Only rays of pixels that are not dark are asked.
-  /// @param occluders the snapshot of the last update
-  /// @param visibility one value per pixel of the picture. With coloured sheets it becomes three
-  /// images, one after the other
-  /// @return the number of rays
-  std::size_t scale(const ShadowLight& light, const Occluders& occluders,
-    const Receivers& receivers, std::vector<float>& visibility) const;
 
   /// Return the bytes of the structure and of its tables.
   std::size_t bytes() const;

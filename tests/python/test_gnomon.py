@@ -11,9 +11,10 @@ from unittest import mock
 
 import numpy
 from vtkmodules.vtkCommonCore import vtkObject, vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPiecewiseFunction
 from vtkmodules.vtkFiltersSources import vtkPointSource, vtkSphereSource
-from vtkmodules.util.vtkConstants import VTK_DOUBLE
-from vtkmodules.vtkRenderingCore import vtkLight, vtkLightKit, vtkRenderer
+from vtkmodules.util.vtkConstants import VTK_DOUBLE, VTK_FLOAT
+from vtkmodules.vtkRenderingCore import vtkLight, vtkLightKit, vtkRenderer, vtkVolume
 from vtkmodules.vtkRenderingOpenGL2 import (
     vtkCameraPass,
     vtkDepthOfFieldPass,
@@ -26,6 +27,8 @@ from vtkmodules.vtkRenderingOpenGL2 import (
     vtkShadowMapPass,
     vtkSobelGradientMagnitudePass,
 )
+from vtkmodules.vtkRenderingVolume import vtkFixedPointVolumeRayCastMapper
+import vtkmodules.vtkRenderingVolumeOpenGL2  # noqa: F401
 
 import gnomon
 from gnomon.images import _pixels
@@ -573,6 +576,34 @@ class Shadows(unittest.TestCase):
 
         self.assertLessEqual(shades(False), {0.0, 1.0})
         self.assertIn(0.25, shades(True))  # two walls of the ball
+
+    def test_volumes_cast(self):
+        scene = Scene()
+        smoke = vtkImageData()
+        smoke.SetDimensions(2, 2, 2)
+        smoke.SetOrigin(-3.0, -3.0, 1.5)
+        smoke.SetSpacing(6.0, 6.0, 1.0)
+        smoke.AllocateScalars(VTK_FLOAT, 1)
+        smoke.GetPointData().GetScalars().Fill(1.0)
+        smoke.SetScalarComponentFromDouble(0, 0, 0, 0, 0.0)
+        opacity = vtkPiecewiseFunction()
+        opacity.AddPoint(0.0, 0.5)
+        volume = vtkVolume()
+        volume.SetMapper(vtkFixedPointVolumeRayCastMapper())
+        volume.GetMapper().SetInputData(smoke)
+        volume.GetProperty().SetScalarOpacity(opacity)
+        scene.renderer.AddVolume(volume)
+
+        def shades(volumes):
+            shadows = gnomon.add_shadows(scene.renderer, volumes=volumes)
+            shadows.KeepVisibilityOn()
+            scene.window.Render()
+            seen = gnomon.visibility(shadows)
+            light = next(name for name in seen if name.startswith("light"))
+            return numpy.unique(seen[light].round(3)).tolist()
+
+        self.assertLessEqual(set(shades(False)), {0.0, 1.0})
+        self.assertTrue(any(0.1 < value < 0.6 for value in shades(True)))
 
     def test_a_sky(self):
         scene = Scene()

@@ -84,7 +84,8 @@ def valid_calls(scene):
     keywords = {"target": scene.renderer, "technique": "pcf", "light": None, "map_size": 64}
     return {
         "add_shadows": {
-            **keywords, "sky": 0.4, "glass": True, "keep_visibility": True, "casting": "all",
+            **keywords, "sky": 0.4, "glass": True, "volumes": True, "keep_visibility": True,
+            "casting": "all",
         },
         "shadows": keywords,
         "remove_shadows": {"target": scene.renderer},

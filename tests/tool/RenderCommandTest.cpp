@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <numeric>
 #include <thread>
 
 namespace gnomon::tool
@@ -185,6 +186,19 @@ TEST_F(RenderCommand, GlassLeavesTranslucentModelsTheirLight)
   const std::string options = "--ambient 0 --technique raytraced";
   EXPECT_EQ(darkest(this->pictureOf(pane, options)), 0);
   EXPECT_GT(darkest(this->pictureOf(pane, options + " --glass")), 40);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(RenderCommand, VolumesCastIfAsked)
+{
+  const auto seenOf = [this](const std::string& options)
+  {
+    const ChannelImage image = this->visibilityOf("props", options);
+    const std::vector<float>& seen = image.channels.at("visibility.0");
+    return std::accumulate(seen.begin(), seen.end(), 0.0);
+  };
+  const std::string options = "--technique raytraced";
+  EXPECT_LT(seenOf(options + " --volumes"), seenOf(options) - 1.0);
 }
 
 //------------------------------------------------------------------------------

@@ -130,6 +130,7 @@ def add_shadows(
     light: Literal["auto", "key+fill"] | None = "auto",
     sky: float = 0.0,
     glass: bool = False,
+    volumes: bool = False,
     keep_visibility: bool = False,
     casting: Literal["auto", "all", "brightest"] = "auto",
     **settings: str | float | bool,
@@ -149,6 +150,8 @@ def add_shadows(
         Intensity of a sky: 0.4 brightens what is in shadow, but for corners.
     glass : bool, optional
         True has translucent props cast: vtkGnomonShadowPass.SetTranslucentCasters().
+    volumes : bool, optional
+        True has volumes cast: vtkGnomonShadowPass.SetVolumeCasters().
     keep_visibility : bool, optional
         True to keep the data that `visibility` returns.
     casting : str, optional
@@ -192,6 +195,8 @@ def add_shadows(
         shadows.sky_intensity = sky
     with naming("glass"):
         shadows.translucent_casters = glass
+    with naming("volumes"):
+        shadows.volume_casters = volumes
     shadows.keep_visibility = keep_visibility
     shadows.casting = casting
     for name, value in settings.items():

@@ -416,7 +416,8 @@ TEST(OccluderProps, LinesPointsAndVolumesAreListed)
     EXPECT_TRUE(scene.occluders().allCentred.empty());
     EXPECT_THAT(scene.collector.leftOut(),
       UnorderedElementsAre("vtkOpenGLActor (as a wireframe)", "vtkOpenGLActor (as points)",
-        "vtkOpenGLPolyDataMapper (lines or points)", "vtkVolume (mapper not served)"));
+        "vtkOpenGLPolyDataMapper (lines or points)", "vtkVolume (mapper not served)",
+        "vtkVolume (casts nothing)"));
   }
   for (vtkProperty* property : { wires, points, outline })
   {

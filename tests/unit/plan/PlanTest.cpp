@@ -211,6 +211,25 @@ TEST(Plan, countsTheLayersOfLightsBehindGlass)
   EXPECT_EQ(planLights(scene, wishes).lights.size(), 0u);
 }
 
+/// Shaders read what volumes leave; what glass leaves, rays alone can tell.
+TEST(Plan, tracesMapsBehindGlassAndNotBehindVolumes)
+{
+  Scene scene = sceneOf({ "nsm", "raytraced" });
+  scene.props.transmits = true;
+  const auto techniques = [&]
+  {
+    std::vector<std::string> names;
+    for (const LightPlan& plan : planLights(scene, {}).lights)
+    {
+      names.push_back(plan.light.technique + (plan.marches ? " that marches" : ""));
+    }
+    return names;
+  };
+  EXPECT_THAT(techniques(), testing::ElementsAre("nsm", "raytraced that marches"));
+  scene.props.sheets = true;
+  EXPECT_THAT(techniques(), testing::ElementsAre("raytraced", "raytraced that marches"));
+}
+
 TEST(Plan, tracesLightsWithoutRoomForAMap)
 {
   Scene scene = sceneOf({ "nsm", "nsm" });

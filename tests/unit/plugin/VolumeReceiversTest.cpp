@@ -274,7 +274,7 @@ TEST_F(VolumeReceivers, otherVolumesStayAsTheyAre)
   this->addSlab();
   this->scene.pass->VolumesReceiveOff();
   this->expectPlain("switched off");
-  EXPECT_THAT(this->told(), testing::HasSubstr("vtkVolume (a volume)"));
+  EXPECT_THAT(this->told(), testing::HasSubstr("vtkVolume (casts nothing)"));
   this->scene.pass->VolumesReceiveOn();
   EXPECT_GT(differingPixels(this->scene.render(), this->scene.renderPlain()), 100u);
   vtkGnomonPropKeys::SetReceives(this->volume, false);

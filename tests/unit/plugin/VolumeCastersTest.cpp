@@ -1,0 +1,531 @@
+// Shadows of volumes: what they let through, as VTK draws them.
+
+#include "PassScene.h"
+
+#include <vtkCellData.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkFixedPointVolumeRayCastMapper.h>
+#include <vtkInformation.h>
+#include <vtkOpenGLGPUVolumeRayCastMapper.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlane.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkSmartVolumeMapper.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// A volume of black smoke whose parts can be changed before it is drawn.
+struct Smoke
+{
+  vtkNew<vtkImageData> image;
+  vtkNew<vtkOpenGLGPUVolumeRayCastMapper> mapper;
+  vtkNew<vtkPiecewiseFunction> opacity;
+  vtkNew<vtkVolume> volume;
+
+  /// Fill the cube of side 2 above (0, 0, 0.5).
+  explicit Smoke(const glm::ivec3& samples = glm::ivec3(33))
+  {
+    const glm::dvec3 spacing = 2.0 / glm::dvec3(samples - 1);
+    this->image->SetDimensions(samples.x, samples.y, samples.z);
+    this->image->SetSpacing(spacing.x, spacing.y, spacing.z);
+    this->image->SetOrigin(-1.0, -1.0, 0.5);
+    this->mapper->SetInputData(this->image);
+    this->mapper->SetAutoAdjustSampleDistances(false);
+    this->mapper->SetSampleDistance(0.01f);
+    this->volume->SetMapper(this->mapper);
+    this->setScalars(1, [](int, const glm::dvec3&) { return 100.0; });
+    this->opacity->AddPoint(0.0, 0.0);
+    this->opacity->AddPoint(200.0, 0.8);
+    vtkNew<vtkColorTransferFunction> black;
+    black->AddRGBPoint(0.0, 0.0, 0.0, 0.0);
+    for (int component = 0; component < 4; ++component)
+    {
+      this->property()->SetColor(component, black);
+      this->property()->SetScalarOpacity(component, this->opacity);
+    }
+    this->property()->SetInterpolationTypeToLinear();
+    this->property()->ShadeOff();
+  }
+
+  vtkVolumeProperty* property() { return this->volume->GetProperty(); }
+  /// Set scalars by a formula of places from -1 to 1. One corner has 0 and the opposite one 200, so
+  /// that they span the range.
+  template <typename ScalarAt>
+  void setScalars(int components, const ScalarAt& scalarAt, int type = VTK_FLOAT)
+  {
+    this->image->AllocateScalars(type, components);
+    const int* const size = this->image->GetDimensions();
+    const glm::dvec3 last = glm::dvec3(size[0], size[1], size[2]) - 1.0;
+    for (int z = 0; z < size[2]; ++z)
+    {
+      for (int y = 0; y < size[1]; ++y)
+      {
+        for (int x = 0; x < size[0]; ++x)
+        {
+          for (int c = 0; c < components; ++c)
+          {
+            this->image->SetScalarComponentFromDouble(
+              x, y, z, c, scalarAt(c, 2.0 * glm::dvec3(x, y, z) / last - 1.0));
+          }
+        }
+      }
+    }
+    for (int c = 0; c < components; ++c)
+    {
+      this->image->SetScalarComponentFromDouble(0, 0, 0, c, 0.0);
+      this->image->SetScalarComponentFromDouble(size[0] - 1, size[1] - 1, size[2] - 1, c, 200.0);
+    }
+  }
+  /// Scalars that vary in all directions.
+  void setWaves(int components)
+  {
+    this->setScalars(components,
+      [](int c, const glm::dvec3& at)
+      { return 100.0 + 60.0 * std::sin(3.0 * at.x + c) * std::cos(2.0 * at.y + at.z - c); });
+  }
+};
+
+/// A lit floor under smoke, seen from above.
+class VolumeCasters : public PassTest
+{
+protected:
+  VolumeCasters()
+  {
+    this->scene.addFloor(8.0);
+    this->sun = this->scene.addSun({ 0.0, 0.0, -1.0 });
+    this->scene.lookDown(2.0);
+    this->scene.pass->VolumeCastersOn();
+  }
+
+  void add(Smoke& smoke) { this->scene.renderer->AddVolume(smoke.volume); }
+  /// Return the visibility of the floor at a pixel of the middle row.
+  float seen(const char* text = "", int column = 24)
+  {
+    const VisibilityImages& kept = drawKept(this->scene, text);
+    return kept.visibility[0][static_cast<std::size_t>(24 * 48 + column)];
+  }
+  std::string notes() { return testing::PrintToString(this->scene.report().notes); }
+
+  PassScene scene{ 48, 48 };
+  vtkLight* sun;
+};
+
+TEST_F(VolumeCasters, LeaveWhatTheSlabsFormulaSays)
+{
+  Smoke smoke; // opacity 0.4 a unit, 2 high
+  this->add(smoke);
+  for (const char* const technique :
+    { "raytraced", "silhouette", "crsm", "selective", "raytraced edge_samples=4", "auto" })
+  {
+    EXPECT_NEAR(this->seen(technique), 0.36, 1e-3) << technique;
+    EXPECT_EQ(this->seen("", 2), 1.0f) << technique;
+  }
+  this->scene.choose("raytraced");
+  // Light and camera both look through the smoke.
+  EXPECT_NEAR(this->scene.redAt(this->scene.render(), 0.0, 0.0), 255.0 * 0.36 * 0.36, 1.5);
+}
+
+TEST_F(VolumeCasters, TechniquesThatDrawOnTheScreenTakeRaysAndSayWhy)
+{
+  Smoke smoke;
+  this->add(smoke);
+  for (const char* const technique : { "planar", "montecarlo", "sampled" })
+  {
+    EXPECT_NEAR(this->seen(technique), 0.36, 1e-3) << technique;
+    EXPECT_THAT(this->notes(), testing::HasSubstr("cannot show how much light")) << technique;
+  }
+}
+
+/// A light, and a technique that shaders call.
+struct ShaderCase
+{
+  const char* name;
+  glm::dvec3 position;
+  bool isLamp;
+  Way way;
+};
+
+struct VolumesInShaders
+  : VolumeCasters
+  , testing::WithParamInterface<ShaderCase>
+{
+};
+
+TEST_P(VolumesInShaders, LeaveTheLightThatRaysFind)
+{
+  const ShaderCase& of = this->GetParam();
+  this->sun->SetPosition(of.position.x, of.position.y, of.position.z);
+  this->sun->SetFocalPoint(0.0, 0.0, 0.0);
+  this->sun->SetPositional(of.isLamp);
+  this->sun->SetConeAngle(of.isLamp ? 180.0 : 30.0);
+  Smoke smoke;
+  smoke.setWaves(1);
+  this->add(smoke);
+  this->scene.lookFrom({ 3.0, -5.0, 6.0 });
+  const Picture traced = this->scene.render(tracedWay);
+  const Picture shaded = this->scene.render(of.way);
+  EXPECT_EQ(this->scene.report().lights[0].technique, of.way.technique);
+  const Picture plain = this->scene.renderPlain();
+  double error = 0.0, darkness = 0.0;
+  for (int y = 0; y < 48; ++y)
+  {
+    for (int x = 0; x < 48; ++x)
+    {
+      error += std::abs(shaded.at(x, y).r - traced.at(x, y).r) / (48.0 * 48.0);
+      darkness += (plain.at(x, y).r - traced.at(x, y).r) / (48.0 * 48.0);
+    }
+  }
+  EXPECT_LT(error, 0.5);
+  EXPECT_GT(darkness, 5.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(, VolumesInShaders,
+  testing::Values(ShaderCase{ "SunInline", { 0.5, -0.3, 1.0 }, false,
+                    { "nsm", vtkGnomonShadowPass::ROUTE_INLINE } },
+    ShaderCase{
+      "SunImage", { 0.5, -0.3, 1.0 }, false, { "vsm", vtkGnomonShadowPass::ROUTE_IMAGE } },
+    ShaderCase{
+      "LampInline", { 1.5, -0.3, 7.0 }, true, { "pcf", vtkGnomonShadowPass::ROUTE_INLINE } },
+    ShaderCase{
+      "LampImage", { 1.5, -0.3, 7.0 }, true, { "nsm", vtkGnomonShadowPass::ROUTE_IMAGE } },
+    ShaderCase{
+      "LampInsideInline", { 0.2, -0.3, 1.7 }, true, { "nsm", vtkGnomonShadowPass::ROUTE_INLINE } },
+    ShaderCase{
+      "LampInsideImage", { 0.2, -0.3, 1.7 }, true, { "nsm", vtkGnomonShadowPass::ROUTE_IMAGE } }),
+  byName);
+
+/// Shaders of translucent surfaces read the stack, too.
+TEST_F(VolumeCasters, DarkenGlassBelow)
+{
+  Smoke smoke;
+  this->add(smoke);
+  vtkActor* const pane = this->scene.addFloor(4.0, 0.2);
+  pane->GetProperty()->SetOpacity(0.5);
+  const int lit = this->scene.redAt(this->scene.render("raytraced"), 1.9, 0.0);
+  EXPECT_NEAR(this->scene.redAt(this->scene.render(), 0.0, 0.0), 0.36 * 0.36 * lit, 2.5);
+}
+
+/// Volumes behind the face where a light's box begins take nothing of it, in shaders either.
+TEST_F(VolumeCasters, BehindALightTakeNothing)
+{
+  Smoke smoke;
+  this->add(smoke);
+  this->sun->SetPosition(0.0, 0.0, 0.4);
+  this->sun->SetFocalPoint(0.0, 0.0, 0.0);
+  const double up[3] = { 0.0, 1.0, 0.0 };
+  vtkGnomonLightKeys::SetBox(this->sun, 8.0, 8.0, 1.0, up);
+  for (const char* const technique : { "raytraced", "crsm", "nsm" })
+  {
+    EXPECT_EQ(this->seen(technique), 1.0f) << technique;
+  }
+}
+
+TEST_F(VolumeCasters, MultiplyWithGlassAndEndAtOpaqueProps)
+{
+  Smoke smoke;
+  this->add(smoke);
+  vtkActor* const pane = this->scene.addFloor(4.0, 3.0);
+  pane->GetProperty()->SetOpacity(0.5);
+  vtkGnomonPropKeys::SetCasts(pane, true);
+  EXPECT_NEAR(this->seen("raytraced"), 0.18, 1e-3);
+  this->scene.addBox({ 1.0, -1.0, 3.5 }, { 2.0, 1.0, 3.6 });
+  EXPECT_NEAR(this->seen(), 0.18, 1e-3);
+  this->sun->SetPosition(1.5, 0.0, 3.5);
+  this->sun->SetFocalPoint(0.0, 0.0, 0.0);
+  EXPECT_EQ(this->seen(), 0.0f);
+}
+
+TEST_F(VolumeCasters, AreaLightsLoseLightSampleBySample)
+{
+  this->scene.renderer->RemoveAllLights();
+  vtkNew<vtkGnomonAreaLight> lamp;
+  lamp->SetPosition(0.0, 0.0, 30.0);
+  lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  lamp->SetPositional(true);
+  lamp->SetRadius(0.5);
+  this->scene.renderer->AddLight(lamp);
+  Smoke smoke;
+  this->add(smoke);
+  for (const char* const technique : { "raytraced", "penumbra" })
+  {
+    EXPECT_NEAR(this->seen(technique), 0.36, 0.01) << technique;
+  }
+}
+
+TEST_F(VolumeCasters, CastOnlyIfAsked)
+{
+  Smoke smoke;
+  this->add(smoke);
+  EXPECT_LT(this->seen("raytraced"), 0.5f);
+  vtkGnomonPropKeys::SetCasts(smoke.volume, false);
+  EXPECT_EQ(this->seen(), 1.0f);
+  this->scene.pass->VolumeCastersOff();
+  EXPECT_EQ(this->seen(), 1.0f);
+  vtkGnomonPropKeys::SetCasts(smoke.volume, true);
+  EXPECT_LT(this->seen(), 0.5f);
+  smoke.volume->GetPropertyKeys()->Clear();
+  EXPECT_EQ(this->seen(), 1.0f);
+  EXPECT_THAT(this->notes(), testing::HasSubstr("SetVolumeCasters()"));
+  smoke.volume->VisibilityOff();
+  this->scene.pass->VolumeCastersOn();
+  EXPECT_EQ(this->seen(), 1.0f);
+}
+
+TEST_F(VolumeCasters, FollowChanges)
+{
+  Smoke smoke;
+  this->add(smoke);
+  EXPECT_NEAR(this->seen("raytraced"), 0.36, 1e-3);
+  smoke.property()->SetScalarOpacityUnitDistance(2.0);
+  EXPECT_NEAR(this->seen(), 0.6, 1e-3);
+  smoke.opacity->AddPoint(200.0, 0.4);
+  EXPECT_NEAR(this->seen(), 0.8, 1e-3);
+  smoke.setScalars(1, [](int, const glm::dvec3&) { return 0.0; });
+  smoke.image->Modified();
+  EXPECT_NEAR(this->seen(), 1.0, 1e-6);
+  smoke.setScalars(1, [](int, const glm::dvec3&) { return 100.0; });
+  smoke.image->Modified();
+  EXPECT_NEAR(this->seen(), 0.8, 1e-3);
+  smoke.volume->SetPosition(-1.2, 0.0, 0.0);
+  EXPECT_EQ(this->seen(), 1.0f);
+  EXPECT_NEAR(this->seen("", 8), 0.8, 1e-3);
+}
+
+/// A way in which VTK decides the opacity of a sample.
+struct OpacityWay
+{
+  const char* name;
+  void (*change)(Smoke&);
+};
+
+struct DrawnVolumes
+  : VolumeCasters
+  , testing::WithParamInterface<OpacityWay>
+{
+};
+
+TEST_P(DrawnVolumes, CastWhatVtkDraws)
+{
+  Smoke smoke({ 33, 17, 25 });
+  smoke.setWaves(1);
+  this->GetParam().change(smoke);
+  this->add(smoke);
+  this->scene.choose("raytraced");
+  const Picture plain = this->scene.renderPlain();
+  const Picture shadowed = this->scene.render();
+  double error = 0.0;
+  int darkened = 0, differ = 0;
+  for (int y = 4; y < 44; ++y)
+  {
+    for (int x = 4; x < 44; ++x)
+    {
+      // The light takes the camera's way.
+      const double left = plain.at(x, y).r / 255.0;
+      const double difference = std::abs(shadowed.at(x, y).r - 255.0 * left * left);
+      error += difference / (40.0 * 40.0);
+      differ += difference > 6.0 ? 1 : 0;
+      darkened += left < 0.95 ? 1 : 0;
+    }
+  }
+  EXPECT_LT(error, 0.5);
+  EXPECT_LT(differ, 20) << "but for pixels at edges";
+  EXPECT_GT(darkened, 100);
+  EXPECT_EQ(this->scene.report().notes.size(), 0u) << this->notes();
+}
+
+const OpacityWay drawnWays[] = {
+  { "Plain", [](Smoke&) {} },
+  { "Shorts",
+    [](Smoke& smoke)
+    {
+      smoke.setScalars(
+        1, [](int, const glm::dvec3& at) { return 100.0 + 80.0 * at.x * at.y; }, VTK_SHORT);
+    } },
+  { "Doubles",
+    [](Smoke& smoke)
+    {
+      smoke.setScalars(
+        1, [](int, const glm::dvec3& at) { return 100.0 + 80.0 * at.x * at.y; }, VTK_DOUBLE);
+    } },
+  { "Nearest", [](Smoke& smoke) { smoke.property()->SetInterpolationTypeToNearest(); } },
+  { "UnitDistance", [](Smoke& smoke) { smoke.property()->SetScalarOpacityUnitDistance(0.5); } },
+  { "Steps",
+    [](Smoke& smoke)
+    {
+      smoke.opacity->RemoveAllPoints();
+      smoke.opacity->AddPoint(0.0, 0.0);
+      smoke.opacity->AddPoint(119.9, 0.0);
+      smoke.opacity->AddPoint(120.0, 1.0);
+    } },
+  { "GradientOpacity",
+    [](Smoke& smoke)
+    {
+      vtkNew<vtkPiecewiseFunction> gradient;
+      gradient->AddPoint(0.0, 0.0);
+      gradient->AddPoint(10.0, 1.0);
+      smoke.property()->SetGradientOpacity(gradient);
+    } },
+  { "NoGradientOpacity",
+    [](Smoke& smoke)
+    {
+      vtkNew<vtkPiecewiseFunction> gradient;
+      gradient->AddPoint(0.0, 0.0);
+      smoke.property()->SetGradientOpacity(gradient);
+      smoke.property()->DisableGradientOpacityOn();
+    } },
+  { "Rotated", [](Smoke& smoke) { smoke.volume->RotateWXYZ(30.0, 1.0, 2.0, 3.0); } },
+  { "Scaled", [](Smoke& smoke) { smoke.volume->SetScale(0.7, 1.2, 0.6); } },
+  { "Directed",
+    [](Smoke& smoke)
+    {
+      smoke.image->SetDirectionMatrix(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+      smoke.image->SetOrigin(1.0, -1.0, 0.5);
+    } },
+  { "Masked",
+    [](Smoke& smoke)
+    {
+      vtkNew<vtkImageData> mask;
+      mask->CopyStructure(smoke.image);
+      mask->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+      auto* const texels = static_cast<unsigned char*>(mask->GetScalarPointer());
+      for (int i = 0; i < 33 * 17 * 25; ++i)
+      {
+        texels[i] = i % 33 < 20 ? 255 : 0;
+      }
+      smoke.mapper->SetMaskInput(mask);
+      smoke.mapper->SetMaskTypeToBinary();
+    } },
+  { "Cropped",
+    [](Smoke& smoke)
+    {
+      smoke.mapper->CroppingOn();
+      smoke.mapper->SetCroppingRegionPlanes(-0.5, 0.25, -0.3, 0.6, 0.9, 2.0);
+      smoke.mapper->SetCroppingRegionFlagsToFence();
+    } },
+  { "Clipped",
+    [](Smoke& smoke)
+    {
+      vtkNew<vtkPlane> plane;
+      plane->SetOrigin(0.2, 0.0, 1.0);
+      plane->SetNormal(-1.0, 0.3, 0.5);
+      smoke.mapper->AddClippingPlane(plane);
+    } },
+  { "TwoIndependent",
+    [](Smoke& smoke)
+    {
+      smoke.setWaves(2);
+      smoke.property()->SetComponentWeight(0, 0.7);
+      smoke.property()->SetComponentWeight(1, 0.4);
+    } },
+  { "FourIndependent",
+    [](Smoke& smoke)
+    {
+      smoke.setWaves(4);
+      for (int component = 0; component < 4; ++component)
+      {
+        smoke.property()->SetComponentWeight(component, 0.25);
+      }
+    } },
+  { "TwoDependent",
+    [](Smoke& smoke)
+    {
+      smoke.setWaves(2);
+      smoke.property()->IndependentComponentsOff();
+    } },
+  { "FourDependent",
+    [](Smoke& smoke)
+    {
+      smoke.setScalars(
+        4, // black
+        [](int c, const glm::dvec3& at) { return c < 3 ? 0.0 : 100.0 + 80.0 * at.x * at.y; },
+        VTK_UNSIGNED_CHAR);
+      for (int colour = 0; colour < 3; ++colour)
+      {
+        smoke.image->SetScalarComponentFromDouble(32, 16, 24, colour, 0.0);
+      }
+      smoke.property()->IndependentComponentsOff();
+    } },
+};
+INSTANTIATE_TEST_SUITE_P(, DrawnVolumes, testing::ValuesIn(drawnWays), byName);
+
+TEST_F(VolumeCasters, ScalarsOfCellsFillTheCells)
+{
+  Smoke smoke;
+  smoke.image->GetPointData()->SetScalars(nullptr);
+  vtkNew<vtkFloatArray> scalars;
+  for (int i = 0; i < 32 * 32 * 32; ++i)
+  {
+    scalars->InsertNextValue(i == 0 ? 0.0f : i == 1 ? 200.0f : 100.0f);
+  }
+  smoke.image->GetCellData()->SetScalars(scalars);
+  this->add(smoke);
+  EXPECT_NEAR(this->seen("raytraced"), 0.36, 1e-3);
+}
+
+TEST_F(VolumeCasters, OfOtherMappersCastAlike)
+{
+  Smoke smoke;
+  this->add(smoke);
+  vtkNew<vtkSmartVolumeMapper> smart;
+  vtkNew<vtkFixedPointVolumeRayCastMapper> fixed;
+  for (vtkVolumeMapper* const mapper :
+    { static_cast<vtkVolumeMapper*>(smart), static_cast<vtkVolumeMapper*>(fixed) })
+  {
+    mapper->SetInputDataObject(smoke.image);
+    smoke.volume->SetMapper(mapper);
+    EXPECT_NEAR(this->seen("raytraced"), 0.36, 1e-3) << mapper->GetClassName();
+  }
+}
+
+TEST_F(VolumeCasters, ThatCannotBeServedAreNamed)
+{
+  const auto expectNamed = [this](vtkVolume* volume, const char* why)
+  {
+    this->scene.renderer->AddVolume(volume);
+    EXPECT_EQ(this->seen("raytraced"), 1.0f) << why;
+    EXPECT_THAT(this->notes(), testing::HasSubstr(why));
+    this->scene.renderer->RemoveVolume(volume);
+    this->takeErrors(); // VTK's own, of volumes that it does not draw either
+  };
+  Smoke smoke;
+  smoke.mapper->SetBlendModeToMaximumIntensity();
+  expectNamed(smoke.volume, "not composited");
+  smoke.mapper->SetBlendModeToComposite();
+  smoke.setWaves(3);
+  smoke.property()->IndependentComponentsOff();
+  expectNamed(smoke.volume, "its components decide no opacity");
+  smoke.property()->IndependentComponentsOn();
+  smoke.setWaves(1);
+  vtkNew<vtkImageData> labels;
+  labels->CopyStructure(smoke.image);
+  labels->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  smoke.mapper->SetMaskInput(labels);
+  smoke.mapper->SetMaskTypeToLabelMap();
+  expectNamed(smoke.volume, "its mask is not binary");
+  smoke.mapper->SetMaskInput(nullptr);
+  vtkNew<vtkRectilinearGrid> grid;
+  smoke.mapper->SetInputDataObject(grid);
+  expectNamed(smoke.volume, "its grid is no image");
+}
+
+TEST_F(VolumeCasters, ScenesWithoutThemKeepTheirBytes)
+{
+  this->scene.addThings();
+  for (const char* const technique : { "raytraced", "crsm", "pcf", "auto" })
+  {
+    this->scene.choose(technique);
+    this->scene.pass->VolumeCastersOff();
+    const Picture without = this->scene.render();
+    this->scene.pass->VolumeCastersOn();
+    EXPECT_TRUE(this->scene.render() == without) << technique;
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
