@@ -4,7 +4,7 @@
 # libraries and programs depend on, so packages fit the release of Debian that they are built on.
 find_program(GNOMON_DPKG dpkg)
 mark_as_advanced(GNOMON_DPKG)
-if(NOT GNOMON_DPKG)
+if(NOT GNOMON_DPKG OR SKBUILD)
   return()
 endif()
 

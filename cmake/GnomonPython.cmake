@@ -18,7 +18,7 @@ vtk_module_wrap_python(
 set(gnomon_python_folder "${PROJECT_SOURCE_DIR}/plugin/python/gnomon")
 set(gnomon_built_package "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}")
 set(gnomon_python_sources __init__.py arguments.py attributes.py catalogue.py data.py errors.py
-  figure.py holders.py images.py lighting.py why.py)
+  figure.py holders.py images.py lighting.py program.py why.py)
 foreach(source IN LISTS gnomon_python_sources)
   configure_file("${gnomon_python_folder}/${source}" "${gnomon_built_package}/gnomon/${source}"
     COPYONLY)
@@ -53,9 +53,11 @@ install(FILES ${gnomon_stubs} "${gnomon_built_package}/gnomon/py.typed"
     "${gnomon_built_package}/gnomon/_version.py"
   DESTINATION "${GNOMON_PYTHON_DESTINATION}/gnomon"
   COMPONENT python)
-install(FILES "${gnomon_built_package}/${gnomon_metadata}/METADATA"
-  DESTINATION "${GNOMON_PYTHON_DESTINATION}/${gnomon_metadata}"
-  COMPONENT python)
+if(NOT SKBUILD) # wheels have pip's
+  install(FILES "${gnomon_built_package}/${gnomon_metadata}/METADATA"
+    DESTINATION "${GNOMON_PYTHON_DESTINATION}/${gnomon_metadata}"
+    COMPONENT python)
+endif()
 install(DIRECTORY "${gnomon_python_folder}" DESTINATION "${GNOMON_PYTHON_DESTINATION}"
   COMPONENT python
   FILES_MATCHING PATTERN "*.py")

@@ -1,0 +1,69 @@
+#!/bin/bash
+# Installs Gnomon by pip in a chroot of Debian 13, from its source distribution, without network, in
+# a virtual environment that sees the system's VTK; then draws a shadow, runs the program and
+# uninstalls. Runs as root and needs debootstrap.
+#
+#   tests/pip/run.sh [--fresh]
+#
+# The chroot stays in the temporary folder (TMPDIR) for the next run; --fresh makes a new one.
+set -euo pipefail
+script=$(realpath "${BASH_SOURCE[0]}")
+project=$(realpath "$(dirname "$script")/../..")
+source "$project/tests/debian/chroot.sh"
+own_mounts "$script" "$@"
+
+release=trixie # whose archive has scikit-build-core
+folder=${TMPDIR:-/tmp}/gnomon-pip
+root=$folder/$release
+
+step=starting
+trap 'echo "pip FAILED while $step, after $SECONDS s." >&2' ERR
+
+# announce STEP: starts a step and says so.
+announce()
+{
+  step="$1"
+  echo "$SECONDS s: $step"
+}
+
+# offline COMMAND: runs a shell's command in the chroot, without network.
+offline()
+{
+  inside "$root" unshare --net bash -ec "cd /tmp/pip; PATH=/tmp/pip/venv/bin:\$PATH; $1"
+}
+
+announce "making the chroot"
+if [ "${1:-}" = --fresh ]; then
+  remove_chroot "$root"
+fi
+make_chroot "$release" "$root" "$folder/$release.log"
+mount_chroot "$root" "$project"
+# shellcheck disable=SC2046 # the packages are words
+logged packages install_inside "$root" $(debian_packages "$project") \
+  python3-build python3-scikit-build-core python3-venv
+inside "$root" sh -c 'rm -rf /tmp/pip && mkdir /tmp/pip'
+inside "$root" dpkg-query -W -f '${Package} ${Version}\n' python3-scikit-build-core python3-vtk9
+
+announce "making the source distribution"
+logged sdist offline 'python3 -m build --sdist --no-isolation --outdir . /src'
+offline 'du -h *.tar.gz; tar xf *.tar.gz; rm *.tar.gz; mv gnomon-* source'
+
+announce "installing by pip"
+offline 'python3 -m venv --system-site-packages venv; find venv | sort > before'
+start=$SECONDS
+logged install offline 'time pip install --no-index --no-build-isolation ./source'
+tail -n 3 "$folder/$release-install.log"
+echo "pip install took $((SECONDS - start)) s."
+
+announce "drawing a shadow"
+offline 'python /src/tests/python/test_facade_hours.py .'
+offline 'python /src/examples/shadows.py shadows.png | tee said; grep -q "In shadow: [1-9]" said'
+cp "$root/tmp/pip/shadows.png" "$folder"
+
+announce "running the program"
+offline 'gnomon --version; gnomon render bunny -o bunny.png --size 64x64'
+offline 'pip show --files gnomon > files; cat files; ! grep -E "include|share|cmake|\.so\." files'
+
+announce "uninstalling"
+offline 'pip uninstall --yes gnomon; find venv | sort | diff before -'
+echo "$SECONDS s: pip passed"
