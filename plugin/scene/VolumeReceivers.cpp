@@ -1,5 +1,7 @@
 #include "plugin/scene/VolumeReceivers.h"
 
+#include "plugin/vtk_versions/VolumeLights.h"
+
 #include "vtkAbstractVolumeMapper.h"
 #include "vtkSmartVolumeMapper.h"
 #include "vtkVolume.h"
@@ -27,7 +29,7 @@ bool isCastOnGpu(vtkAbstractVolumeMapper* mapper)
 const char* reasonAgainst(vtkVolume* volume)
 {
   vtkAbstractVolumeMapper* const mapper = volume->GetMapper();
-  if (!isCastOnGpu(mapper))
+  if (!numbersLightsAlike || !isCastOnGpu(mapper))
   {
     return "mapper not served";
   }

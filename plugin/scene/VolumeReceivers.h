@@ -10,7 +10,7 @@ namespace gnomon
 {
 
 /// Return why a volume's samples can show no shadows; null if they can: VTK casts the volume's rays
-/// on the GPU, and lights what it composes.
+/// on the GPU, and lights what it composes, with lights numbered as those of surfaces.
 const char* reasonAgainst(vtkVolume* volume);
 
 } // namespace gnomon

@@ -3,6 +3,7 @@
 #include "PassScene.h"
 
 #include "plugin/frame/VolumeHook.h"
+#include "plugin/vtk_versions/VolumeLights.h"
 
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
@@ -32,6 +33,14 @@ struct VolumeReceivers : PassTest
     this->card = this->scene.addBox(this->cardBox.lower, this->cardBox.upper);
     this->scene.lookDown(1.6);
     this->scene.choose("raytraced");
+  }
+
+  void SetUp() override
+  {
+    if (!numbersLightsAlike)
+    {
+      GTEST_SKIP() << "volumes are not served";
+    }
   }
 
   /// Add a slab, with scalars of points or of cells.
@@ -280,6 +289,9 @@ TEST_F(VolumeReceivers, otherVolumesStayAsTheyAre)
   vtkGnomonPropKeys::SetReceives(this->volume, false);
   this->expectPlain("by its key");
   vtkGnomonPropKeys::SetReceives(this->volume, true);
+  vtkGnomonPropKeys::SetCasts(this->card, false);
+  this->expectPlain("where nothing casts");
+  vtkGnomonPropKeys::SetCasts(this->card, true);
   this->volume->GetProperty()->ShadeOff();
   this->expectPlain("ShadeOff");
   EXPECT_THAT(this->told(), testing::HasSubstr("vtkOpenGLGPUVolumeRayCastMapper (ShadeOff)"));
