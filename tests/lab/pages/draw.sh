@@ -63,7 +63,7 @@ examples()
     drawPair $out/$example.png $programs/$example '{picture}' 320 240
   done
   for example in molecule_surface moving_light nested_surfaces shadow_catcher streamtubes \
-    terrain_sun_hours; do
+    terrain_sun_hours volume_shadows; do
     drawPair $out/$example.png /usr/bin/python3 examples/$example.py '{picture}' 320 240 1
   done
   $programs/ct_area_light $out/ct_area_light.png 640 320 # without and with shadows
