@@ -2,7 +2,6 @@
 
 #include "plugin/pass/Complaints.h"
 #include "plugin/vtk_versions/OpenGlLoading.h"
-#include "plugin/window/CurrentContext.h"
 #include "plugin/window/EglContext.h"
 
 #include "shadowtech/base/Gl.h"
@@ -168,7 +167,7 @@ void vtkGnomonEGLRenderWindow::Render()
 //------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::MakeCurrent()
 {
-  if (this->Context && gnomon::CurrentContext::isOfGlx())
+  if (this->Context && gnomon::GlxContext::isCurrent())
   {
     this->Replaced = std::make_unique<gnomon::CurrentContext>();
   }
@@ -210,7 +209,7 @@ void vtkGnomonEGLRenderWindow::ReleaseCurrent()
 {
   if (this->IsCurrent())
   {
-    eglMakeCurrent(this->Context->display(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    this->Context->release();
   }
   this->Replaced.reset();
 }
@@ -242,7 +241,7 @@ void vtkGnomonEGLRenderWindow::OpenGLInitContext()
   {
     return;
   }
-  const std::string problem = gnomon::loadOpenGl(this);
+  const std::string problem = gnomon::loadOpenGl(this, gnomon::EglContext::findFunction);
   if (!problem.empty())
   {
     this->TellOfContext("OpenGL's functions could not be loaded: " + problem + ".");

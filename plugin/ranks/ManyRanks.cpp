@@ -1,15 +1,13 @@
 #include "plugin/ranks/ManyRanks.h"
 
+#include "shadowtech/base/System.h"
+
 #include <vtkCommunicator.h>
 #include <vtkMultiProcessController.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <fstream>
 #include <thread>
-
-#include <unistd.h>
 
 namespace gnomon
 {
@@ -17,18 +15,6 @@ namespace
 {
 
 std::atomic<std::uint64_t> lastSerial{ 0 };
-
-/// Return a text that processes on one machine have in common: its name, and the number of its
-/// start, as containers on several machines may have one name.
-std::array<char, 512> nameOfMachine()
-{
-  std::array<char, 512> name{};
-  gethostname(name.data(), name.size() / 2 - 1);
-  std::string start;
-  std::ifstream("/proc/sys/kernel/random/boot_id") >> start;
-  start.copy(name.data() + name.size() / 2, name.size() / 2 - 1);
-  return name;
-}
 
 } // namespace
 

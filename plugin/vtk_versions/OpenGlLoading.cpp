@@ -4,22 +4,16 @@
 
 #include GNOMON_VTK_GL_HEADER
 
-#if GNOMON_VTK_HAS_GLAD
-#include "plugin/window/EglContext.h"
-#endif
-
 namespace gnomon
 {
 
 #if GNOMON_VTK_HAS_GLAD
 
 //------------------------------------------------------------------------------
-std::string loadOpenGl(vtkOpenGLRenderWindow* /*window*/)
+std::string loadOpenGl(vtkOpenGLRenderWindow* /*window*/, void (*(*find)(const char* name))())
 {
   // glad's own search uses libGL, which knows no function until GLX has made a context.
-  const int version = gladLoadGLUserPtr(
-    [](void*, const char* name) -> GLADapiproc { return eglGetProcAddress(name); }, nullptr);
-  return version > 0 ? "" : "EGL names none";
+  return gladLoadGL(find) > 0 ? "" : "the context names none";
 }
 
 //------------------------------------------------------------------------------
@@ -41,7 +35,7 @@ struct WindowAccess : vtkOpenGLRenderWindow
 } // namespace
 
 //------------------------------------------------------------------------------
-std::string loadOpenGl(vtkOpenGLRenderWindow* window)
+std::string loadOpenGl(vtkOpenGLRenderWindow* window, void (*(* /*find*/)(const char* name))())
 {
   // GLEW built for GLX loads the functions, then reports that there is no X display.
   const GLenum result = glewInit();

@@ -11,9 +11,10 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// Load the functions of the current OpenGL context, one of EGL's, for a window.
+/// Load the functions of the current OpenGL context for a window.
+/// @param find returns a function by its name, or null
 /// @return why that failed; empty on success
-std::string loadOpenGl(vtkOpenGLRenderWindow* window);
+std::string loadOpenGl(vtkOpenGLRenderWindow* window, void (*(*find)(const char* name))());
 
 /// Tell a window that OpenGL's functions are loaded.
 void noteLoaded(vtkOpenGLRenderWindow* window);

@@ -1,10 +1,13 @@
 #include "plugin/window/EglContext.h"
 
-#include "plugin/window/CurrentContext.h"
+#include "shadowtech/base/System.h"
 
+// Excludes Xlib's headers, and their macros.
+#ifndef EGL_NO_X11
+#define EGL_NO_X11
+#endif
+#include <EGL/egl.h>
 #include <EGL/eglext.h>
-
-#include <unistd.h>
 
 #include <array>
 #include <map>
@@ -91,8 +94,8 @@ Candidate deviceCandidate(const std::vector<EGLDeviceEXT>& devices, std::size_t 
 
 std::vector<Candidate> listCandidates(int deviceIndex)
 {
-  static const pid_t firstProcess = getpid();
-  if (getpid() != firstProcess)
+  static const long firstProcess = processNumber();
+  if (processNumber() != firstProcess)
   {
     throw std::runtime_error("the process was forked after it had used EGL" + forkAdvice);
   }
@@ -242,7 +245,7 @@ struct EglContext::Handles
       const std::array<EGLint, 5> size{ EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE };
       this->surface = eglCreatePbufferSurface(this->display.get(), config, size.data());
     }
-    CurrentContext::releaseGlx();
+    GlxContext::release();
     if (!eglMakeCurrent(this->display.get(), this->surface, this->surface, this->context))
     {
       throw std::runtime_error("the context cannot be made current (" + lastError() + ")");
@@ -250,7 +253,7 @@ struct EglContext::Handles
   }
 
   DisplayUse display;
-  pid_t process = getpid();
+  long process = processNumber();
   EGLContext context = EGL_NO_CONTEXT;
   EGLSurface surface = EGL_NO_SURFACE;
 };
@@ -293,7 +296,7 @@ bool EglContext::makeCurrent() const
   {
     return true;
   }
-  CurrentContext::releaseGlx();
+  GlxContext::release();
   return eglMakeCurrent(this->handles_->display.get(), this->handles_->surface,
     this->handles_->surface, this->handles_->context);
 }
@@ -305,19 +308,25 @@ bool EglContext::isCurrent() const
 }
 
 //------------------------------------------------------------------------------
-bool EglContext::isOfThisProcess() const
+void EglContext::release() const
 {
-  return this->handles_->process == getpid();
+  eglMakeCurrent(this->handles_->display.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 //------------------------------------------------------------------------------
-EGLDisplay EglContext::display() const
+bool EglContext::isOfThisProcess() const
+{
+  return this->handles_->process == processNumber();
+}
+
+//------------------------------------------------------------------------------
+void* EglContext::display() const
 {
   return this->handles_->display.get();
 }
 
 //------------------------------------------------------------------------------
-EGLContext EglContext::context() const
+void* EglContext::context() const
 {
   return this->handles_->context;
 }
@@ -348,6 +357,32 @@ std::string EglContext::lastError()
   const EGLint error = eglGetError();
   const auto name = names.find(error);
   return name != names.end() ? name->second : "EGL error " + std::to_string(error);
+}
+
+//------------------------------------------------------------------------------
+void (*EglContext::findFunction(const char* name))()
+{
+  return eglGetProcAddress(name);
+}
+
+//------------------------------------------------------------------------------
+CurrentContext::CurrentContext()
+  : display_(eglGetCurrentDisplay())
+  , draw_(eglGetCurrentSurface(EGL_DRAW))
+  , read_(eglGetCurrentSurface(EGL_READ))
+  , context_(eglGetCurrentContext())
+{
+}
+
+//------------------------------------------------------------------------------
+CurrentContext::~CurrentContext()
+{
+  const EGLContext current = eglGetCurrentContext();
+  if (this->context_ != current)
+  {
+    eglMakeCurrent(this->context_ != EGL_NO_CONTEXT ? this->display_ : eglGetCurrentDisplay(),
+      this->draw_, this->read_, this->context_);
+  }
 }
 
 } // namespace gnomon

@@ -1,10 +1,6 @@
 #pragma once
 
-// Excludes Xlib's headers, and their macros, from <EGL/egl.h>.
-#ifndef EGL_NO_X11
-#define EGL_NO_X11
-#endif
-#include <EGL/egl.h>
+#include "plugin/window/GlxContext.h"
 
 #include <memory>
 #include <string>
@@ -45,10 +41,12 @@ public:
   /// says why.
   bool makeCurrent() const;
   bool isCurrent() const;
+  /// Leave this thread without a context of EGL.
+  void release() const;
   /// True if the process was not forked since.
   bool isOfThisProcess() const;
-  EGLDisplay display() const;
-  EGLContext context() const;
+  void* display() const;
+  void* context() const;
   /// Return the context's place for display: "EGL device 0", "EGL surfaceless platform", ...
   const std::string& platform() const { return this->platform_; }
 
@@ -56,11 +54,31 @@ public:
   static int numberOfDevices();
   /// Return the name of EGL's last error on this thread, e.g. "EGL_BAD_MATCH".
   static std::string lastError();
+  /// Return a function of the current context; null if it has none of that name.
+  static void (*findFunction(const char* name))();
 
 private:
   struct Handles;
   std::unique_ptr<Handles> handles_;
   std::string platform_;
+};
+
+/// Remembers this thread's current context, of EGL or GLX, or that it has none, and restores that
+/// on destruction.
+class CurrentContext
+{
+public:
+  CurrentContext();
+  ~CurrentContext();
+  CurrentContext(const CurrentContext&) = delete;
+  CurrentContext& operator=(const CurrentContext&) = delete;
+
+private:
+  GlxContext glx_; ///< restored after EGL's
+  void* display_;
+  void* draw_;
+  void* read_;
+  void* context_;
 };
 
 } // namespace gnomon

@@ -1,7 +1,8 @@
 #include "shadowtech/base/TextureMemory.h"
 
+#include "shadowtech/base/System.h"
+
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <string>
 
@@ -31,21 +32,6 @@ struct TextureShape
     return texels * bytesOfChannel * this->format.channels * (this->layers > 0 ? this->layers : 1);
   }
 };
-
-/// Return the bytes that the kernel has available; infinity if it does not report them.
-double availableBytes()
-{
-  std::ifstream file("/proc/meminfo");
-  std::string name;
-  for (double kilobytes = 0.0; file >> name >> kilobytes; std::getline(file, name))
-  {
-    if (name == "MemAvailable:")
-    {
-      return 1024.0 * kilobytes;
-    }
-  }
-  return std::numeric_limits<double>::infinity();
-}
 
 void define(const TextureShape& shape, GLenum target)
 {

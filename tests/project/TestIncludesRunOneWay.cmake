@@ -1,6 +1,7 @@
 # Check that includes run one way, folder by folder. Each folder lists the folders that it may
 # include beside itself, all of them above it, so the list has no cycles. Nothing includes examples/
-# or tests/, lights/ includes no OpenGL, and plugin/plan/ neither OpenGL, VTK nor the report.
+# or tests/, lights/ includes no OpenGL, and plugin/plan/ neither OpenGL, VTK nor the report. One
+# file a system includes headers of window systems and operating systems.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -55,6 +56,14 @@ folder(plugin/paraview/GnomonShadows/views lights plugin)
 set(plain_headers plugin/vtkGnomonVisibilityImages.h plugin/vtkGnomonPropKeys.h)
 set(opengl "^(GL|EGL)/|^vtk_gl(ew|ad)\\.h$|^vtkOpenGL|^vtkShader|^vtkTextureObject|^vtkFrameBuffer")
 
+# Headers of C++, of the libraries and of VTK but for those of its window systems; then what three
+# files include beside them.
+set(portable "^[a-z0-9_]+$|^Gnomon[A-Za-z]+Module\\.h$|^(glm|nlohmann|tbb|embree[34])/|^vtk[A-Za-z0-9_]+\\.h$")
+set(of_a_window_system "^vtk(XOpenGL|XRender|Win32|Cocoa|EGL)")
+set(system_of_plugin/window/EglContext.cpp "^EGL/")
+set(system_of_plugin/window/GlxContext.cpp "^dlfcn\\.h$")
+set(system_of_shadowtech/base/SystemLinux.cpp "^unistd\\.h$")
+
 # Set the path of an included file from the project's root; empty for the system's headers.
 function(path_of name folder result)
   set(${result} "" PARENT_SCOPE)
@@ -84,6 +93,10 @@ foreach(file IN LISTS files)
     continue()
   endif()
   file(STRINGS "${SOURCE_DIR}/${file}" lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
+  file(STRINGS "${SOURCE_DIR}/${file}" paths REGEX "\"/(proc|sys|dev)/")
+  if(paths AND NOT DEFINED system_of_${file})
+    string(APPEND faults "${file}: ${paths} is of a system\n")
+  endif()
   foreach(line IN LISTS lines)
     string(REGEX REPLACE ".*include[ \t]*[<\"]([^>\"]*)[>\"].*" "\\1" name "${line}")
     math(EXPR count "${count} + 1")
@@ -95,6 +108,10 @@ foreach(file IN LISTS files)
       string(APPEND faults "${file}: ${name} is in ${target}/\n")
     elseif(path AND file IN_LIST plain_headers AND target MATCHES "^plugin")
       string(APPEND faults "${file}: ${name} is in ${target}/, and this header is for all\n")
+    elseif(NOT path
+      AND (NOT name MATCHES "${portable}" OR name MATCHES "${of_a_window_system}")
+      AND NOT (DEFINED system_of_${file} AND name MATCHES "${system_of_${file}}"))
+      string(APPEND faults "${file}: ${name} is of a system, or of a library that is not listed\n")
     elseif(folder STREQUAL "lights" AND name MATCHES "${opengl}")
       string(APPEND faults "${file}: ${name} is OpenGL\n")
     elseif(folder STREQUAL "plugin/plan" AND name MATCHES "(^|/)(vtk|Gl[.A-Z]|GL/)")

@@ -1,4 +1,4 @@
-#include "plugin/window/CurrentContext.h"
+#include "plugin/window/GlxContext.h"
 
 #include <dlfcn.h>
 
@@ -57,13 +57,13 @@ struct Glx
 } // namespace
 
 //------------------------------------------------------------------------------
-bool CurrentContext::isOfGlx()
+bool GlxContext::isCurrent()
 {
   return Glx::ofThread() != nullptr;
 }
 
 //------------------------------------------------------------------------------
-void CurrentContext::releaseGlx()
+void GlxContext::release()
 {
   if (const Glx* const glx = Glx::ofThread())
   {
@@ -72,34 +72,24 @@ void CurrentContext::releaseGlx()
 }
 
 //------------------------------------------------------------------------------
-CurrentContext::CurrentContext()
-  : display_(eglGetCurrentDisplay())
-  , draw_(eglGetCurrentSurface(EGL_DRAW))
-  , read_(eglGetCurrentSurface(EGL_READ))
-  , context_(eglGetCurrentContext())
+GlxContext::GlxContext()
 {
   if (const Glx* const glx = Glx::ofThread())
   {
-    this->glxMakeCurrent_ = glx->makeContextCurrent;
-    this->glxDisplay_ = glx->getCurrentDisplay();
-    this->glxDraw_ = glx->getCurrentDrawable();
-    this->glxRead_ = glx->getCurrentReadDrawable();
-    this->glxContext_ = glx->getCurrentContext();
+    this->makeCurrent_ = glx->makeContextCurrent;
+    this->display_ = glx->getCurrentDisplay();
+    this->draw_ = glx->getCurrentDrawable();
+    this->read_ = glx->getCurrentReadDrawable();
+    this->context_ = glx->getCurrentContext();
   }
 }
 
 //------------------------------------------------------------------------------
-CurrentContext::~CurrentContext()
+GlxContext::~GlxContext()
 {
-  const EGLContext current = eglGetCurrentContext();
-  if (this->context_ != current)
+  if (this->makeCurrent_)
   {
-    eglMakeCurrent(this->context_ != EGL_NO_CONTEXT ? this->display_ : eglGetCurrentDisplay(),
-      this->draw_, this->read_, this->context_);
-  }
-  if (this->glxMakeCurrent_)
-  {
-    this->glxMakeCurrent_(this->glxDisplay_, this->glxDraw_, this->glxRead_, this->glxContext_);
+    this->makeCurrent_(this->display_, this->draw_, this->read_, this->context_);
   }
 }
 
