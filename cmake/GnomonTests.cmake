@@ -7,6 +7,13 @@
 find_program(GNOMON_XVFB_RUN xvfb-run REQUIRED)
 set(GNOMON_ON_X_SERVER "${GNOMON_XVFB_RUN}" -a -s "-screen 0 1280x1024x24 -noreset")
 
+# What CTest does to a test's environment: no other test needs a display, unless Gnomon is built
+# without EGL (xvfb-run -s -noreset ctest).
+set(GNOMON_TEST_DISPLAY "")
+if(GNOMON_EGL)
+  set(GNOMON_TEST_DISPLAY "DISPLAY=unset:")
+endif()
+
 # gnomon_run_test_program(<program> [NAME <name>] [SLOW] [ON_X_SERVER] [SHARDS <number>]
 #   [SLOW_SHARDS <number>] [CASES <pattern>... | BUT <pattern>...] [ENVIRONMENT <name=value>...])
 #
@@ -60,7 +67,7 @@ function(gnomon_add_shards names program name shards filter)
     set_tests_properties(${test} PROPERTIES
       ENVIRONMENT
         "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};GALLIVM_PERF=nopt;${ARGN}"
-      ENVIRONMENT_MODIFICATION "DISPLAY=unset:")
+      ENVIRONMENT_MODIFICATION "${GNOMON_TEST_DISPLAY}")
     list(APPEND added ${test})
   endforeach()
   set(${names} "${added}" PARENT_SCOPE)

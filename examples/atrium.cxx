@@ -5,7 +5,7 @@
 //
 //   atrium [picture.png [width height]]
 
-#include <vtkGnomonEGLRenderWindow.h>
+#include <vtkGnomonOffScreenWindow.h>
 #include <vtkGnomonShadowPass.h>
 
 #include <vtkActor.h>
@@ -108,7 +108,7 @@ int main(int argc, char* argv[])
   renderer->GetActiveCamera()->SetFocalPoint(-1.5, 1.5, -2.0);
   renderer->GetActiveCamera()->SetViewAngle(36);
   renderer->ResetCameraClippingRange();
-  vtkNew<vtkGnomonEGLRenderWindow> window; // or any vtkRenderWindow
+  const auto window = gnomon::makeOffScreenWindow(); // or any vtkRenderWindow
   window->SetSize(argc > 3 ? std::atoi(argv[2]) : 800, argc > 3 ? std::atoi(argv[3]) : 600);
   window->AddRenderer(renderer);
   vtkNew<vtkWindowToImageFilter> picture;

@@ -7,7 +7,7 @@
 //   ct_area_light [picture.png [width height]]
 
 #include <vtkGnomonAreaLight.h>
-#include <vtkGnomonEGLRenderWindow.h>
+#include <vtkGnomonOffScreenWindow.h>
 #include <vtkGnomonShadowPass.h>
 
 #include <vtkActor.h>
@@ -72,7 +72,7 @@ int main(int argc, char* argv[])
   lamp->SetFocalPoint(0.0, 0.0, 0.0);
   lamp->SetRadius(1.2);
 
-  vtkNew<vtkGnomonEGLRenderWindow> window; // or any vtkRenderWindow
+  const auto window = gnomon::makeOffScreenWindow(); // or any vtkRenderWindow
   window->SetSize(argc > 3 ? std::atoi(argv[2]) : 800, argc > 3 ? std::atoi(argv[3]) : 600);
   for (const bool shadowed : { false, true })
   {

@@ -3,11 +3,11 @@
 //   guide picture.png
 
 #include <vtkGnomonAreaLight.h>
-#include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonFlatteringLights.h>
 #include <vtkGnomonLightKeys.h>
 #include <vtkGnomonLightPlacement.h>
 #include <vtkGnomonLightSamplingPass.h>
+#include <vtkGnomonOffScreenWindow.h>
 #include <vtkGnomonPropKeys.h>
 #include <vtkGnomonShadowPass.h>
 #include <vtkGnomonShadowSettings.h>
@@ -210,7 +210,7 @@ int main(int argc, char* argv[])
   renderer->GetActiveCamera()->SetPosition(0, -6, 4);
   renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
   renderer->ResetCamera();
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = gnomon::makeOffScreenWindow();
   window->SetSize(160, 120);
   window->SetMultiSamples(0);
   window->AddRenderer(renderer);

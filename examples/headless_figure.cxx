@@ -4,7 +4,7 @@
 //
 //   headless_figure [figure.png [width height]]
 
-#include <vtkGnomonEGLRenderWindow.h>
+#include <vtkGnomonOffScreenWindow.h>
 #include <vtkGnomonShadowPass.h>
 
 #include <vtkActor.h>
@@ -83,7 +83,7 @@ int main(int argc, char* argv[])
   mapper->SetLookupTable(colours);
   vtkNew<vtkActor> surface;
   surface->SetMapper(mapper);
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = gnomon::makeOffScreenWindow();
   window->SetSize(argc > 3 ? std::atoi(argv[2]) : 1200, argc > 3 ? std::atoi(argv[3]) : 900);
   vtkNew<vtkScalarBarActor> scale;
   scale->SetLookupTable(colours);

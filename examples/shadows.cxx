@@ -2,7 +2,7 @@
 //
 //   shadows picture.png
 
-#include <vtkGnomonEGLRenderWindow.h>
+#include <vtkGnomonOffScreenWindow.h>
 #include <vtkGnomonShadowPass.h>
 
 #include <vtkActor.h>
@@ -65,7 +65,7 @@ int main(int argc, char* argv[])
   vtkNew<vtkGnomonShadowPass> shadows;
   renderer->SetPass(shadows);
 
-  vtkNew<vtkGnomonEGLRenderWindow> window; // or any vtkRenderWindow
+  const auto window = gnomon::makeOffScreenWindow(); // or any vtkRenderWindow
   window->SetSize(800, 600);
   window->AddRenderer(renderer);
   window->Render();

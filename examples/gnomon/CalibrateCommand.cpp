@@ -4,7 +4,7 @@
 #include "Progress.h"
 
 #include "plugin/plan/CostModel.h"
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 
 #include <vtkActor.h>
@@ -110,7 +110,7 @@ private:
   }
 
   vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkGnomonEGLRenderWindow> window_;
+  vtkSmartPointer<vtkOpenGLRenderWindow> window_ = makeOffScreenWindow();
   vtkNew<vtkLight> light_;
   vtkActor* ball_ = nullptr;
   double triangles_ = 0.0;

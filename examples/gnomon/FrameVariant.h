@@ -4,7 +4,7 @@
 #include "Scene.h"
 
 #include "lights/SettingsTable.h"
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 
 #include <vtkCamera.h>
@@ -96,7 +96,7 @@ private:
   VariantSpec spec_;
   const Scene& scene_;
   vtkSmartPointer<vtkRenderer> renderer_;
-  vtkNew<vtkGnomonEGLRenderWindow> window_;
+  vtkSmartPointer<vtkOpenGLRenderWindow> window_ = makeOffScreenWindow();
   vtkNew<vtkCamera> camera_; ///< the scene's
   double cameraDegrees_ = 0.0;
   double lightDegrees_ = 0.0;

@@ -9,7 +9,7 @@
 #include "Text.h"
 #include "Vec3.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 
 #include <vtk3DSImporter.h>
 #include <vtkActor.h>
@@ -349,7 +349,7 @@ void readObj(const std::string& path, Model& model)
 struct ImportRenderer
 {
   ImportRenderer() { this->window->AddRenderer(this->renderer); }
-  vtkNew<vtkGnomonEGLRenderWindow> window; // outlives the renderer
+  vtkSmartPointer<vtkOpenGLRenderWindow> window = makeOffScreenWindow(); // outlives the renderer
   vtkNew<vtkRenderer> renderer;
 };
 

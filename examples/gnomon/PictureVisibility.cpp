@@ -2,7 +2,7 @@
 
 #include "Comparison.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -80,7 +80,7 @@ Scene whiteScene(const Scene& scene, std::size_t light)
 /// Return one picture per exposure.
 std::vector<Picture> expose(vtkRenderer* renderer, int width, int height)
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   window->SetSize(width, height);
   window->AddRenderer(renderer);
   vtkLight* const light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));

@@ -1,6 +1,6 @@
 #include "Pictures.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 
 #include <vtkBase64Utilities.h>
 #include <vtkNew.h>
@@ -47,7 +47,7 @@ Picture drawTitles(const std::vector<Panel>& panels, int width)
     text->SetVerticalJustificationToCentered();
     renderer->AddViewProp(title);
   }
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   window->SetSize(width, panelTitleRows);
   window->AddRenderer(renderer);
   window->Render();

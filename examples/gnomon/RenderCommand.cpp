@@ -14,8 +14,8 @@
 
 #include "lights/LightManager.h"
 #include "plugin/pass/ReportText.h"
-#include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/Registry.h"
@@ -334,7 +334,7 @@ void renderSettings(const RenderOptions& options)
   requireWritableFile(options.picture, "--output", { ".png", ".exr" });
   Progress progress("reading " + options.viewFile);
   auto [state, scene] = readView(options.viewFile);
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   window->SetSize(1, 1);
   requireDrawable(state.size, window);
   progress.begin("rendering");
@@ -374,7 +374,7 @@ void render(const RenderOptions& options)
   VtkMessages messages;
   const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, size.aspect());
   requireComposition(renderer);
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   window->SetSize(1, 1);
   requireDrawable(size, window);
   window->SetSize(size.width, size.height);

@@ -11,8 +11,8 @@
 
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonFlatteringLights.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkActor.h>
@@ -206,7 +206,7 @@ void placeDefaultLight(Scene& scene, double aspect)
     return;
   }
   const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, aspect);
-  vtkNew<vtkGnomonEGLRenderWindow> window; // has the picture's shape, and draws nothing
+  const auto window = makeOffScreenWindow(); // has the picture's shape, and draws nothing
   window->SetSize(static_cast<int>(std::lround(1000.0 * aspect)), 1000);
   window->AddRenderer(renderer);
   vtkNew<vtkLight> key;

@@ -6,7 +6,7 @@
 #include "Report.h"
 #include "SettingOptions.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "shadowtech/Registry.h"
 
 #include <vtkTransform.h>
@@ -239,7 +239,7 @@ void study(StudyOptions options)
     ++done;
   }
   progress.begin("writing the page");
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   window->Initialize();
   writeWholeFile(options.folder + "/study.csv", csvOf(rows));
   writeWholeFile(options.folder + "/study.html",

@@ -36,6 +36,7 @@ set(expected
   gnomon/vtkGnomonLightPlacement.h
   gnomon/vtkGnomonLightSamplingPass.h
   gnomon/vtkGnomonNamedSettings.h
+  gnomon/vtkGnomonOffScreenWindow.h
   gnomon/vtkGnomonPixelClass.h
   gnomon/vtkGnomonPropKeys.h
   gnomon/vtkGnomonShadowPass.h

@@ -5,6 +5,7 @@
 #include <vtkGnomonLightKeys.h>
 #include <vtkGnomonLightPlacement.h>
 #include <vtkGnomonLightSamplingPass.h>
+#include <vtkGnomonOffScreenWindow.h>
 #include <vtkGnomonPixelClass.h>
 #include <vtkGnomonPropKeys.h>
 #include <vtkGnomonShadowPass.h>

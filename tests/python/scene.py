@@ -20,7 +20,7 @@ class Scene:
 
     def __init__(self, has_sun=True):
         self.renderer = vtkRenderer()
-        self.window = gnomon.vtkGnomonEGLRenderWindow()
+        self.window = gnomon.images._off_screen()
         self.window.SetSize(120, 90)
         self.window.AddRenderer(self.renderer)
         floor = vtkPlaneSource()

@@ -33,7 +33,6 @@ GETTERS = {
 # Objects that may be None: it resets them, asks for nothing, or has nothing to release.
 MAY_BE_NONE = {
     "vtkGnomonAreaLight.SetTexture(_arg)",
-    "vtkGnomonEGLRenderWindow.SetInteractor(interactor)",
     "vtkGnomonLightKeys.SetSettings(settings)",
     "vtkGnomonLightSamplingPass.SetDelegatePass(pass_)",
     "vtkGnomonLightSamplingPass.ReleaseGraphicsResources(window)",
@@ -50,6 +49,8 @@ MAY_BE_NONE = {
     "vtkGnomonShadowPass.PreReplaceShaderValues(prop)",
     "vtkGnomonShadowPass.SetShaderParameters(vao)",
 }
+if hasattr(gnomon, "vtkGnomonEGLRenderWindow"):
+    MAY_BE_NONE.add("vtkGnomonEGLRenderWindow.SetInteractor(interactor)")
 
 
 def own_methods(kind):

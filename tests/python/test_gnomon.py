@@ -346,7 +346,7 @@ class Shadows(unittest.TestCase):
 
     def test_an_empty_renderer_gets_its_light_when_it_shows_something(self):
         renderer = vtkRenderer()
-        window = gnomon.vtkGnomonEGLRenderWindow()
+        window = gnomon.images._off_screen()
         window.SetSize(80, 60)
         window.AddRenderer(renderer)
         with self.assertWarns(UserWarning):

@@ -284,6 +284,7 @@ class Shadows(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "origin: found 'top'"):
             gnomon.visibility(shadows, origin="top")
 
+    @unittest.skipUnless(hasattr(gnomon, "vtkGnomonEGLRenderWindow"), "built without EGL")
     def test_a_window_is_a_picture_in_notebooks(self):
         scene = Scene()
         gnomon.add_shadows(scene.renderer)

@@ -4,7 +4,7 @@
 #include "SyntheticResults.h"
 #include "TestFiles.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 
 #include <vtkNew.h>
 #include <vtkRenderer.h>
@@ -74,7 +74,7 @@ TEST(ImageFile, CaptureHasItsTopRowFirst)
   renderer->GradientBackgroundOn();
   renderer->SetBackground(0.0, 0.0, 1.0);  // bottom
   renderer->SetBackground2(1.0, 0.0, 0.0); // top
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   window->SetSize(40, 30);
   window->AddRenderer(renderer);
   window->Render();

@@ -4,7 +4,7 @@
 #include "Vec3.h"
 #include "VtkMessages.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "shadowtech/base/Clock.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
@@ -258,7 +258,7 @@ std::vector<std::string> View::cornerLines()
 Picture drawWithoutScreen(const ViewState& state, Scene scene)
 {
   VtkMessages messages;
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   View view(window, std::move(scene), state);
   Picture picture = view.still();
   // The picture states what lights refuse.

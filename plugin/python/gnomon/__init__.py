@@ -50,14 +50,7 @@ from .GnomonLights import (
     vtkGnomonShadowSettings as vtkGnomonShadowSettings,
     vtkGnomonSun as vtkGnomonSun,
 )
-from .GnomonPlugin import (
-    vtkGnomonEGLRenderWindow as vtkGnomonEGLRenderWindow,
-    vtkGnomonFlatteringLights as vtkGnomonFlatteringLights,
-    vtkGnomonLightSamplingPass as vtkGnomonLightSamplingPass,
-    vtkGnomonPropKeys as vtkGnomonPropKeys,
-    vtkGnomonShadowPass as vtkGnomonShadowPass,
-    vtkGnomonVisibilityFilter as vtkGnomonVisibilityFilter,
-)
+from .GnomonPlugin import *  # noqa: F403: vtkGnomonEGLRenderWindow is absent without EGL
 from .holders import taking_holders, unwrap
 from .images import assert_images_equal, shown_in_notebooks
 from .lighting import replace_default_lights, replace_lights
@@ -106,7 +99,8 @@ __all__ = [
 _before: dict[str, Any] = {}
 
 if not TYPE_CHECKING:  # for which every name would exist, and classes made by a call would not
-    vtkGnomonEGLRenderWindow = shown_in_notebooks(vtkGnomonEGLRenderWindow)
+    if "vtkGnomonEGLRenderWindow" in globals():
+        vtkGnomonEGLRenderWindow = shown_in_notebooks(vtkGnomonEGLRenderWindow)
     vtkGnomonLightKeys = taking_holders(vtkGnomonLightKeys)
     vtkGnomonLightPlacement = taking_holders(vtkGnomonLightPlacement)
     vtkGnomonPropKeys = taking_holders(vtkGnomonPropKeys)

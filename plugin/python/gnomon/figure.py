@@ -9,8 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 from .arguments import array, number, path_of
 from .data import polydata_of
 from .errors import naming, raising
-from .GnomonPlugin import vtkGnomonEGLRenderWindow
-from .images import _pixels, _write
+from .images import _off_screen, _pixels, _write
 
 if TYPE_CHECKING:
     import os
@@ -90,7 +89,7 @@ def draw(
     camera.SetPosition(place)
     camera.SetViewUp(*((0, 0, 1) if place[:2].any() else (0, 1, 0)))
     renderer.ResetCamera()
-    window = vtkGnomonEGLRenderWindow()
+    window = _off_screen()
     window.SetSize(width, height)
     window.AddRenderer(renderer)
     shadows = add_shadows(renderer, technique, None, sky, **settings)

@@ -91,6 +91,16 @@ def shown_in_notebooks(kind):
     return type(kind.__name__, (kind,), members)
 
 
+def _off_screen():
+    """A window that shows nothing: VTK's own in a Gnomon that is built without EGL."""
+    import gnomon
+
+    window = getattr(gnomon, "vtkGnomonEGLRenderWindow", vtkRenderWindow)()
+    window.SetMultiSamples(0)
+    window.SetOffScreenRendering(1)
+    return window
+
+
 def _size(picture):
     return f"{picture.shape[1]} x {picture.shape[0]}"
 

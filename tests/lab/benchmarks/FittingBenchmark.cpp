@@ -8,7 +8,7 @@
 
 #include "lights/SettingsTable.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/depth_map/Pcf.h"
@@ -183,7 +183,7 @@ void run(int side, int frames)
 //------------------------------------------------------------------------------
 int main(int argc, char** argv)
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   window->Initialize();
   window->MakeCurrent();
   gnomon::test::run(argc > 1 ? std::atoi(argv[1]) : 2048, argc > 2 ? std::atoi(argv[2]) : 21);

@@ -13,7 +13,7 @@
 #include "VtkMessages.h"
 
 #include "plugin/plan/BakeBackoff.h"
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
 
@@ -510,7 +510,7 @@ int run(int argc, char** argv)
     specs.back().mapSizeTexels = bakes ? mapSizeTexels : 0;
   }
   prepareReportFolder(options.folder, "growth.csv");
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   window->Render(); // initialises OpenGL, for which the first contender would pay
   Progress progress("starting");
   std::string table = csvLine({ "axis", "case", "contender", "milliseconds", "over plain",

@@ -6,7 +6,7 @@
 #include "RandomProps.h"
 #include "RandomSettings.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/Registry.h"
@@ -115,7 +115,7 @@ private:
   glm::dvec3 inWorld(const glm::dvec3& point) const;
 
   Purpose purpose_;
-  vtkNew<vtkGnomonEGLRenderWindow> window_;
+  vtkSmartPointer<vtkOpenGLRenderWindow> window_ = makeOffScreenWindow();
   std::vector<vtkSmartPointer<vtkRenderer>> renderers_;
   vtkSmartPointer<vtkGnomonShadowPass> pass_ = vtkSmartPointer<vtkGnomonShadowPass>::New();
   vtkNew<vtkMatrix4x4> world_; ///< from where the scene is a few units large

@@ -4,7 +4,7 @@
 #include "SceneExport.h"
 #include "SceneFraming.h"
 #include "Vec3.h"
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 
@@ -419,7 +419,7 @@ TEST(BuiltinScenes, TheHalfPlanesShadowEndsAtTheKnownLine)
 {
   Scene scene = loadScene("half-plane");
   scene.lights[0].settings["technique"] = "raytraced";
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = makeOffScreenWindow();
   window->SetSize(300, 300);
   const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, 1.0);
   vtkNew<vtkGnomonShadowPass> shadows;

@@ -1,6 +1,6 @@
 #include "CountedOpenGL.h"
 
-#include "vtkGnomonEGLRenderWindow.h"
+#include "vtkGnomonOffScreenWindow.h"
 #include "vtkGnomonPropKeys.h"
 #include "vtkGnomonShadowPass.h"
 
@@ -35,7 +35,7 @@ struct Drawing
 /// Return the calls of OpenGL in a frame of so many cubes.
 unsigned long callsOf(const Drawing& drawing, int cubes)
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = gnomon::makeOffScreenWindow();
   vtkNew<vtkRenderer> renderer;
   window->SetSize(64, 64);
   window->SetMultiSamples(0);

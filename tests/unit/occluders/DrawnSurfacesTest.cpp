@@ -7,7 +7,7 @@
 #include "TestData.h"
 #include "truth/SyntheticScene.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtk_versions/SharedBlocksMapper.h"
 
 #include "vtkAssembly.h"
@@ -277,7 +277,7 @@ protected:
     }
   }
 
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkSmartPointer<vtkOpenGLRenderWindow> window = makeOffScreenWindow();
   vtkNew<vtkRenderer> renderer;
   vtkNew<NumberPass> pass;
 

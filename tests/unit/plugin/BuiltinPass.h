@@ -3,7 +3,7 @@
 #include "PassScene.h"
 #include "Scene.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 
 #include <vtkNew.h>
@@ -21,7 +21,7 @@ namespace gnomon::test
 struct BuiltinPass
 {
   vtkSmartPointer<vtkRenderer> renderer;
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkSmartPointer<vtkOpenGLRenderWindow> window = makeOffScreenWindow();
   vtkNew<vtkGnomonShadowPass> pass;
 
   BuiltinPass(const tool::Scene& scene, int width, int height = 0)

@@ -144,7 +144,7 @@ public:
   static BorrowedContextWindow* New();
   vtkTypeMacro(BorrowedContextWindow, vtkGenericOpenGLRenderWindow);
 
-  void borrow(vtkGnomonEGLRenderWindow* owner)
+  void borrow(vtkOpenGLRenderWindow* owner)
   {
     this->owner_ = owner;
     this->SetOwnContext(0);
@@ -162,7 +162,7 @@ public:
   }
 
 private:
-  vtkGnomonEGLRenderWindow* owner_ = nullptr;
+  vtkOpenGLRenderWindow* owner_ = nullptr;
 };
 vtkStandardNewMacro(BorrowedContextWindow);
 

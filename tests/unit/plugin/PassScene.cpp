@@ -129,7 +129,7 @@ void PassScene::lookDown(double halfHeight, double x, double y)
 
 glm::dvec2 PassScene::floorAt(int x, int y) const
 {
-  const int* size = const_cast<vtkGnomonEGLRenderWindow*>(this->window.Get())->GetSize();
+  const int* size = const_cast<vtkOpenGLRenderWindow*>(this->window.Get())->GetSize();
   const double pixel = 2.0 * this->down_.z / size[1];
   return { this->down_.x + (x + 0.5 - 0.5 * size[0]) * pixel,
     this->down_.y + (y + 0.5 - 0.5 * size[1]) * pixel };

@@ -7,7 +7,7 @@
 
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
@@ -163,7 +163,7 @@ public:
 
   const FrameReport& report() const { return this->pass->GetReport(); }
 
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkSmartPointer<vtkOpenGLRenderWindow> window = makeOffScreenWindow();
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkGnomonShadowPass> pass;
   bool numbersAreWrong = false; ///< render() expects FrameReport::numbersWrong

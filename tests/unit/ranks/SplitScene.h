@@ -3,7 +3,7 @@
 #include "Scene.h"
 #include "VtkMessages.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
@@ -49,7 +49,7 @@ vtkSmartPointer<vtkPolyData> partOf(
 struct RankView
 {
   vtkSmartPointer<vtkRenderer> renderer;
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkSmartPointer<vtkOpenGLRenderWindow> window = makeOffScreenWindow();
   vtkNew<vtkGnomonShadowPass> pass;
 
   RankView(const tool::Scene& scene, int width, int height);

@@ -8,7 +8,7 @@
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/Technique.h"
 
-#include "vtkGnomonEGLRenderWindow.h"
+#include "vtkGnomonOffScreenWindow.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
@@ -154,7 +154,7 @@ protected:
     this->window_->Initialize();
     this->window_->MakeCurrent();
   }
-  vtkNew<vtkGnomonEGLRenderWindow> window_;
+  vtkSmartPointer<vtkOpenGLRenderWindow> window_ = makeOffScreenWindow();
 };
 template <typename Parameter>
 class GlslTestOf

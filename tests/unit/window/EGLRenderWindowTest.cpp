@@ -11,6 +11,7 @@
 #include <vtkOutputWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRendererCollection.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <gmock/gmock.h>
@@ -30,6 +31,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 using gnomon::test::makeSphereScene;
 using gnomon::test::readPicture;
@@ -451,6 +453,34 @@ TEST_F(EGLRenderWindow, saysOneErrorInAForkedProcess)
   }
   window->Render();
   EXPECT_EQ(readPicture(window), picture);
+}
+
+TEST_F(EGLRenderWindow, noArrayIsOneErrorOfEachMethod)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkFloatArray* const floats = nullptr;
+  vtkUnsignedCharArray* const bytes = nullptr;
+  float* const numbers = nullptr;
+  unsigned char* const colours = nullptr;
+  const std::vector<std::function<void()>> calls{
+    [&] { window->GetZbufferData(0, 0, 1, 1, floats); },
+    [&] { window->GetZbufferData(0, 0, 1, 1, numbers); },
+    [&] { window->SetZbufferData(0, 0, 1, 1, floats); },
+    [&] { window->SetZbufferData(0, 0, 1, 1, numbers); },
+    [&] { window->SetPixelData(0, 0, 1, 1, bytes, 1); },
+    [&] { window->SetPixelData(0, 0, 1, 1, colours, 1); },
+    [&] { window->SetRGBAPixelData(0, 0, 1, 1, floats, 1); },
+    [&] { window->SetRGBAPixelData(0, 0, 1, 1, numbers, 1); },
+    [&] { window->SetRGBACharPixelData(0, 0, 1, 1, bytes, 1); },
+    [&] { window->SetRGBACharPixelData(0, 0, 1, 1, colours, 1); },
+  };
+  for (const auto& call : calls)
+  {
+    call();
+    const std::string errors = this->takeErrors();
+    EXPECT_THAT(errors, HasSubstr("no array"));
+    EXPECT_EQ(countErrors(errors), 1);
+  }
 }
 
 TEST_F(EGLRenderWindow, printsWhatItStandsOn)

@@ -1,6 +1,6 @@
 // The pass in Qt's widget, on an X server: the same picture as in the window without a display.
 
-#include "vtkGnomonEGLRenderWindow.h"
+#include "vtkGnomonOffScreenWindow.h"
 
 #include "WindowScene.h"
 
@@ -62,7 +62,7 @@ std::size_t countColours(const std::vector<unsigned char>& picture)
 
 std::vector<unsigned char> drawWithoutDisplay()
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto window = gnomon::makeOffScreenWindow();
   window->SetSize(width, height);
   window->AddRenderer(makeSphereScene());
   window->Render();
