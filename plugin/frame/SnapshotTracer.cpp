@@ -36,6 +36,7 @@ void SnapshotTracer::update()
   {
     this->tracer_.reset(); // it has a part of the casters
     this->filters_.reset();
+    this->ofMeans_.reset();
     this->sheets_.reset();
     throw;
   }
@@ -60,17 +61,21 @@ void SnapshotTracer::updateFilters()
     this->sheets_->update(this->occluders_);
     filters.push_back(&*this->sheets_);
   }
+  this->filters_.reset();
+  this->ofMeans_.reset();
   const Volumes& volumes = this->volumes_.volumes();
+  this->coarse_.emplace(volumes);
   if (!volumes.media().empty())
   {
-    filters.push_back(&volumes);
+    filters.push_back(&*this->coarse_);
   }
-  this->filters_.reset();
   if (!filters.empty())
   {
+    this->ofMeans_.emplace(filters);
+    filters.back() = volumes.media().empty() ? filters.back() : &volumes;
     this->filters_.emplace(std::move(filters));
   }
-  this->tracer_->filterSamples(this->filters_ ? &*this->filters_ : nullptr);
+  this->tracer_->filterSamples(this->ofMeans_ ? &*this->ofMeans_ : nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -80,7 +85,15 @@ const RayFilter& SnapshotTracer::filterOf(const LightPlan& light)
   {
     return *this->filters_;
   }
-  std::vector<const RayFilter*> filters{ &this->volumes_.stackOf(light) };
+  std::vector<const RayFilter*> filters;
+  if (light.light.area)
+  {
+    filters.push_back(&this->volumes_.areaStacksOf(light));
+  }
+  else
+  {
+    filters.push_back(&this->volumes_.stackOf(light));
+  }
   if (this->sheets_)
   {
     filters.push_back(&*this->sheets_);

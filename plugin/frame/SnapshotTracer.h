@@ -29,7 +29,7 @@ public:
   void update();
   /// Return the tracer of the last update.
   EmbreeTracer& get() { return *this->tracer_; }
-  /// Return what casters of the last update let through of rays to a light's centre. Some do.
+  /// Return what casters of the last update let through of a light's rays. Some do.
   /// @return valid until the next call
   const RayFilter& filterOf(const LightPlan& light);
 
@@ -52,8 +52,13 @@ private:
   const PatchNames& patches_;
   VolumeStage& volumes_;
   std::optional<SharedTracer> tracer_;
-  std::optional<Sheets> sheets_;      ///< none without translucent casters
-  std::optional<RayFilters> filters_; ///< of both; none if all casters block
+  std::optional<Sheets> sheets_; ///< none without translucent casters
+  std::optional<CoarseVolumes> coarse_;
+  ///@{
+  /// Of sheets and volumes; none if all casters block.
+  std::optional<RayFilters> filters_;
+  std::optional<RayFilters> ofMeans_; ///< of the sky's rays, and of probes
+  ///@}
   std::optional<RayFilters> ofLight_;
 };
 

@@ -386,7 +386,13 @@ void VisibilityStage::trace(
   input.classes = classes;
   input.tiles = tiles;
   input.verdicts = verdicts;
+  const RayFilter* const ofMeans = this->tracer_.get().filter();
+  if (ofMeans && light.area)
+  {
+    this->tracer_.get().filterSamples(&this->tracer_.filterOf(casting.plan));
+  }
   namingLight(light, [&] { technique.computeVisibility(input, visibility, casting.counts); });
+  this->tracer_.get().filterSamples(ofMeans);
   this->frame_.endStage("visibility: trace");
   if (hasBit)
   {

@@ -17,17 +17,17 @@ const Volumes& VolumeStage::volumes()
 }
 
 //------------------------------------------------------------------------------
+/// Find what there is of a light, without what is stale.
 VolumeStage::LightStack& VolumeStage::find(const LightPlan& light)
 {
-  const Volumes& volumes = this->volumes();
+  this->volumes(); // drops stacks of other volumes
   const int resolution = this->frame_.wishes.volumeResolution;
   LightStack& found = this->stacks_[light.light.sceneIndex];
-  if (!found.stack || found.light != light.identity || found.resolution != resolution)
+  if (found.light != light.identity || found.resolution != resolution)
   {
-    const ShadowRayLight rays(light.light, this->occluders_.frame.centre);
-    found = { light.identity, resolution, std::make_unique<VolumeStack>(volumes, rays, resolution),
-      nullptr };
-    this->frame_.endStage("visibility: volumes");
+    found = {};
+    found.light = light.identity;
+    found.resolution = resolution;
   }
   return found;
 }
@@ -35,7 +35,27 @@ VolumeStage::LightStack& VolumeStage::find(const LightPlan& light)
 //------------------------------------------------------------------------------
 const VolumeStack& VolumeStage::stackOf(const LightPlan& light)
 {
-  return *this->find(light).stack;
+  LightStack& found = this->find(light);
+  if (!found.stack)
+  {
+    const ShadowRayLight rays(light.light, this->occluders_.frame.centre);
+    found.stack = std::make_unique<VolumeStack>(this->volumes_, rays, found.resolution);
+    this->frame_.endStage("visibility: volumes");
+  }
+  return *found.stack;
+}
+
+//------------------------------------------------------------------------------
+const AreaStacks& VolumeStage::areaStacksOf(const LightPlan& light)
+{
+  LightStack& found = this->find(light);
+  if (!found.ofArea)
+  {
+    found.ofArea = std::make_unique<AreaStacks>(
+      this->volumes_, light.light, this->occluders_.frame.centre, found.resolution);
+    this->frame_.endStage("visibility: volumes");
+  }
+  return *found.ofArea;
 }
 
 //------------------------------------------------------------------------------
@@ -44,7 +64,7 @@ const VolumeTexture& VolumeStage::textureOf(const LightPlan& light)
   LightStack& found = this->find(light);
   if (!found.texture)
   {
-    found.texture = std::make_unique<VolumeTexture>(*found.stack);
+    found.texture = std::make_unique<VolumeTexture>(this->stackOf(light));
   }
   return *found.texture;
 }

@@ -31,7 +31,9 @@ public:
   const Volumes& volumes();
   /// Return a light's stack. Some volume casts.
   const VolumeStack& stackOf(const LightPlan& light);
-  /// Return the same for shaders.
+  /// Return those of an area light's points.
+  const AreaStacks& areaStacksOf(const LightPlan& light);
+  /// Return a light's stack for shaders.
   const VolumeTexture& textureOf(const LightPlan& light);
   /// Have the frame's pointwise techniques see the volumes, if any casts. Drops the stacks of
   /// lights that are gone.
@@ -39,16 +41,25 @@ public:
 
   std::size_t bytes() const
   {
-    return bytesOfAll(this->stacks_, [](const auto& of) { return of.second.stack->bytes(); });
+    return bytesOfAll(this->stacks_,
+      [](const auto& of)
+      {
+        const LightStack& one = of.second;
+        return (one.stack ? one.stack->bytes() : 0) + (one.ofArea ? one.ofArea->bytes() : 0);
+      });
   }
 
 private:
   struct LightStack
   {
     RayIdentity light;
-    int resolution;
+    int resolution = 0;
+    ///@{
+    /// Null until asked for.
     std::unique_ptr<VolumeStack> stack;
-    std::unique_ptr<VolumeTexture> texture; ///< null until a shader asks
+    std::unique_ptr<AreaStacks> ofArea;
+    std::unique_ptr<VolumeTexture> texture; ///< of `stack`
+    ///@}
   };
   LightStack& find(const LightPlan& light);
 

@@ -230,7 +230,8 @@ VolumeMedium::Passage VolumeMedium::passageOf(
 }
 
 //------------------------------------------------------------------------------
-double VolumeMedium::opticalDepth(const Passage& passage, double from, double until) const
+double VolumeMedium::opticalDepth(
+  const Passage& passage, double from, double until, int mostSteps) const
 {
   from = std::max(from, passage.from);
   until = std::min(until, passage.until);
@@ -240,7 +241,8 @@ double VolumeMedium::opticalDepth(const Passage& passage, double from, double un
   }
   const double longestStep = this->volume_->interpolates ? 0.45 : 0.1; // in samples along an axis
   const glm::dvec3 steps = glm::abs(passage.along) * ((until - from) / longestStep);
-  const auto count = static_cast<int>(std::ceil(std::max({ steps.x, steps.y, steps.z })));
+  const double wanted = std::ceil(std::max({ steps.x, steps.y, steps.z }));
+  const int count = static_cast<int>(std::min<double>(wanted, mostSteps));
   const double step = (until - from) / count;
   double sum = 0.0;
   for (int i = 0; i < count; ++i)

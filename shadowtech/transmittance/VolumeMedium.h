@@ -40,7 +40,8 @@ public:
   /// Integrate the extinction along a part of a passage, by midpoints of steps shorter than half a
   /// voxel, or a tenth without interpolation.
   /// @param until may be infinite
-  double opticalDepth(const Passage& passage, double from, double until) const;
+  /// @param mostSteps longer steps are taken rather than more
+  double opticalDepth(const Passage& passage, double from, double until, int mostSteps) const;
 
 private:
   bool isShown(const glm::dvec3& index) const;

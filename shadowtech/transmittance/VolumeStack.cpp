@@ -1,5 +1,6 @@
 #include "shadowtech/transmittance/VolumeStack.h"
 
+#include "lights/LightSamples.h"
 #include "shadowtech/base/Bytes.h"
 
 #include <tbb/parallel_for.h>
@@ -183,7 +184,7 @@ void VolumeStack::fill(const Volumes& volumes, Grid& grid) const
           const double until = grid.lower.z + z * step.z;
           for (std::size_t i = 0; i < passages.size() && z > 0 && depth < opaque; ++i)
           {
-            depth += volumes.media()[i].opticalDepth(passages[i], until - step.z, until);
+            depth += volumes.media()[i].opticalDepth(passages[i], until - step.z, until, anySteps);
           }
           grid.left[(std::size_t(z) * std::size_t(points.y) + std::size_t(y)) *
               std::size_t(points.x) +
@@ -213,6 +214,45 @@ glm::dvec3 VolumeStack::transmittanceOf(
 std::size_t VolumeStack::bytes() const
 {
   return bytesOfAll(this->grids_, [](const Grid& grid) { return bytesOf(grid.left); });
+}
+
+//------------------------------------------------------------------------------
+AreaStacks::AreaStacks(
+  const Volumes& volumes, const ShadowLight& light, const glm::dvec3& centreWorld, int resolution)
+{
+  ShadowLight sampled = light;
+  sampled.lightSamples = 9; // a square, for all ways to sample
+  this->points_ = lightSamples(sampled, centreWorld);
+  sampled.area.reset();
+  for (const glm::dvec4& point : this->points_)
+  {
+    const glm::dvec3 place(point);
+    sampled.positionWorld = point.w > 0.0 ? centreWorld + place : light.positionWorld;
+    sampled.directionWorld = point.w > 0.0 ? light.directionWorld : -place;
+    this->stacks_.emplace_back(volumes, ShadowRayLight(sampled, centreWorld), resolution / 2);
+  }
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 AreaStacks::transmittanceOf(
+  const glm::vec3& origin, const glm::vec3& direction, float rayFar) const
+{
+  const glm::dvec3 from(origin), along(direction);
+  const auto distanceTo = [&](const glm::dvec4& point)
+  {
+    return point.w > 0.0 ? glm::distance(from + along, glm::dvec3(point))
+                         : glm::distance(glm::normalize(along), glm::dvec3(point));
+  };
+  const auto nearest = std::min_element(this->points_.begin(), this->points_.end(),
+    [&](const glm::dvec4& a, const glm::dvec4& b) { return distanceTo(a) < distanceTo(b); });
+  return this->stacks_[static_cast<std::size_t>(nearest - this->points_.begin())].transmittanceOf(
+    origin, direction, rayFar);
+}
+
+//------------------------------------------------------------------------------
+std::size_t AreaStacks::bytes() const
+{
+  return bytesOfAll(this->stacks_, &VolumeStack::bytes);
 }
 
 } // namespace gnomon

@@ -56,4 +56,27 @@ private:
   std::vector<Grid> grids_;
 };
 
+/// The stacks of points of an area light. A ray to any of its points reads that of the nearest one.
+/// Nine points at half the resolution take the memory of one stack. On scans of 64 samples a side,
+/// their mean errors are at most 0.006 for lights of any size; with one point, 0.02.
+class AreaStacks : public RayFilter
+{
+public:
+  /// @param volumes not empty; needed for this call alone
+  /// @param light with an area
+  /// @param resolution of one stack of the same memory
+  AreaStacks(const Volumes& volumes, const ShadowLight& light, const glm::dvec3& centreWorld,
+    int resolution);
+
+  bool isColoured() const override { return false; }
+  glm::dvec3 transmittanceOf(
+    const glm::vec3& origin, const glm::vec3& direction, float rayFar) const override;
+
+  std::size_t bytes() const;
+
+private:
+  std::vector<glm::dvec4> points_; ///< as lightPoint() returns them
+  std::vector<VolumeStack> stacks_;
+};
+
 } // namespace gnomon

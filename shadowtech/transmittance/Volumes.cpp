@@ -25,13 +25,13 @@ bool Volumes::update(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-double Volumes::opticalDepth(
-  const glm::dvec3& origin, const glm::dvec3& direction, double from, double until) const
+double Volumes::opticalDepth(const glm::dvec3& origin, const glm::dvec3& direction, double from,
+  double until, int mostSteps) const
 {
   double depth = 0.0;
   for (const VolumeMedium& medium : this->media_)
   {
-    depth += medium.opticalDepth(medium.passageOf(origin, direction), from, until);
+    depth += medium.opticalDepth(medium.passageOf(origin, direction), from, until, mostSteps);
   }
   return depth;
 }
@@ -42,6 +42,15 @@ glm::dvec3 Volumes::transmittanceOf(
 {
   return glm::dvec3(std::exp(
     -this->opticalDepth(glm::dvec3(origin), glm::dvec3(direction), shadowRayNear, rayFar)));
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 CoarseVolumes::transmittanceOf(
+  const glm::vec3& origin, const glm::vec3& direction, float rayFar) const
+{
+  constexpr int steps = 32;
+  return glm::dvec3(std::exp(-this->volumes_.opticalDepth(
+    glm::dvec3(origin), glm::dvec3(direction), shadowRayNear, rayFar, steps)));
 }
 
 } // namespace gnomon

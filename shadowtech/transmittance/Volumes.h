@@ -6,11 +6,15 @@
 
 #include <glm/glm.hpp>
 
+#include <limits>
 #include <memory>
 #include <vector>
 
 namespace gnomon
 {
+
+/// The most steps of a ray through one volume.
+inline constexpr int anySteps = std::numeric_limits<int>::max();
 
 /// The volumes of a snapshot that cast. A ray that marches through them keeps
 /// exp(-integral of extinction).
@@ -23,8 +27,8 @@ public:
 
   const std::vector<VolumeMedium>& media() const { return this->media_; }
   /// Return the sum over the volumes of VolumeMedium::opticalDepth().
-  double opticalDepth(
-    const glm::dvec3& origin, const glm::dvec3& direction, double from, double until) const;
+  double opticalDepth(const glm::dvec3& origin, const glm::dvec3& direction, double from,
+    double until, int mostSteps = anySteps) const;
 
   bool isColoured() const override { return false; }
   glm::dvec3 transmittanceOf(
@@ -34,6 +38,23 @@ private:
   std::vector<std::shared_ptr<const Volume>> volumes_;
   SceneFrame frame_;
   std::vector<VolumeMedium> media_;
+};
+
+/// The same for means over many rays, as of a sky: in few steps.
+class CoarseVolumes : public RayFilter
+{
+public:
+  /// @param volumes must outlive this
+  explicit CoarseVolumes(const Volumes& volumes)
+    : volumes_(volumes)
+  {
+  }
+  bool isColoured() const override { return false; }
+  glm::dvec3 transmittanceOf(
+    const glm::vec3& origin, const glm::vec3& direction, float rayFar) const override;
+
+private:
+  const Volumes& volumes_;
 };
 
 } // namespace gnomon

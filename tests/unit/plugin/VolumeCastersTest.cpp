@@ -258,6 +258,48 @@ TEST_F(VolumeCasters, AreaLightsLoseLightSampleBySample)
   }
 }
 
+/// Rays that march are the truth of those that read the stacks of the lamp's points.
+TEST_F(VolumeCasters, StacksOfAnAreaAreNearTheMarch)
+{
+  this->scene.renderer->RemoveAllLights();
+  vtkNew<vtkGnomonAreaLight> lamp;
+  lamp->SetPosition(1.0, 2.0, 6.0);
+  lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  lamp->SetRadius(0.1);
+  this->scene.renderer->AddLight(lamp);
+  Smoke smoke;
+  smoke.setWaves(1);
+  this->add(smoke);
+  for (const bool isLamp : { true, false })
+  {
+    lamp->SetPositional(isLamp);
+    lamp->SetRadius(isLamp ? 1.0 : 0.15);
+    const std::vector<float> march = drawKept(this->scene, "raytraced").visibility[0];
+    const std::vector<float> stacks = drawKept(this->scene, "penumbra").visibility[0];
+    double error = 0.0, darkness = 0.0;
+    for (std::size_t i = 0; i < march.size(); ++i)
+    {
+      error += std::abs(march[i] - stacks[i]) / static_cast<double>(march.size());
+      darkness += (1.0 - march[i]) / static_cast<double>(march.size());
+    }
+    EXPECT_LT(error, 0.01);
+    EXPECT_GT(error, 0.0) << "one of them reads no stack, or both do";
+    EXPECT_GT(darkness, 0.05);
+  }
+}
+
+TEST_F(VolumeCasters, TakeTheirShareOfTheSky)
+{
+  this->sun->SetPosition(0.0, 0.0, -1.0); // from below
+  this->sun->SetFocalPoint(0.0, 0.0, 0.0);
+  this->scene.pass->SetSkyIntensity(1.0);
+  this->scene.pass->SetSkyDirections(64);
+  Smoke smoke;
+  smoke.volume->SetScale(6.0, 6.0, 0.02); // nearly all rays cross it, all as long in its own space
+  this->add(smoke);
+  EXPECT_NEAR(this->scene.redAt(this->scene.render(), 0.0, 0.0), 255.0 * 0.36 * 0.36, 2.0);
+}
+
 TEST_F(VolumeCasters, CastOnlyIfAsked)
 {
   Smoke smoke;
