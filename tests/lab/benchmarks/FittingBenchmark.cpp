@@ -183,7 +183,7 @@ void run(int side, int frames)
 //------------------------------------------------------------------------------
 int main(int argc, char** argv)
 {
-  const auto window = makeOffScreenWindow();
+  const auto window = gnomon::makeOffScreenWindow();
   window->Initialize();
   window->MakeCurrent();
   gnomon::test::run(argc > 1 ? std::atoi(argv[1]) : 2048, argc > 2 ? std::atoi(argv[2]) : 21);
