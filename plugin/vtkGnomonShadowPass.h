@@ -351,9 +351,10 @@ public:
    * not known beforehand (`selective`, `coherence`, `crsm`, `crsma`, `silhouette`), takes rays. A
    * light whose image does not fit shows no shadow. GetReport() says so. The budget is each
    * renderer's and view's. Not counted is what lights share (the snapshot, the rays' structure, the
-   * receivers), and the maps by which translucent surfaces show shadows of other techniques,
-   * of 256 texels where a light takes rays for the budget's sake. Negative numbers are an error and
-   * change nothing. 0, the default, is no budget.
+   * receivers, the view of the sky), what volumes leave of a light, values at edges, and the maps
+   * by which translucent surfaces and volumes show shadows of other techniques, of 256 texels where
+   * a light takes rays for the budget's sake. Negative numbers are an error and change nothing. 0,
+   * the default, is no budget.
    */
   virtual void SetMemoryBudget(double mebibytes);
   vtkGetMacro(MemoryBudget, double);
