@@ -7,7 +7,7 @@ vec3 gnomonSampleInView()
   mat4 cellToPoint = in_cellToPoint[0];
   vec3 placeTexture = (g_dataPos - cellToPoint[3].xyz) /
     vec3(cellToPoint[0].x, cellToPoint[1].y, cellToPoint[2].z);
-  vec4 place = in_modelViewMatrix * in_volumeMatrix[0] * in_textureDatasetMatrix[0] *
-    vec4(placeTexture, 1.0);
+  vec4 place = in_modelViewMatrix *
+    (in_volumeMatrix[0] * (in_textureDatasetMatrix[0] * vec4(placeTexture, 1.0)));
   return gnomonInView(place.xyz / place.w);
 }
