@@ -26,7 +26,7 @@ struct CastingLight
   bool smooths = false;      ///< and true if it also smooths edges of the picture
   std::optional<double> tracedShare = {}; ///< VisibilityValue::tracedShare
   double milliseconds = 0.0;              ///< that this frame took for its visibility
-  /// Its pointwise technique, own or plain, where volumes cast; else null.
+  /// The technique of `own` or `atPoints` that shaders call, where volumes cast; else null.
   std::shared_ptr<const PointwiseTechnique> throughVolumes = {};
 
   const ShadowLight& light() const { return this->plan.light; }

@@ -61,19 +61,19 @@ void SnapshotTracer::updateFilters()
     this->sheets_->update(this->occluders_);
     filters.push_back(&*this->sheets_);
   }
-  this->filters_.reset();
-  this->ofMeans_.reset();
+  std::vector<const RayFilter*> ofMeans = filters;
   const Volumes& volumes = this->volumes_.volumes();
-  this->coarse_.emplace(volumes);
   if (!volumes.media().empty())
   {
-    filters.push_back(&*this->coarse_);
+    filters.push_back(&volumes);
+    ofMeans.push_back(&this->coarse_.emplace(volumes));
   }
+  this->filters_.reset();
+  this->ofMeans_.reset();
   if (!filters.empty())
   {
-    this->ofMeans_.emplace(filters);
-    filters.back() = volumes.media().empty() ? filters.back() : &volumes;
     this->filters_.emplace(std::move(filters));
+    this->ofMeans_.emplace(std::move(ofMeans));
   }
   this->tracer_->filterSamples(this->ofMeans_ ? &*this->ofMeans_ : nullptr);
 }

@@ -17,7 +17,7 @@ const Volumes& VolumeStage::volumes()
 }
 
 //------------------------------------------------------------------------------
-/// Find what there is of a light, without what is stale.
+/// Return a light's stacks. They are empty if the light, the volumes or the resolution changed.
 VolumeStage::LightStack& VolumeStage::find(const LightPlan& light)
 {
   this->volumes(); // drops stacks of other volumes

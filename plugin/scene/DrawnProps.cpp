@@ -128,7 +128,7 @@ private:
       this->drawn_.props.push_back(prop);
     }
   }
-  /// Add a box of VTK's to that of translucent receivers.
+  /// Add a box of VTK's to that of translucent receivers and volumes.
   void addBox(const double* sides, const glm::dmat4& worldFromModel)
   {
     const Bounds model{ { sides[0], sides[2], sides[4] }, { sides[1], sides[3], sides[5] } };

@@ -129,7 +129,7 @@ std::shared_ptr<const float> floatsOf(vtkDataArray* array)
 }
 
 /// Return the scalars at the ends of VTK's tables where four components together are a colour:
-/// those that its texture shows as 0 and 1, whatever their range.
+/// those that its texture shows as 0 and 1. For most types these are not the data's range.
 glm::dvec2 rangeOfColours(vtkDataArray* array, const glm::dvec2& rangeOfData)
 {
   switch (array->GetDataType())

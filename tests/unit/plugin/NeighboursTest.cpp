@@ -95,7 +95,8 @@ protected:
       { return picture.at(x, y).b > 60 && picture.at(x, y).g < 10; });
     this->scene.render();
     EXPECT_THAT(this->scene.report().notes,
-      testing::AllOf(testing::Not(testing::IsEmpty()), testing::Each(testing::HasSubstr("olume"))));
+      testing::AllOf(testing::Contains(testing::HasSubstr("SetVolumeCasters()")),
+        testing::Each(testing::HasSubstr("olume"))));
 
     this->expectPlainWhereNothingCasts();
   }

@@ -584,7 +584,7 @@ TEST(OptionalMaps, leaveTheMapOfTranslucentSurfacesAsItIs)
     EXPECT_EQ(scene.report().lights[0].mapReason, "");
     const Picture settled = expectBakes(1.5, 0, 0);
 
-    // Its view is fitted to the surfaces that show it, whatever camera came first.
+    // The first frame's camera does not matter: the view is fitted to the surfaces that show it.
     Shown fromThere(technique);
     fromThere.sphere->AddPosition(0.2, 0.1, 0.0);
     fromThere.renderFrom(1.5);
