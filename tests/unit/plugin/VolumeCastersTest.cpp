@@ -2,6 +2,8 @@
 
 #include "PassScene.h"
 
+#include "plugin/vtk_versions/VolumeLights.h"
+
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkFixedPointVolumeRayCastMapper.h>
@@ -129,6 +131,36 @@ TEST_F(VolumeCasters, LeaveWhatTheSlabsFormulaSays)
   this->scene.choose("raytraced");
   // Light and camera both look through the smoke.
   EXPECT_NEAR(this->scene.redAt(this->scene.render(), 0.0, 0.0), 255.0 * 0.36 * 0.36, 1.5);
+}
+
+TEST_F(VolumeCasters, DarkenTheirOwnSamplesAndThoseOfOthers)
+{
+  if (!numbersLightsAlike)
+  {
+    GTEST_SKIP() << "volumes do not receive";
+  }
+  Smoke lit;
+  lit.setScalars(1, [](int, const glm::dvec3& at) { return 100.0 + 40.0 * at.z; });
+  vtkNew<vtkColorTransferFunction> white;
+  white->AddRGBPoint(0.0, 1.0, 1.0, 1.0);
+  lit.property()->SetColor(0, white);
+  lit.property()->ShadeOn();
+  this->add(lit);
+  this->scene.lookFrom({ 0.0, -9.0, 1.5 }, { 0.0, 0.0, 1.5 });
+  Smoke above;
+  above.volume->SetPosition(0.0, 0.0, 3.0);
+  for (const char* const technique : { "nsm", "raytraced" })
+  {
+    SCOPED_TRACE(technique);
+    this->scene.pass->VolumeCastersOff();
+    const int open = this->scene.render(technique).red(24, 24);
+    this->scene.pass->VolumeCastersOn();
+    const int own = this->scene.render().red(24, 24);
+    EXPECT_LT(own, 0.9 * open);
+    this->add(above);
+    EXPECT_NEAR(this->scene.render().red(24, 24), 0.36 * own, 0.02 * open);
+    this->scene.renderer->RemoveVolume(above.volume);
+  }
 }
 
 TEST_F(VolumeCasters, TechniquesThatDrawOnTheScreenTakeRaysAndSayWhy)
