@@ -19,6 +19,37 @@ std::string factorOf(const ShadedLight& shaded, int light)
     "(gnomonSample), gnomonStrength" + number + ")";
 }
 
+/// The share of each light that reaches a sample: variables, with a function that finds a light's,
+/// and what sets them.
+struct ShareCode
+{
+  std::string declarations, values;
+};
+
+/// @param factors by VTK's number of the light
+/// @param room the number of lights that VTK has room for
+ShareCode codeOf(const std::vector<std::pair<int, std::string>>& factors, int room)
+{
+  std::string variables;
+  std::string found;
+  std::string values;
+  for (const auto& [index, factor] : factors)
+  {
+    if (index < room)
+    {
+      const std::string light = std::to_string(index);
+      const std::string share = "gnomonShare" + light;
+      variables += "vec3 " + share + " = vec3(1.0);\n";
+      found += "light == " + light + " ? " + share + " : ";
+      values += "    " + share + " = vec3(" + factor + ");\n";
+    }
+  }
+  return { variables + "vec3 gnomonShare(int light)\n{\n  return " + found + "vec3(1.0);\n}\n",
+    "\n  if (gnomonReceives == 1)\n  {\n"
+    "    vec3 gnomonSample = (gnomonViewFromData * vec4(g_dataPos, 1.0)).xyz;\n" +
+      values + "  }\n" };
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -55,24 +86,13 @@ void VolumeHook::fill(std::string& fragmentShader) const
   {
     return;
   }
-  const auto hidden = [&](const std::string& name)
-  { return "  vec3 " + name + "[" + size.str(1) + "] = " + name + ";\n"; };
-  std::string body = "\n" + hidden("in_lightDiffuseColor") + hidden("in_lightSpecularColor") +
-    "  if (gnomonReceives == 1)\n  {\n    vec3 gnomonSample = gnomonSampleInView();\n"
-    "    vec3 gnomonShare;\n";
-  for (const auto& [index, factor] : this->factors_)
-  {
-    const std::string number = "[" + std::to_string(index) + "]";
-    if (index < std::stoi(size.str(1))) // VTK has room for so many
-    {
-      body += "    gnomonShare = vec3(" + factor + ");\n    in_lightDiffuseColor" + number +
-        " *= gnomonShare;\n    in_lightSpecularColor" + number + " *= gnomonShare;\n";
-    }
-  }
-  const auto begin = static_cast<std::size_t>(head.position());
-  const auto length = static_cast<std::size_t>(head.length());
-  fragmentShader.insert(begin + length, body + "  }\n");
-  fragmentShader.insert(begin, this->declarations_);
+  const ShareCode shares = codeOf(this->factors_, std::stoi(size.str(1)));
+  static const std::regex colour(R"((in_light(?:Diffuse|Specular)Color)\[(\w+)\])");
+  static const std::regex main(R"(void main\(\)\s*\{)");
+  const std::string lit =
+    std::regex_replace(head.suffix().str(), colour, "($1[$2] * gnomonShare($2))");
+  fragmentShader = head.prefix().str() + this->declarations_ + shares.declarations + head.str() +
+    shares.values + std::regex_replace(lit, main, "$&\n  gnomonPlaceSamples();");
 }
 
 } // namespace gnomon

@@ -349,10 +349,13 @@ TEST(VolumeHookText, hasNoLightThatVtkHasNoRoomFor)
   far.light.shaderIndex = 6;
   const VolumeHook hook(true, { near, far });
   std::string lit = "uniform vec3 in_lightDiffuseColor[6];\n"
-                    "vec4 computeLighting(vec4 color, int component, float label)\n  {\n";
+                    "vec4 computeLighting(vec4 color, int component, float label)\n  {\n"
+                    "  color.rgb *= in_lightDiffuseColor[0];\n  }\nvoid main()\n{\n";
   hook.fill(lit);
-  EXPECT_THAT(lit, testing::HasSubstr("in_lightSpecularColor[1] *= gnomonShare;"));
-  EXPECT_THAT(lit, testing::Not(testing::HasSubstr("Color[6] *=")));
+  EXPECT_THAT(lit, testing::HasSubstr("(in_lightDiffuseColor[0] * gnomonShare(0))"));
+  EXPECT_THAT(lit, testing::HasSubstr("gnomonShare1 = "));
+  EXPECT_THAT(lit, testing::Not(testing::HasSubstr("gnomonShare6")));
+  EXPECT_THAT(lit, testing::HasSubstr("gnomonPlaceSamples();"));
   const std::string other = "uniform vec3 in_lightDiffuseColor[COUNT];\nvoid main() {}\n";
   std::string filled = other;
   hook.fill(filled);
