@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <optional>
 
 namespace gnomon
 {
@@ -150,9 +149,44 @@ std::string textOfNumber(const std::string& settingName, double number)
 }
 
 //------------------------------------------------------------------------------
+std::optional<SettingValue> readValue(const SettingValues& values, const std::string& text)
+{
+  return std::visit(ReadText{ text }, values);
+}
+
+//------------------------------------------------------------------------------
+std::string textOf(const SettingValues& values, const SettingValue& value)
+{
+  if (const auto* text = std::get_if<std::string>(&value))
+  {
+    return *text;
+  }
+  if (const auto* number = std::get_if<double>(&value))
+  {
+    return shortest(*number);
+  }
+  const auto* choices = std::get_if<ChoiceSetting>(&values);
+  const int integer = std::get<int>(value);
+  return choices ? choices->names[static_cast<std::size_t>(integer)] : std::to_string(integer);
+}
+
+//------------------------------------------------------------------------------
+std::string expectedOf(const SettingValues& values)
+{
+  return std::visit(Expected{}, values);
+}
+
+//------------------------------------------------------------------------------
+std::string errorOf(const std::string& name, const SettingValues& values, const std::string& found)
+{
+  return "Invalid value '" + found + "' for the setting '" + name + "', expected " +
+    expectedOf(values);
+}
+
+//------------------------------------------------------------------------------
 bool Setting::set(ShadowSettings& settings, const std::string& text) const
 {
-  const std::optional<SettingValue> value = std::visit(ReadText{ text }, this->values);
+  const std::optional<SettingValue> value = readValue(this->values, text);
   if (!value)
   {
     return false;
@@ -165,24 +199,7 @@ bool Setting::set(ShadowSettings& settings, const std::string& text) const
 //------------------------------------------------------------------------------
 std::string Setting::get(const ShadowSettings& settings) const
 {
-  const SettingValue value = this->read(settings);
-  if (const auto* text = std::get_if<std::string>(&value))
-  {
-    return *text;
-  }
-  if (const auto* number = std::get_if<double>(&value))
-  {
-    return shortest(*number);
-  }
-  const auto* choices = std::get_if<ChoiceSetting>(&this->values);
-  const int integer = std::get<int>(value);
-  return choices ? choices->names[static_cast<std::size_t>(integer)] : std::to_string(integer);
-}
-
-//------------------------------------------------------------------------------
-std::string Setting::expected() const
-{
-  return std::visit(Expected{}, this->values);
+  return textOf(this->values, this->read(settings));
 }
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -32,8 +33,20 @@ struct ChoiceSetting
 };
 ///@}
 
+/// The valid values of a setting of any kind.
+using SettingValues = std::variant<IntegerSetting, RealSetting, ChoiceSetting>;
+
 /// A setting's value: an integer or the index of a choice, a number, or a text.
 using SettingValue = std::variant<int, double, std::string>;
+
+/// Return the value that a text stands for; nothing if it is not valid.
+std::optional<SettingValue> readValue(const SettingValues& values, const std::string& text);
+/// Return a valid value's text.
+std::string textOf(const SettingValues& values, const SettingValue& value);
+/// Return the valid values for error messages: "one of: bilinear, box", "an integer in [1, 32]".
+std::string expectedOf(const SettingValues& values);
+/// Return the error of a value that a setting does not take, as a sentence without a full stop.
+std::string errorOf(const std::string& name, const SettingValues& values, const std::string& found);
 
 /// One setting, as light keys, scene files and command lines see it. cmake/GnomonSettings.cmake
 /// makes them of settings.json; other code reads and writes the struct's members.
@@ -43,7 +56,7 @@ struct Setting
   std::string name;    ///< as in scene files, "kernel_size"; on the command line "--kernel-size"
   std::string meaning; ///< one line for users
   std::string unit;    ///< for example "texels"; empty without a unit
-  std::variant<IntegerSetting, RealSetting, ChoiceSetting> values;
+  SettingValues values;
   SettingValue (*read)(const ShadowSettings&);
   void (*write)(ShadowSettings&, const SettingValue&);
   void (*copy)(ShadowSettings& to, const ShadowSettings& from);
@@ -53,8 +66,7 @@ struct Setting
   /// @return false for an invalid value; then nothing changes
   bool set(ShadowSettings& settings, const std::string& text) const;
   std::string get(const ShadowSettings& settings) const;
-  /// Return the valid values for error messages: "one of: bilinear, box", "an integer in [1, 32]".
-  std::string expected() const;
+  std::string expected() const { return expectedOf(this->values); }
 };
 
 /// Settings that a technique has together or not at all.

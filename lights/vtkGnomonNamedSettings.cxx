@@ -62,8 +62,7 @@ bool vtkGnomonNamedSettings::TrySetting(const char* name, const char* value)
   const gnomon::SettingValue before = setting->read(values);
   if (!setting->set(values, text))
   {
-    error = "Invalid value '" + text + "' for the setting '" + setting->name + "', expected " +
-      setting->expected();
+    error = gnomon::errorOf(setting->name, setting->values, text);
     return false;
   }
   if (setting->name == "technique")

@@ -139,9 +139,10 @@ public:
   ///@{
   /**
    * The same by name: any of vtkGnomonLightKeys's settings, as text or as a number, technique and
-   * map size included. A setting that does not exist, and a value that it does not take, are an
-   * error, return false and change nothing; GetSettingError then says why (vtkGnomonNamedSettings).
-   * GetSetting returns an empty string for what does not exist.
+   * map size included; and the pass's own sky_intensity, sky_model ("uniform", "dome",
+   * "overcast"), sky_distance and sky_directions. A setting that does not exist, and a value that
+   * it does not take, are an error, return false and change nothing; GetSettingError then says why
+   * (vtkGnomonNamedSettings). GetSetting returns an empty string for what does not exist.
    */
   virtual bool SetSetting(const char* name, const char* value);
   bool SetSetting(const char* name, double number);
@@ -613,6 +614,7 @@ protected:
 
 private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
+  struct SkySetting;
   void SetNumber(const char* name, double value, double most, double& number);
   class HookMarks;
   gnomon::FrameEnd DrawFrame(const vtkRenderState* s);

@@ -24,6 +24,7 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <string>
 
 struct vtkGnomonShadowPass::Internals
 {
@@ -51,6 +52,8 @@ struct vtkGnomonShadowPass::Internals
   std::list<TakenPlace> places;
   vtkSmartPointer<vtkGnomonShadowSettings> settings =
     vtkSmartPointer<vtkGnomonShadowSettings>::New(); ///< of lights that say nothing
+  /// Of the last setting that was set by name, if it was the sky's; empty after a success.
+  std::optional<std::string> skyError;
   std::unique_ptr<gnomon::PassPrograms> programs = std::make_unique<gnomon::PassPrograms>();
   std::list<RendererFrames> renderers; ///< those drawn so far, the last one first
   gnomon::ViewCount viewCount;

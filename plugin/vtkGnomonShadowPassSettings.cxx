@@ -11,9 +11,26 @@
 #include "vtkMultiProcessController.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
+
+namespace
+{
+
+gnomon::ChoiceSetting powersOfTwo(int least, int most)
+{
+  gnomon::ChoiceSetting powers;
+  for (int power = least; power <= most; power *= 2)
+  {
+    powers.names.push_back(std::to_string(power));
+  }
+  return powers;
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetMaximumError(double share)
@@ -163,8 +180,59 @@ vtkGnomonShadowSettings* vtkGnomonShadowPass::GetSettings()
 }
 
 //------------------------------------------------------------------------------
+/// A setting of the sky, which the pass has beside those of lights.
+struct vtkGnomonShadowPass::SkySetting
+{
+  std::string name;
+  gnomon::SettingValues values;
+  void (*set)(vtkGnomonShadowPass*, const gnomon::SettingValue&);
+  gnomon::SettingValue (*get)(const vtkGnomonShadowPass*);
+
+  /// Return the setting with this name; nullptr without one.
+  static const SkySetting* find(const char* name)
+  {
+    using Pass = vtkGnomonShadowPass;
+    using Value = gnomon::SettingValue;
+    static const std::array<SkySetting, 4> settings{ {
+      { "sky_intensity", gnomon::RealSetting{ 0.0, 1e6 },
+        [](Pass* pass, const Value& value) { pass->SetSkyIntensity(std::get<double>(value)); },
+        [](const Pass* pass) { return Value(pass->SkyIntensity); } },
+      { "sky_model", gnomon::ChoiceSetting{ { "uniform", "dome", "overcast" } },
+        [](Pass* pass, const Value& value) { pass->SetSkyModel(std::get<int>(value)); },
+        [](const Pass* pass) { return Value(pass->SkyModel); } },
+      { "sky_distance", gnomon::anyLength,
+        [](Pass* pass, const Value& value) { pass->SetSkyDistance(std::get<double>(value)); },
+        [](const Pass* pass) { return Value(pass->SkyDistance); } },
+      { "sky_directions", powersOfTwo(16, 65536),
+        [](Pass* pass, const Value& value) { pass->SetSkyDirections(16 << std::get<int>(value)); },
+        [](const Pass* pass) { return Value(std::ilogb(pass->SkyDirections / 16)); } },
+    } };
+    const auto found = std::find_if(settings.begin(), settings.end(),
+      [&](const SkySetting& setting) { return name && setting.name == name; });
+    return found == settings.end() ? nullptr : &*found;
+  }
+};
+
+//------------------------------------------------------------------------------
 bool vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
 {
+  std::optional<std::string>& skyError = this->Internal->skyError;
+  skyError.reset();
+  if (const SkySetting* const sky = SkySetting::find(name))
+  {
+    const std::string text = value ? value : "";
+    const std::optional<gnomon::SettingValue> read = gnomon::readValue(sky->values, text);
+    skyError = read ? "" : gnomon::errorOf(sky->name, sky->values, text);
+    if (read)
+    {
+      sky->set(this, *read);
+    }
+    else
+    {
+      vtkErrorMacro(<< *skyError << ".");
+    }
+    return read.has_value();
+  }
   const vtkMTimeType before = this->Internal->settings->GetMTime();
   const bool isSet = this->Internal->settings->TrySetting(name, value);
   if (!isSet)
@@ -193,13 +261,15 @@ std::string vtkGnomonShadowPass::GetSettingsText()
 //------------------------------------------------------------------------------
 std::string vtkGnomonShadowPass::GetSettingError() const
 {
-  return this->Internal->settings->GetSettingError();
+  return this->Internal->skyError.value_or(this->Internal->settings->GetSettingError());
 }
 
 //------------------------------------------------------------------------------
 std::string vtkGnomonShadowPass::GetSetting(const char* name) const
 {
-  return this->Internal->settings->GetSetting(name);
+  const SkySetting* const sky = SkySetting::find(name);
+  return sky ? gnomon::textOf(sky->values, sky->get(this))
+             : this->Internal->settings->GetSetting(name);
 }
 
 //------------------------------------------------------------------------------

@@ -48,6 +48,36 @@ TEST_F(SkyTest, OpenPlatesHaveTheirWholeColour)
   }
 }
 
+TEST_F(SkyTest, SettingsByNameAreThoseOfThePass)
+{
+  vtkGnomonShadowPass& pass = *this->scene.pass;
+  EXPECT_TRUE(pass.SetSetting("sky_intensity", 0.4) && pass.SetSetting("sky_model", "overcast") &&
+    pass.SetSetting("sky_distance", "2.5") && pass.SetSetting("sky_directions", 1024));
+  EXPECT_EQ(pass.GetSkyIntensity(), 0.4);
+  EXPECT_EQ(pass.GetSkyModel(), vtkGnomonShadowPass::SKY_OVERCAST);
+  EXPECT_EQ(pass.GetSkyDistance(), 2.5);
+  EXPECT_EQ(pass.GetSkyDirections(), 1024);
+  const vtkMTimeType before = pass.GetMTime();
+  for (const auto& [name, value, expected] :
+    { std::tuple("sky_intensity", "-1", "a number in [0, 1e+06]"),
+      std::tuple("sky_intensity", "nan", "a number in [0, 1e+06]"),
+      std::tuple("sky_model", "blue", "one of: uniform, dome, overcast"),
+      std::tuple("sky_distance", "far", "a number of at least 0"),
+      std::tuple("sky_directions", "100", "one of: 16, 32, 64"),
+      std::tuple("sky", "1", "Lights have no setting 'sky'") })
+  {
+    const std::string was = pass.GetSetting(name);
+    EXPECT_FALSE(pass.SetSetting(name, value));
+    EXPECT_THAT(this->takeErrors(), testing::HasSubstr(expected));
+    EXPECT_THAT(pass.GetSettingError(), testing::HasSubstr(expected));
+    EXPECT_EQ(pass.GetSetting(name), was);
+  }
+  EXPECT_EQ(pass.GetMTime(), before);
+  EXPECT_EQ(pass.GetSetting("sky_directions"), "1024");
+  EXPECT_TRUE(pass.SetSetting("sky_directions", "64"));
+  EXPECT_EQ(pass.GetSettingError(), "");
+}
+
 /// Physically based materials are shown after VTK's gamma.
 TEST_F(SkyTest, PhysicallyBasedMaterialsHaveTheirDiffuseColour)
 {
