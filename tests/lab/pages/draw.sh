@@ -62,9 +62,13 @@ examples()
   for example in assembly atrium headless_figure molecule shader_waves; do
     drawPair $out/$example.png $programs/$example '{picture}' 320 240
   done
-  for example in molecule_surface moving_light nested_surfaces shadow_catcher streamtubes \
-    terrain_sun_hours volume_shadows; do
-    drawPair $out/$example.png /usr/bin/python3 examples/$example.py '{picture}' 320 240 1
+  for example in molecule_surface nested_surfaces shadow_catcher streamtubes terrain_sun_hours; do
+    drawPair $out/$example.png /usr/bin/python3 examples/$example.py '{picture}' 320 240
+  done
+  drawPair $out/moving_light.png /usr/bin/python3 examples/moving_light.py '{picture}' 320 240 1
+  for scene in scan smoke case; do
+    drawPair $out/volume_$scene.png /usr/bin/python3 examples/volume_shadows.py \
+      '{picture}' 320 240 $scene
   done
   $programs/ct_area_light $out/ct_area_light.png 640 320 # without and with shadows
   /usr/bin/python3 examples/technique_table.py $out/technique_table.png 640 480
