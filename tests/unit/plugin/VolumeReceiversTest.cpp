@@ -101,7 +101,7 @@ struct VolumeReceivers : PassTest
     double value = 0.0;
     double through = 1.0;
     const double left = std::pow(1.0 - unitOpacity, step / 0.1);
-    for (double along = enter + step; along < leave; along += step)
+    for (double along = enter + this->firstSample; along < leave; along += step)
     {
       const glm::dvec3 sample(place, 10.0 - along);
       for (vtkLight* light : this->lights)
@@ -203,6 +203,7 @@ struct VolumeReceivers : PassTest
   vtkNew<vtkOpenGLGPUVolumeRayCastMapper> mapper = makeMapper();
   vtkNew<vtkVolume> volume;
   std::vector<vtkLight*> lights;
+  double firstSample = step; // from where VTK's rays enter
 };
 
 TEST_F(VolumeReceivers, samplesBehindACardAreDarkByAllLightsAndRoutes)
@@ -275,6 +276,18 @@ TEST_F(VolumeReceivers, placesOfSamplesAreThoseOfTheData)
   this->addSlab(smart);
   this->expectLikeMarch("smart mapper");
   EXPECT_EQ(smart->GetLastUsedRenderMode(), vtkSmartVolumeMapper::GPURenderMode);
+}
+
+TEST_F(VolumeReceivers, samplesBetweenPeelsAreLikeOthers)
+{
+  this->lights = { this->scene.addSun({ 0.5, 0.1, -1.0 }) };
+  vtkActor* const pane = this->scene.addBox({ 1.2, -0.1, 0.2 }, { 1.4, 0.1, 0.4 });
+  pane->GetProperty()->SetOpacity(0.5); // or else VTK peels nothing
+  this->scene.renderer->UseDepthPeelingOn();
+  this->scene.renderer->UseDepthPeelingForVolumesOn();
+  this->addSlab();
+  this->firstSample = 2.0 * step; // in the volume, between two peels
+  this->expectLikeMarch("peeled");
 }
 
 TEST_F(VolumeReceivers, otherVolumesStayAsTheyAre)
