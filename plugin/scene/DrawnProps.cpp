@@ -368,9 +368,10 @@ void Finder::addVolume(vtkProp* leaf, vtkMatrix4x4* matrix)
     ++this->drawn_.volumeReceivers;
     this->addBox(mapper->GetBounds(), toGlm(place));
   }
-  if (auto read = casts ? this->memory_.volumes.find(volume, place, why) : nullptr)
+  if (casts)
   {
-    this->drawn_.volumes.push_back(std::move(read));
+    const auto blocks = this->memory_.volumes.find(volume, place, why);
+    this->drawn_.volumes.insert(this->drawn_.volumes.end(), blocks.begin(), blocks.end());
   }
   if (why)
   {

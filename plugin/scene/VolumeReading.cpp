@@ -4,12 +4,15 @@
 #include "plugin/scene/ForgetUnasked.h"
 #include "plugin/scene/MapperKind.h"
 
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
 #include "vtkGPUVolumeRayCastMapper.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkMultiBlockVolumeMapper.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkSmartVolumeMapper.h"
 #include "vtkUnsignedCharArray.h"
@@ -56,15 +59,37 @@ vtkImageData* maskOf(vtkVolumeMapper* mapper)
   return gpu ? gpu->GetMaskInput() : nullptr;
 }
 
-/// Return why a volume cannot cast, as a clause; null if it can.
-const char* whyNoMedium(vtkVolume* volume, vtkVolumeMapper* mapper)
+/// Return the mapper's images: one, or those of its blocks. Null stands for other data.
+std::vector<vtkImageData*> imagesOf(vtkVolumeMapper* mapper)
+{
+  vtkDataObject* const input = mapper->GetInputDataObject(0, 0);
+  auto* const blocks = vtkCompositeDataSet::SafeDownCast(input);
+  if (!blocks)
+  {
+    return { vtkImageData::SafeDownCast(input) };
+  }
+  std::vector<vtkImageData*> images;
+  const auto iterator = vtk::TakeSmartPointer(blocks->NewIterator()); // skips empty blocks
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    images.push_back(vtkImageData::SafeDownCast(iterator->GetCurrentDataObject()));
+  }
+  return images;
+}
+
+/// True if a mapper shows a component or the length of vectors.
+bool showsVectors(vtkVolumeMapper* mapper)
+{
+  auto* const smart = vtkSmartVolumeMapper::SafeDownCast(mapper);
+  auto* const blocks = vtkMultiBlockVolumeMapper::SafeDownCast(mapper);
+  return (smart && smart->GetVectorMode() != vtkSmartVolumeMapper::DISABLED) ||
+    (blocks && blocks->GetVectorMode() != vtkSmartVolumeMapper::DISABLED);
+}
+
+/// Return why an image of a volume cannot cast, as a clause; null if it can.
+const char* whyNoMedium(vtkVolume* volume, vtkVolumeMapper* mapper, vtkImageData* data)
 {
   vtkVolumeProperty* const property = volume->GetProperty();
-  auto* const data = vtkImageData::SafeDownCast(mapper ? mapper->GetInput() : nullptr);
-  if (volume->IsA("vtkMultiVolume") || !mapper)
-  {
-    return "its mapper draws no single image";
-  }
   if (!data)
   {
     return "its grid is no image";
@@ -81,8 +106,7 @@ const char* whyNoMedium(vtkVolume* volume, vtkVolumeMapper* mapper)
   {
     return "parts of its grid are blanked";
   }
-  auto* const smart = vtkSmartVolumeMapper::SafeDownCast(mapper);
-  if (smart && smart->GetVectorMode() != vtkSmartVolumeMapper::DISABLED)
+  if (showsVectors(mapper))
   {
     return "it shows a component or the length of vectors";
   }
@@ -302,20 +326,40 @@ void VolumeReading::beginFrame()
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const Volume> VolumeReading::find(
+std::vector<std::shared_ptr<const Volume>> VolumeReading::find(
   vtkVolume* volume, vtkMatrix4x4* matrix, const char*& why)
 {
   auto* const mapper = vtkVolumeMapper::SafeDownCast(volume->GetMapper());
-  if (mapper && mapper->GetNumberOfInputConnections(0) > 0)
+  if (!mapper || volume->IsA("vtkMultiVolume"))
+  {
+    why = volume->GetMapper() ? "its mapper draws no single image" : nullptr;
+    return {};
+  }
+  if (mapper->GetNumberOfInputConnections(0) > 0)
   {
     mapper->GetInputAlgorithm()->UpdateWholeExtent();
   }
-  why = volume->GetMapper() ? whyNoMedium(volume, mapper) : nullptr;
-  if (why || !mapper)
+  std::vector<std::shared_ptr<const Volume>> found;
+  for (vtkImageData* const image : imagesOf(mapper))
   {
-    return nullptr;
+    why = whyNoMedium(volume, mapper, image);
+    if (why)
+    {
+      return {};
+    }
+    if (auto block = this->findBlock(volume, matrix, image, found.size()))
+    {
+      found.push_back(std::move(block));
+    }
   }
-  auto* const data = static_cast<vtkImageData*>(mapper->GetInput());
+  return found;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const Volume> VolumeReading::findBlock(
+  vtkVolume* volume, vtkMatrix4x4* matrix, vtkImageData* data, std::size_t block)
+{
+  auto* const mapper = static_cast<vtkVolumeMapper*>(volume->GetMapper());
   const MappedScalars scalars = scalarsOf(mapper, data);
   const glm::dmat4 worldFromModel = toGlm(matrix);
   const glm::ivec3 samples = samplesOf(data, scalars.isOfCells);
@@ -324,7 +368,7 @@ std::shared_ptr<const Volume> VolumeReading::find(
   {
     return nullptr;
   }
-  Known& known = this->known_[volume];
+  Known& known = this->known_[{ volume, block }];
   known.asked = true;
   std::vector<double> source = sourceOf(volume, mapper, data, scalars.array);
   const std::vector<glm::dvec4> clipPlanes = clipPlanesOf(mapper);

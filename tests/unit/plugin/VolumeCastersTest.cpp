@@ -6,8 +6,11 @@
 
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkExtractVOI.h>
 #include <vtkFixedPointVolumeRayCastMapper.h>
 #include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkMultiBlockVolumeMapper.h>
 #include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
@@ -555,6 +558,52 @@ TEST_F(VolumeCasters, OfOtherMappersCastAlike)
     smoke.volume->SetMapper(mapper);
     EXPECT_NEAR(this->seen("raytraced"), 0.36, 1e-3) << mapper->GetClassName();
   }
+}
+
+TEST_F(VolumeCasters, InBlocksCastAsTheWhole)
+{
+  Smoke smoke;
+  smoke.setWaves(1);
+  this->add(smoke);
+  this->sun->SetPosition(1.0, 0.5, 3.0);
+  this->sun->SetFocalPoint(0.0, 0.0, 0.0);
+  const std::vector<std::string> techniques{ "raytraced", "silhouette", "pcf" };
+  std::vector<std::vector<float>> whole;
+  for (const std::string& technique : techniques)
+  {
+    this->seen(technique.c_str());
+    whole.push_back(this->scene.pass->GetVisibility().visibility[0]);
+  }
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (unsigned int half = 0; half < 2; ++half)
+  {
+    vtkNew<vtkExtractVOI> part;
+    part->SetInputData(smoke.image);
+    half == 0 ? part->SetVOI(0, 12, 0, 32, 0, 32) : part->SetVOI(12, 32, 0, 32, 0, 32);
+    part->Update();
+    blocks->SetBlock(2 * half, part->GetOutput()); // one is empty
+  }
+  vtkNew<vtkMultiBlockVolumeMapper> mapper;
+  mapper->SetInputDataObject(blocks);
+  smoke.volume->SetMapper(mapper);
+  for (std::size_t i = 0; i < techniques.size(); ++i)
+  {
+    this->seen(techniques[i].c_str());
+    const std::vector<float>& inBlocks = this->scene.pass->GetVisibility().visibility[0];
+    ASSERT_EQ(inBlocks.size(), whole[i].size());
+    float worst = 0.0f;
+    for (std::size_t pixel = 0; pixel < inBlocks.size(); ++pixel)
+    {
+      worst = std::max(worst, std::abs(inBlocks[pixel] - whole[i][pixel]));
+    }
+    EXPECT_LT(worst, i == 0 ? 0.002f : 0.03f) << techniques[i];
+  }
+  EXPECT_THAT(this->notes(), testing::Not(testing::HasSubstr("volume")));
+  blocks->SetBlock(2, nullptr);
+  EXPECT_GT(this->seen("raytraced"), whole[0][24 * 48 + 24]);
+  mapper->SetVectorMode(vtkSmartVolumeMapper::MAGNITUDE);
+  EXPECT_EQ(this->seen("raytraced"), 1.0f);
+  EXPECT_THAT(this->notes(), testing::HasSubstr("the length of vectors"));
 }
 
 TEST_F(VolumeCasters, ThatCannotBeServedAreNamed)

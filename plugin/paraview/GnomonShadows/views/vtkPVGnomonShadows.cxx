@@ -262,6 +262,12 @@ void vtkPVGnomonShadows::SetCasting(int casting)
 }
 
 //----------------------------------------------------------------------------
+void vtkPVGnomonShadows::SetVolumesCast(bool cast)
+{
+  this->Pass->SetVolumeCasters(cast);
+}
+
+//----------------------------------------------------------------------------
 void vtkPVGnomonShadows::SetSkyIntensity(double intensity)
 {
   this->Pass->SetSkyIntensity(intensity);

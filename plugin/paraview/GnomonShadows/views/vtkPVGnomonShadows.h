@@ -52,6 +52,11 @@ public:
   ///@}
 
   /**
+   * As vtkGnomonShadowPass::SetVolumeCasters(). Default off.
+   */
+  void SetVolumesCast(bool cast);
+
+  /**
    * As vtkGnomonShadowPass::SetSkyIntensity(). Default 0.
    */
   void SetSkyIntensity(double intensity);
