@@ -106,10 +106,6 @@ const char* whyNoMedium(vtkVolume* volume, vtkVolumeMapper* mapper, vtkImageData
   {
     return "parts of its grid are blanked";
   }
-  if (showsVectors(mapper))
-  {
-    return "it shows a component or the length of vectors";
-  }
   if (auto* const mask = maskOf(mapper))
   {
     const bool isBinary = vtkGPUVolumeRayCastMapper::SafeDownCast(mapper)->GetMaskType() ==
@@ -121,6 +117,10 @@ const char* whyNoMedium(vtkVolume* volume, vtkVolumeMapper* mapper, vtkImageData
   }
   vtkDataArray* const array = scalarsOf(mapper, data).array;
   const int components = array ? array->GetNumberOfComponents() : 1;
+  if (components > 1 && showsVectors(mapper)) // ParaView asks for the length of single components
+  {
+    return "it shows a component or the length of vectors";
+  }
   return components > 4 || (components == 3 && !property->GetIndependentComponents())
     ? "its components decide no opacity"
     : nullptr;

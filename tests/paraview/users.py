@@ -15,7 +15,7 @@ import time
 
 import numpy as np
 from paraview import servermanager
-from paraview.simple import Box, Calculator, Connect, Contour, CreateView, Delete
+from paraview.simple import Box, Calculator, ColorBy, Connect, Contour, CreateView, Delete
 from paraview.simple import GetActiveView, GetActiveViewOrCreate, Line, LoadState, Plane
 from paraview.simple import PointSource, Render, ResetSession, Ruler, SaveScreenshot, SaveState
 from paraview.simple import Show, Sphere, StreamTracer, Wavelet
@@ -316,22 +316,24 @@ def terminators(pictures):
 
 
 def casters(pictures):
-    """All looks of the Display panel cast: spheres, tubes, and translucent surfaces."""
+    """All looks of the Display panel cast: spheres, tubes, translucent surfaces and volumes."""
     floor = Plane(Origin=[-5, -5, 0], Point1=[5, -5, 0], Point2=[-5, 5, 0], XResolution=40)
     box = Box(XLength=2, YLength=2, ZLength=2, Center=[0, 0, 2])
     line = Line(Point1=[-3, -2, 2], Point2=[3, 2, 2], Resolution=6)
     points = PointSource(Center=[0, 0, 2], Radius=1.5, NumberOfPoints=10)
 
-    def share(name, source, **properties):
+    def share(name, source, array=None, **properties):
         view = scenario.make_view(False, SIZE)
         show(floor, view)
         display = show(source, view)
         for key, value in properties.items():
             setattr(display, key, value)
+        if array:
+            ColorBy(display, ("POINTS", array))
         look(view, (6, -14, 12), (0, 0, 0.5))
         scenario.add_light(view, "sun", (-4, -3, 9))
         plain = pictures.take(view, name)
-        view.ShowShadows = view.TranslucentCasts = 1
+        view.ShowShadows = view.TranslucentCasts = view.VolumesCast = 1
         dark = in_shadow(pictures.take(view, name), plain).mean()
         pictures.row(name, f"{100 * dark:.1f} %")
         scenario.check(f"{name} casts", 0.001 < dark < 0.1, f"{100 * dark:.1f} % of the picture")
@@ -341,6 +343,9 @@ def casters(pictures):
     share("spheres", points, RenderPointsAsSpheres=1, PointSize=24.0)
     if pictures.processes == 1:  # Debian's ParaView cannot redistribute data to order it
         share("a translucent box", box, Opacity=0.5)
+        wave = Wavelet(WholeExtent=[-10, 10, -10, 10, -10, 10])
+        place = {"Scale": [0.1, 0.1, 0.1], "Position": [0, 0, 2]}
+        share("a volume", wave, "RTData", Representation="Volume", **place)
 
 
 def dragging(pictures):
