@@ -201,8 +201,8 @@ public:
    * Have all translucent props cast, but for those whose key CASTS is 0. Each crossing of such a
    * surface leaves 1 - a of the light, where a is the opacity with which VTK draws it; see
    * vtkGnomonPropKeys::TRANSMITS. Rays find what is left, so lights with other techniques take
-   * `raytraced`. Translucent surfaces themselves show no such shadows. Default off: translucent
-   * props cast if their key asks.
+   * `raytraced`. Translucent surfaces and volumes read it from a map, whose texels tell eight
+   * crossings apart. Default off: translucent props cast if their key asks.
    */
   vtkSetMacro(TranslucentCasters, bool);
   vtkGetMacro(TranslucentCasters, bool);
@@ -211,7 +211,7 @@ public:
 
   ///@{
   /**
-   * Have samples of volumes show the shadows of opaque surfaces, where VTK's GPU mapper lights
+   * Have samples of volumes show the shadows of surfaces, where VTK's GPU mapper lights
    * them: with ShadeOn, blended by opacity, unless the prop's key RECEIVES is 0. Volumes show the
    * light's own technique if it works at points, else `pcf`. Other volumes stay as they are.
    * Default on.

@@ -29,9 +29,9 @@ bool mayTakeMap(const LightPlan& plan)
 //------------------------------------------------------------------------------
 const PointwiseTechnique* CastingLight::pointwise() const
 {
-  if (this->throughVolumes && this->plan.shadedBy != ShadedBy::Fetch)
+  if (this->filtered && this->plan.shadedBy != ShadedBy::Fetch)
   {
-    return this->throughVolumes.get();
+    return this->filtered.get();
   }
   switch (this->plan.shadedBy)
   {

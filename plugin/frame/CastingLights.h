@@ -26,8 +26,9 @@ struct CastingLight
   bool smooths = false;      ///< and true if it also smooths edges of the picture
   std::optional<double> tracedShare = {}; ///< VisibilityValue::tracedShare
   double milliseconds = 0.0;              ///< that this frame took for its visibility
-  /// The technique of `own` or `atPoints` that shaders call, where volumes cast; else null.
-  std::shared_ptr<const PointwiseTechnique> throughVolumes = {};
+  /// The technique of `own` or `atPoints` that shaders call, where casters let a part of the light
+  /// through; else null.
+  std::shared_ptr<const PointwiseTechnique> filtered = {};
 
   const ShadowLight& light() const { return this->plan.light; }
   const TechniqueInfo& info() const { return this->plan.info(); }

@@ -207,7 +207,7 @@ const FramePlan& RenderManager::plan(
 void RenderManager::configureShaders(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
-  this->volumes_.attach();
+  this->transmittance_.attach();
   std::vector<ShadedLight> shaded;
   for (const CastingLight& casting : frame.lights)
   {
@@ -396,9 +396,9 @@ void RenderManager::endFrame(const vtkRenderState* s)
   totals.numbersByGeometryShaders = programs.shaders.numbersByGeometryShaders();
   totals.bytesOccluders = this->collector_.bytes() + this->patches_.bytes() +
     this->buffers_.bytes() + this->tracer_.bytesOfTable();
-  totals.bytesBvh = this->tracer_.bytes();
+  totals.bytesBvh = this->tracer_.bytes() + this->transmittance_.bytesOfSheets();
   totals.bytesMaps =
-    frame.lights.bytesOfMaps() + this->views_.bytesOfMaps() + this->volumes_.bytes();
+    frame.lights.bytesOfMaps() + this->views_.bytesOfMaps() + this->transmittance_.bytes();
   totals.bytesImages = this->planner_.bytes();
   if (frame.route() != Route::Inline)
   {

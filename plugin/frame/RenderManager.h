@@ -134,8 +134,8 @@ private:
   OccluderBuffers buffers_;
   PassPrograms& programs_;
   ShaderManager::StageValues stageValues_;
-  VolumeStage volumes_{ frame_, collector_.occluders() };
-  SnapshotTracer tracer_{ frame_, collector_.occluders(), patches_.names(), volumes_ };
+  TransmittanceStage transmittance_{ frame_, collector_.occluders() };
+  SnapshotTracer tracer_{ frame_, collector_.occluders(), patches_.names(), transmittance_ };
   ReceiversStage receivers_{ frame_, collector_, programs_, stageValues_ };
   OwnReceivers ownReceivers_{ frame_, collector_, names_ };
   ReceiversOfRanks receiversOfRanks_{ frame_, collector_, names_, patches_ };

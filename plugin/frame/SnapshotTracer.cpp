@@ -8,12 +8,12 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-SnapshotTracer::SnapshotTracer(
-  Frame& frame, const Occluders& occluders, const PatchNames& patches, VolumeStage& volumes)
+SnapshotTracer::SnapshotTracer(Frame& frame, const Occluders& occluders, const PatchNames& patches,
+  TransmittanceStage& transmittance)
   : frame_(frame)
   , occluders_(occluders)
   , patches_(patches)
-  , volumes_(volumes)
+  , transmittance_(transmittance)
 {
 }
 
@@ -37,7 +37,6 @@ void SnapshotTracer::update()
     this->tracer_.reset(); // it has a part of the casters
     this->filters_.reset();
     this->ofMeans_.reset();
-    this->sheets_.reset();
     throw;
   }
   this->frame_.endStage("visibility: build");
@@ -48,21 +47,12 @@ void SnapshotTracer::update()
 void SnapshotTracer::updateFilters()
 {
   std::vector<const RayFilter*> filters;
-  if (!this->occluders_.hasSheets())
+  if (const Sheets* const sheets = this->transmittance_.sheets())
   {
-    this->sheets_.reset();
-  }
-  else
-  {
-    if (!this->sheets_)
-    {
-      this->sheets_.emplace();
-    }
-    this->sheets_->update(this->occluders_);
-    filters.push_back(&*this->sheets_);
+    filters.push_back(sheets);
   }
   std::vector<const RayFilter*> ofMeans = filters;
-  const Volumes& volumes = this->volumes_.volumes();
+  const Volumes& volumes = this->transmittance_.volumes();
   if (!volumes.media().empty())
   {
     filters.push_back(&volumes);
@@ -81,22 +71,22 @@ void SnapshotTracer::updateFilters()
 //------------------------------------------------------------------------------
 const RayFilter& SnapshotTracer::filterOf(const LightPlan& light)
 {
-  if (light.marches || this->volumes_.volumes().media().empty())
+  if (light.marches || this->transmittance_.volumes().media().empty())
   {
     return *this->filters_;
   }
   std::vector<const RayFilter*> filters;
   if (light.light.area)
   {
-    filters.push_back(&this->volumes_.areaStacksOf(light));
+    filters.push_back(&this->transmittance_.areaStacksOf(light));
   }
   else
   {
-    filters.push_back(&this->volumes_.stackOf(light));
+    filters.push_back(&this->transmittance_.stackOf(light));
   }
-  if (this->sheets_)
+  if (const Sheets* const sheets = this->transmittance_.sheets())
   {
-    filters.push_back(&*this->sheets_);
+    filters.push_back(sheets);
   }
   return this->ofLight_.emplace(std::move(filters));
 }

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "plugin/frame/Frame.h"
-#include "plugin/frame/VolumeStage.h"
+#include "plugin/frame/TransmittanceStage.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Patches.h"
 #include "shadowtech/tracing/SharedTracer.h"
-#include "shadowtech/transmittance/Sheets.h"
 
 #include <cstddef>
 #include <optional>
@@ -20,9 +19,9 @@ class SnapshotTracer
 public:
   /// @param occluders the snapshot, which lives as long as this
   /// @param patches of the snapshot, likewise, if several processes draw the picture
-  /// @param volumes of the snapshot, likewise
-  SnapshotTracer(
-    Frame& frame, const Occluders& occluders, const PatchNames& patches, VolumeStage& volumes);
+  /// @param transmittance of the snapshot, likewise
+  SnapshotTracer(Frame& frame, const Occluders& occluders, const PatchNames& patches,
+    TransmittanceStage& transmittance);
 
   /// Bring the structure up to date with the snapshot.
   /// @throws std::runtime_error if there is no tracer
@@ -35,11 +34,7 @@ public:
 
   ///@{
   /// Return bytes; 0 if nothing was traced.
-  std::size_t bytes() const
-  {
-    return (this->tracer_ ? this->tracer_->bytes() : 0) +
-      (this->sheets_ ? this->sheets_->bytes() : 0);
-  }
+  std::size_t bytes() const { return this->tracer_ ? this->tracer_->bytes() : 0; }
   std::size_t bytesOfTable() const { return this->tracer_ ? this->tracer_->bytesOfTable() : 0; }
   std::size_t bytesOfRays() const { return this->tracer_ ? this->tracer_->bytesOfRays() : 0; }
   ///@}
@@ -50,9 +45,8 @@ private:
   Frame& frame_;
   const Occluders& occluders_;
   const PatchNames& patches_;
-  VolumeStage& volumes_;
+  TransmittanceStage& transmittance_;
   std::optional<SharedTracer> tracer_;
-  std::optional<Sheets> sheets_; ///< none without translucent casters
   std::optional<CoarseVolumes> coarse_;
   ///@{
   /// Of sheets and volumes; none if all casters block.

@@ -312,7 +312,7 @@ void VisibilityStage::fill(
   VisibilityLayers& layers = this->frame_.view->layers;
   if (auto* pointwise = casting.own->as<PointwiseTechnique>())
   {
-    const auto& technique = casting.throughVolumes ? *casting.throughVolumes : *pointwise;
+    const auto& technique = casting.filtered ? *casting.filtered : *pointwise;
     layers.estimate(casting.plan.layer, technique, light, receivers.target, this->frame_.space,
       this->shaders_, casting.info().classes.empty() ? nullptr : classes);
     this->frame_.endStage("visibility: estimate");

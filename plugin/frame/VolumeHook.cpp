@@ -15,8 +15,8 @@ std::string factorOf(const ShadedLight& shaded, int light)
 {
   const std::string number = std::to_string(light);
   const std::string lit = litOf(shaded, light);
-  return "mix(" + lit + ", " + lit + " * gnomonVisibilityAt_" + number +
-    "(gnomonSample), gnomonStrength" + number + ")";
+  return "mix(" + lit + ", " + lit + " * visibility_" + number + "(gnomonSample, gnomonNormalAt_" +
+    number + "(gnomonSample)), gnomonStrength" + number + ")";
 }
 
 /// The share of each light that reaches a sample: variables, with a function that finds a light's,

@@ -176,7 +176,7 @@ PicturePlan planPicture(
     }
     else if (scene.props.sheets)
     {
-      plan.notes.push_back(map + "opaque casters, and no shadow of translucent ones");
+      plan.notes.push_back(map + "opaque casters, and one of the crossings of translucent ones");
     }
     else if (!needs.screenTechnique.empty())
     {

@@ -130,14 +130,17 @@ struct Occluders
       [](const Surface& surface) { return surface.casts && surface.solid != Solid::None; });
   }
 
-  /// True if something casts.
-  bool hasCasters() const { return !this->castersCentred.empty() || !this->volumes.empty(); }
-
   /// True if a surface lets light through.
   bool hasSheets() const
   {
     return std::any_of(this->surfaces.begin(), this->surfaces.end(),
       [](const Surface& surface) { return surface.sheet && surface.triangleCount > 0; });
+  }
+
+  /// True if something casts.
+  bool hasCasters() const
+  {
+    return !this->castersCentred.empty() || !this->volumes.empty() || this->hasSheets();
   }
 
   /// Changes when surfaces are added or removed, or change their triangles, flags or cut-outs, and

@@ -75,6 +75,7 @@ struct CrossingQuery
 {
   EmbreeContext context; ///< first: its address is that of the query
   glm::dvec3 transmittance{ 1.0 };
+  std::vector<SheetCrossing>* crossings = nullptr; ///< null: only their product is asked for
 };
 
 void boundSheet(const RTCBoundsFunctionArguments* arguments)
@@ -134,7 +135,7 @@ double textureAlphaAt(
 }
 
 /// Multiply a single ray's transmittance where it crosses a triangle. The ray goes on unless it is
-/// dark.
+/// dark, or its crossings are asked for.
 void crossSheet(const RTCOccludedFunctionNArguments* arguments)
 {
   const auto& crossed = *static_cast<const CrossedSurface*>(arguments->geometryUserPtr);
@@ -167,8 +168,14 @@ void crossSheet(const RTCOccludedFunctionNArguments* arguments)
   glm::dvec4 colour = colourAt(crossed, number, vertices, crossing->weights);
   colour.a *= textureAlphaAt(crossed, vertices, crossing->weights);
   auto& query = *reinterpret_cast<CrossingQuery*>(arguments->context);
-  query.transmittance *= surface.sheet->isColoured ? 1.0 - colour.a * (1.0 - glm::dvec3(colour))
-                                                   : glm::dvec3(1.0 - colour.a);
+  const glm::dvec3 left = surface.sheet->isColoured ? 1.0 - colour.a * (1.0 - glm::dvec3(colour))
+                                                    : glm::dvec3(1.0 - colour.a);
+  if (query.crossings)
+  {
+    query.crossings->push_back({ crossing->at, left });
+    return;
+  }
+  query.transmittance *= left;
   if (query.transmittance == glm::dvec3(0.0))
   {
     RTCRayN_tfar(ray, 1, 0) = -std::numeric_limits<float>::infinity();
@@ -231,6 +238,12 @@ struct Sheets::Impl
     std::vector<unsigned int> attached;
     std::uint64_t positionsVersion = 0;
     std::shared_ptr<const Patches> patches; ///< others once vertices move against each other
+    ///@{
+    /// The surface's, at the last update.
+    std::shared_ptr<const Sheet> sheet;
+    std::shared_ptr<const CutoutMask> cutout;
+    bool oneSided = false;
+    ///@}
   };
 
   Impl();
@@ -238,6 +251,8 @@ struct Sheets::Impl
   void place(const Structure& structure) const;
   void detach(const Structure& structure) const;
   void findCopies(const Occluders& occluders);
+  void trace(
+    const glm::vec3& origin, const glm::vec3& direction, float rayFar, CrossingQuery& query) const;
 
   std::atomic<std::ptrdiff_t> bytes{ 0 }; // must outlive the device, which counts into it
   EmbreeDevice device;
@@ -343,15 +358,16 @@ Sheets::Sheets()
 Sheets::~Sheets() = default;
 
 //------------------------------------------------------------------------------
-void Sheets::update(const Occluders& occluders)
+bool Sheets::update(const Occluders& occluders)
 {
   Impl& impl = *this->impl_;
   if (impl.topologyVersion == occluders.topologyVersion &&
     impl.positionsVersion == occluders.positionsVersion)
   {
-    return;
+    return false;
   }
   bool areOthers = false; // the places of triangles within a surface
+  bool changes = false;
   std::unordered_map<std::uint64_t, Impl::Structure> structures;
   for (const Surface& surface : occluders.surfaces)
   {
@@ -380,7 +396,13 @@ void Sheets::update(const Occluders& occluders)
         impl.place(structure);
       }
     }
+    changes |= structure.positionsVersion != surface.positionsVersion ||
+      structure.sheet != surface.sheet || structure.cutout != surface.cutout ||
+      structure.oneSided != surface.oneSided;
     structure.positionsVersion = surface.positionsVersion;
+    structure.sheet = surface.sheet;
+    structure.cutout = surface.cutout;
+    structure.oneSided = surface.oneSided;
     areOthers |= std::exchange(structure.patches, surface.patches) != surface.patches;
   }
   for (const auto& gone : impl.structures)
@@ -400,6 +422,7 @@ void Sheets::update(const Occluders& occluders)
   }
   impl.topologyVersion = occluders.topologyVersion;
   impl.positionsVersion = occluders.positionsVersion;
+  return changes || areOthers;
 }
 
 //------------------------------------------------------------------------------
@@ -410,14 +433,33 @@ bool Sheets::isColoured() const
 }
 
 //------------------------------------------------------------------------------
+void Sheets::Impl::trace(
+  const glm::vec3& origin, const glm::vec3& direction, float rayFar, CrossingQuery& query) const
+{
+  RTCRay ray{ origin.x, origin.y, origin.z, shadowRayNear, direction.x, direction.y, direction.z,
+    0.0f, rayFar, 0xffffffffu, 0, 0 };
+  occlude(this->scene.get(), query.context, ray);
+}
+
+//------------------------------------------------------------------------------
 glm::dvec3 Sheets::transmittanceOf(
   const glm::vec3& origin, const glm::vec3& direction, float rayFar) const
 {
   CrossingQuery query;
-  RTCRay ray{ origin.x, origin.y, origin.z, shadowRayNear, direction.x, direction.y, direction.z,
-    0.0f, rayFar, 0xffffffffu, 0, 0 };
-  occlude(this->impl_->scene.get(), query.context, ray);
+  this->impl_->trace(origin, direction, rayFar, query);
   return query.transmittance;
+}
+
+//------------------------------------------------------------------------------
+void Sheets::findCrossings(const glm::vec3& origin, const glm::vec3& direction, float rayFar,
+  std::vector<SheetCrossing>& crossings) const
+{
+  crossings.clear();
+  CrossingQuery query;
+  query.crossings = &crossings;
+  this->impl_->trace(origin, direction, rayFar, query);
+  std::sort(crossings.begin(), crossings.end(),
+    [](const SheetCrossing& a, const SheetCrossing& b) { return a.at < b.at; });
 }
 
 //------------------------------------------------------------------------------

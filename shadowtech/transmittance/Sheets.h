@@ -7,9 +7,17 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace gnomon
 {
+
+/// Where a ray crosses a sheet.
+struct SheetCrossing
+{
+  double at;       ///< in lengths of the direction
+  glm::dvec3 left; ///< the share of light that it leaves, by channel
+};
 
 /// The surfaces of a snapshot that let light through (Surface::sheet), in a structure of their own.
 ///
@@ -26,14 +34,18 @@ public:
 
   /// Bring the structure up to date with the snapshot. Does nothing if neither topologyVersion nor
   /// positionsVersion changed. The snapshot must stay in place until the next update.
+  /// @return true if rays may find others than before
   /// @throws std::runtime_error if there is no structure, or for casters beyond Embree's range
-  void update(const Occluders& occluders);
+  bool update(const Occluders& occluders);
 
   /// True if a sheet is coloured.
   bool isColoured() const override;
   /// Return the product over the ray's crossings (Sheet).
   glm::dvec3 transmittanceOf(
     const glm::vec3& origin, const glm::vec3& direction, float rayFar) const override;
+  /// Find the ray's crossings, from its origin on. The arguments are those of transmittanceOf().
+  void findCrossings(const glm::vec3& origin, const glm::vec3& direction, float rayFar,
+    std::vector<SheetCrossing>& crossings) const;
 
   /// Return the bytes of the structure and of its tables.
   std::size_t bytes() const;

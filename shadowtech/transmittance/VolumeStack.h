@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/tracing/RayFilter.h"
+#include "shadowtech/transmittance/LightGrids.h"
 #include "shadowtech/transmittance/Volumes.h"
 
 #include <glm/glm.hpp>
@@ -16,8 +17,6 @@ namespace gnomon
 /// The share of a light that volumes leave, on grids in the light's space: slices along the light,
 /// accumulated front to back from the same media that rays march through. Between grid points it is
 /// trilinear.
-///
-/// A light that the volumes surround, or nearly, has six grids, one for each side of a cube.
 class VolumeStack : public RayFilter
 {
 public:
@@ -32,28 +31,16 @@ public:
 
   std::size_t bytes() const;
 
-  /// A grid in coordinates (x, y, z) of the light, z along its rays; for a lamp (x / z, y / z, z).
-  struct Grid
-  {
-    glm::dmat3 lightFromCentred{ 1.0 };
-    glm::dvec3 lower{ 0.0 }, upper{ 0.0 };
-    glm::ivec3 points{ 0 };
-    std::vector<std::uint16_t> left; ///< in 65535ths, x fastest
-  };
-  bool isOfLamp() const { return this->isLamp_; }
-  /// Return the lamp, or where z is 0; centred.
-  const glm::dvec3& origin() const { return this->origin_; }
   /// Return the grids; none if no volume is before the light.
-  const std::vector<Grid>& grids() const { return this->grids_; }
+  const LightGrids& grids() const { return this->grids_; }
+  /// Return what is left at each grid's points, in 65535ths, x fastest.
+  const std::vector<std::vector<std::uint16_t>>& left() const { return this->left_; }
 
 private:
-  glm::dvec3 inGrid(const Grid& grid, const glm::dvec3& centred) const;
-  void add(Grid& grid, int resolution);
-  void fill(const Volumes& volumes, Grid& grid) const;
+  std::vector<std::uint16_t> march(const Volumes& volumes, const LightGrid& grid) const;
 
-  bool isLamp_;
-  glm::dvec3 origin_;
-  std::vector<Grid> grids_;
+  LightGrids grids_;
+  std::vector<std::vector<std::uint16_t>> left_;
 };
 
 /// The stacks of points of an area light. A ray to any of its points reads that of the nearest one.

@@ -8,7 +8,7 @@ uniform vec3 volumeLower_LIGHT[VOLUME_GRIDS_LIGHT];    // a grid's box
 uniform vec3 volumeExtent_LIGHT[VOLUME_GRIDS_LIGHT];
 uniform vec2 volumeSlices_LIGHT[VOLUME_GRIDS_LIGHT]; // its first slice, and its last one
 
-float gnomonVolumes_LIGHT(vec3 positionView)
+float gnomonVolumes_LIGHT(vec3 positionView, vec3 normalView)
 {
   vec2 points = vec2(textureSize(volumes_LIGHT, 0).xy);
   float left = 1.0;

@@ -201,6 +201,54 @@ TEST_F(Glass, FollowsChangesOfOpacityAndPlace)
   EXPECT_EQ(this->middle(), 1.0f) << "the pane itself is seen, lit";
 }
 
+TEST_F(Glass, ReceiversFollowItsChanges)
+{
+  vtkActor* const lower = this->addPane(0.5, 0.5);
+  lower->GetProperty()->SetDiffuse(1.0);
+  vtkActor* const upper = this->addPane(1.5, 0.4, 1.0);
+  this->scene.choose("silhouette edge_samples=auto");
+  this->scene.render();
+  const std::size_t without = this->scene.report().bytesMaps;
+  vtkGnomonPropKeys::SetReceives(lower, true);
+  const auto expectLikeNew = [&](const char* change)
+  {
+    const Picture picture = this->scene.render();
+    vtkNew<vtkGnomonShadowPass> pass;
+    pass->SetTechnique("silhouette");
+    pass->TranslucentCastersOn();
+    this->scene.renderer->SetPass(pass);
+    const Picture other = this->scene.render();
+    EXPECT_TRUE(picture == other) << change;
+    this->scene.useGnomon();
+    return picture;
+  };
+  Picture last = expectLikeNew("none");
+  const std::size_t map = this->scene.report().bytesMaps;
+  EXPECT_GT(map, without + 512 * 400 * 32) << "half the light's map, 32 bytes a texel";
+  const std::pair<const char*, std::function<void()>> changes[] = {
+    { "opacity", [&] { upper->GetProperty()->SetOpacity(0.7); } },
+    { "place", [&] { upper->SetPosition(0.5, 0.2, 0.1); } },
+    { "light", [&] { this->sun->SetPosition(-1.0, 0.5, 4.0); } },
+    { "colour",
+      [&]
+      {
+        vtkGnomonPropKeys::SetTransmits(upper, vtkGnomonPropKeys::TRANSMITS_COLORED);
+        upper->GetProperty()->SetDiffuseColor(1.0, 0.2, 0.1);
+      } },
+    { "its end", [&] { upper->VisibilityOff(); } },
+  };
+  for (const auto& [name, change] : changes)
+  {
+    change();
+    const Picture picture = expectLikeNew(name);
+    EXPECT_GT(differingPixels(picture, last, 4), 20u) << name;
+    last = picture;
+  }
+  this->scene.set("map_size", 512);
+  this->scene.render();
+  EXPECT_LT(this->scene.report().bytesMaps, map / 2);
+}
+
 TEST_F(Glass, OpacityOfScalarsAndTexturesIsThatOfTheDrawing)
 {
   vtkActor* const pane = this->addPane(1.0, 0.8, 2.5);

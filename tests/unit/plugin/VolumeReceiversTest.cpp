@@ -237,6 +237,60 @@ TEST_F(VolumeReceivers, samplesBehindACardAreDarkByAllLightsAndRoutes)
   }
 }
 
+/// Between the pictures without and with an opaque card, by what the card leaves.
+TEST_F(VolumeReceivers, samplesBehindGlassAreDimmed)
+{
+  this->addSlab();
+  this->scene.pass->TranslucentCastersOn();
+  const double opacity = 0.4;
+  const glm::dvec3 colour(0.9, 0.5, 0.0);
+  for (const bool isLamp : { false, true })
+  {
+    this->scene.renderer->RemoveAllLights();
+    isLamp ? this->scene.addSpot({ -1.5, 0.2, 6.0 }, { 0.4, 0.0, 0.5 }, 180.0)
+           : this->scene.addSun({ 0.5, 0.1, -1.0 });
+    vtkProperty* const property = this->card->GetProperty();
+    property->SetOpacity(1.0);
+    const Picture dark = this->scene.render();
+    vtkGnomonPropKeys::SetCasts(this->card, false);
+    const Picture lit = this->scene.render();
+    vtkGnomonPropKeys::SetCasts(this->card, true);
+    property->SetColor(colour.r, colour.g, colour.b);
+    property->SetOpacity(opacity);
+    for (const bool isColoured : { false, true })
+    {
+      vtkGnomonPropKeys::SetTransmits(this->card,
+        isColoured ? vtkGnomonPropKeys::TRANSMITS_COLORED : vtkGnomonPropKeys::TRANSMITS_GREY);
+      const Picture glass = this->scene.render();
+      double squares = 0.0;
+      double dimmed = 0.0;
+      const std::size_t counted = countPixels(glass,
+        [&](int x, int y)
+        {
+          const glm::dvec2 place = this->scene.floorAt(x, y);
+          if (isUnder(place, { this->cardBox.lower - 0.05, this->cardBox.upper + 0.05 }))
+          {
+            return false;
+          }
+          const glm::dvec3 takes = isColoured ? opacity * (1.0 - colour) : glm::dvec3(opacity);
+          const glm::dvec3 left = 1.0 - takes;
+          const glm::dvec3 walls = left * left; // of the card
+          const glm::dvec3 open(lit.at(x, y));
+          const glm::dvec3 expected = glm::mix(glm::dvec3(dark.at(x, y)), open, walls);
+          const glm::dvec3 off = glm::dvec3(glass.at(x, y)) - expected;
+          squares += glm::dot(off, off);
+          dimmed += open.g - expected.g;
+          return true;
+        });
+      EXPECT_GT(dimmed, 2.0 * static_cast<double>(counted)) << isLamp << isColoured;
+      EXPECT_LT(std::sqrt(squares / (3.0 * static_cast<double>(counted))), 1.5)
+        << isLamp << isColoured;
+    }
+    property->SetColor(1.0, 1.0, 1.0);
+    vtkGnomonPropKeys::SetTransmits(this->card, vtkGnomonPropKeys::TRANSMITS_GREY);
+  }
+}
+
 TEST_F(VolumeReceivers, lightsKeepTheirNumbers)
 {
   this->addSlab();
