@@ -8,6 +8,7 @@
 
 #include "vtkActor.h"
 #include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkDataSet.h"
 #include "vtkMapper.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
@@ -27,13 +28,26 @@ namespace gnomon
 namespace
 {
 
-/// Return the mapped scalars of a block, four components each; null if VTK shows none.
+/// True if scalars may colour a mapper's glyphs.
+bool mayColourGlyphs(vtkMapper* mapper)
+{
+  auto* const data = vtkDataSet::SafeDownCast(mapper->GetInputDataObject(0, 0));
+  int cellFlag = 0;
+  return !data ||
+    vtkAbstractMapper::GetScalars(data, mapper->GetScalarMode(), mapper->GetArrayAccessMode(),
+      mapper->GetArrayId(), mapper->GetArrayName(), cellFlag);
+}
+
+/// Return the mapped scalars of a block, four components each; null if VTK shows none, as of
+/// glyphs' sources.
 /// @param isOfCells set to true if they are the cells'
 vtkUnsignedCharArray* mappedColours(vtkMapper* mapper, vtkPolyData* data, bool& isOfCells)
 {
   int cellFlag = 0;
   vtkUnsignedCharArray* const colours =
-    mapper->GetScalarVisibility() ? mapper->MapScalars(data, 1.0, cellFlag) : nullptr;
+    mapper->GetScalarVisibility() && !mapper->IsA("vtkGlyph3DMapper")
+    ? mapper->MapScalars(data, 1.0, cellFlag)
+    : nullptr;
   isOfCells = cellFlag == 1;
   return colours && colours->GetNumberOfComponents() == 4 && cellFlag <= 1 ? colours : nullptr;
 }
@@ -103,8 +117,11 @@ const char* whyNoSheet(const DrawnActor& drawn, const DrawnProp& prop)
   {
     return nullptr;
   }
+  if (kind == MapperKind::Glyphs)
+  {
+    return mayColourGlyphs(drawn.mapper) ? "scalars colour its glyphs" : nullptr;
+  }
   return drawn.mapper->GetInterpolateScalarsBeforeMapping() ? "scalars interpolated before mapping"
-    : kind == MapperKind::Glyphs                            ? "scalars colour its glyphs"
     : !prop.clipPlanes.empty() ? "clipping planes cut surfaces that scalars colour"
                                : nullptr;
 }
@@ -131,6 +148,10 @@ std::shared_ptr<const Sheet> readSheet(const DrawnProp& prop, const DrawnBlock& 
   vtkProperty* const property = prop.actor->GetProperty();
   const double* const colour = property->GetDiffuseColor();
   sheet.colour = { colour[0], colour[1], colour[2], property->GetOpacity() };
+  if (prop.mapper->IsA("vtkGlyph3DMapper"))
+  {
+    sheet.colour.a *= sheet.colour.a; // VTK multiplies by the opacity twice
+  }
   bool isOfCells = false;
   vtkUnsignedCharArray* const colours = mappedColours(prop.mapper, block.data, isOfCells);
   if (colours && isOfCells)
