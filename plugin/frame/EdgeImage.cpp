@@ -41,7 +41,7 @@ void EdgeImage::update(
         this->texels_[edge.pixel] = place;
         this->texels_.resize(place + perPixel, asCentres);
       }
-      put(this->texels_[place + light / lightsOfTexel], light, edge.visibility);
+      put(this->texels_[place + light / lightsOfTexel], light, edge.visibility.x);
     }
   }
   this->upload(size);

@@ -93,8 +93,9 @@ void addNames(VisibilityImages& images, const ReceiversValue& value,
 
 /// Adds a light's visibility: one image, or three of a light with a texture, whether or not its
 /// technique sees it.
+/// @param edges whose visibility in the layers is the picture's
 void addLight(VisibilityImages& images, const CastingLight& casting, const ClassImage& classes,
-  const VisibilityLayers& layers)
+  const VisibilityLayers& layers, const std::vector<EdgePixel>& edges)
 {
   const auto add = [&](const std::vector<float>& visibility, LightChannel channel)
   {
@@ -106,8 +107,16 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
   std::vector<float> visibility;
   const auto read = [&](int channel)
   {
-    casting.plan.bit == noBit ? layers.read(casting.plan.layer + channel, visibility)
-                              : layers.readBit(casting.plan.bit, visibility);
+    if (casting.plan.bit != noBit)
+    {
+      layers.readBit(casting.plan.bit, visibility);
+      return;
+    }
+    layers.read(casting.plan.layer + channel, visibility);
+    for (const EdgePixel& edge : edges)
+    {
+      visibility[edge.pixel] = edge.ofCentre[channel];
+    }
   };
   if (casting.plan.channels == 1 && !casting.light().texture)
   {
@@ -145,7 +154,7 @@ VisibilityImages keepVisibility(const CastingLights& lights, const ViewValues& v
     {
       classImage.ofPixels = topRowFirst(value->classes, images.width, images.height);
     }
-    addLight(images, casting, classImage, view.layers);
+    addLight(images, casting, classImage, view.layers, value->edges);
     ++value;
   }
   return images;

@@ -398,27 +398,33 @@ void VisibilityStage::trace(
   {
     layers.fillBit(casting.plan.bit, visibility);
   }
+  const RayFilter* const filter =
+    this->frame_.plan.transmits && !light.area ? &this->tracer_.filterOf(casting.plan) : nullptr;
+  if (filter)
+  {
+    casting.counts.rays += static_cast<std::int64_t>(
+      scaleByFilter(*filter, traced, onCpu.surfaces(), onCpu.receivers(), visibility));
+    this->frame_.endStage("visibility: transmittance");
+  }
   std::vector<EdgePixel> edges;
   if (edgeSamples > 1)
   {
     const auto smooth = [&](const SharedPicture* several)
     {
       edges = this->edges_.smooth(
-        technique, input, *input.classes, edgeSamples, visibility, several, casting.counts);
+        technique, input, *input.classes, edgeSamples, visibility, filter, several, casting.counts);
     };
     namingLight(light, [&] { onCpu.smoothEdges(smooth); });
     this->frame_.endStage("visibility: edges");
   }
+  const std::size_t channels = filter && filter->isColoured() ? 3 : 1;
   for (const EdgePixel& edge : edges)
   {
-    visibility[edge.pixel] = edge.visibility;
-  }
-  if (this->frame_.plan.transmits && !light.area)
-  {
-    casting.counts.rays +=
-      static_cast<std::int64_t>(scaleByFilter(this->tracer_.filterOf(casting.plan), traced,
-        onCpu.surfaces(), onCpu.receivers(), visibility));
-    this->frame_.endStage("visibility: transmittance");
+    for (std::size_t channel = 0; channel < channels; ++channel)
+    {
+      visibility[visibility.size() / channels * channel + edge.pixel] =
+        edge.visibility[static_cast<glm::length_t>(channel)];
+    }
   }
   if (!hasBit)
   {

@@ -148,13 +148,18 @@ std::optional<SkyPlan> planSky(const Scene& scene, const FrameWishes& wishes,
   return plan;
 }
 
+/// True if the picture at rest smooths the edges of any light's shadows.
+bool smoothsAny(const FramePlan& plan)
+{
+  return std::any_of(plan.lights.begin(), plan.lights.end(),
+    [](const LightPlan& light) { return smoothsPictures(light.info(), light.light); });
+}
+
 /// Assign layers, and bits to lights with hard shadows; one bit more if pictures smooth any of
 /// their edges, in motion, too, as the images stay.
 void placeVisibility(FramePlan& plan)
 {
-  const bool smooths = !plan.transmits &&
-    std::any_of(plan.lights.begin(), plan.lights.end(),
-      [](const LightPlan& light) { return smoothsPictures(light.info(), light.light); });
+  const bool smooths = !plan.transmits && smoothsAny(plan);
   const int mostBits = VisibilityLayers::mostBits - (smooths ? 1 : 0);
   for (LightPlan& light : plan.lights)
   {
@@ -224,10 +229,10 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
                       plan.lights.size(), light.light.lightSamples));
   }
   placeVisibility(plan);
-  plan.isApproximate = plan.isApproximate || (scene.picture.moves && plan.edgeBit != noBit);
+  plan.isApproximate = plan.isApproximate || (scene.picture.moves && smoothsAny(plan));
   for (LightPlan& light : plan.lights)
   {
-    planEdges(light, scene.picture.moves,
+    planEdges(light, plan.transmits, scene.picture.moves,
       scene.picture.mayRefine && !scene.picture.severalViews && !wishes.isShared);
   }
   plan.namesSurfaces = wishes.isShared || wishes.keepVisibility;

@@ -312,10 +312,10 @@ ShadowLight lightAtPoints(const ShadowLight& light)
 }
 
 //------------------------------------------------------------------------------
-void planEdges(LightPlan& plan, bool moves, bool mayFollow)
+void planEdges(LightPlan& plan, bool transmits, bool moves, bool mayFollow)
 {
   constexpr int samplesAtRest = 16;
-  const bool smooths = plan.bit != noBit && smoothsPictures(plan.info(), plan.light);
+  const bool smooths = (transmits || plan.bit != noBit) && smoothsPictures(plan.info(), plan.light);
   plan.edgeSamples = smooths && !moves ? samplesAtRest : 1;
   plan.edgesFollow = mayFollow;
 }

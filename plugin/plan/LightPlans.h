@@ -52,8 +52,8 @@ struct LightPlan
   int channels = 1;     ///< of its visibility, a layer each
   int layer = 0;        ///< its first layer
   int bit = noBit;      ///< or its bit in the image of bits
-  /// The shadow rays of the picture's pixels at edges, of a light with a bit. The bit stays the
-  /// visibility of the pixels' centres.
+  /// The shadow rays of the picture's pixels at edges, of a light with a bit, or whose casters let
+  /// light through. Kept visibility stays that of the pixels' centres.
   int edgeSamples = 1;
   bool edgesFollow = false; ///< true if a frame smooths no edges of visibility that it computes
   ShadedBy shadedBy = ShadedBy::Fetch;
@@ -103,8 +103,9 @@ ShadedBy planShading(const LightPlan& plan, Route route, bool points);
 ShadowLight lightAtPoints(const ShadowLight& light);
 
 /// Plan how the picture smooths the edges of a light's shadows.
+/// @param transmits FramePlan::transmits
 /// @param mayFollow true if more frames at rest follow
-void planEdges(LightPlan& plan, bool moves, bool mayFollow);
+void planEdges(LightPlan& plan, bool transmits, bool moves, bool mayFollow);
 
 /// Plan what a light's views are fitted to: the receivers that are drawn, as they give the tightest
 /// fit, unless there is a reason against it.

@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
+#include "shadowtech/tracing/RayFilter.h"
 #include "shadowtech/tracing/SamplePlacing.h"
 #include "shadowtech/tracing/TracedPicture.h"
 
@@ -26,11 +27,40 @@ constexpr std::size_t samplesShared = 1u << 20; ///< 35 MB
 ///@}
 constexpr std::size_t probes = 4; ///< samples that decide if a pixel between surfaces needs all
 
+/// The least difference of visibility that is an edge. Samples' means of opaque casters differ by
+/// more, those of filters by rounding.
+constexpr float leastStep = 1.0f / 512.0f;
+
 /// True if a TracedClass is of a receiver that the light can reach.
 bool canBeLit(std::uint8_t ofReceiver)
 {
   const auto traced = static_cast<TracedClass>(ofReceiver);
   return traced != TracedClass::Unreached && traced != TracedClass::NoReceiver;
+}
+
+/// Return the visibility of a pixel, of an image for each channel or of one for all.
+glm::vec3 channelsAt(const std::vector<float>& visibility, std::size_t pixel, std::size_t pixels)
+{
+  return visibility.size() == pixels
+    ? glm::vec3(visibility[pixel])
+    : glm::vec3(visibility[pixel], visibility[pixels + pixel], visibility[2 * pixels + pixel]);
+}
+
+/// Return the images of three channels as one. The weights differ, so that colours do.
+std::vector<float> mixed(const std::vector<float>& visibility)
+{
+  const std::size_t pixels = visibility.size() / 3;
+  std::vector<float> mix(pixels);
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    mix[i] = glm::dot(channelsAt(visibility, i, pixels), glm::vec3(0.29f, 0.47f, 0.24f));
+  }
+  return mix;
+}
+
+bool differ(const glm::vec3& a, const glm::vec3& b)
+{
+  return glm::any(glm::greaterThan(glm::abs(a - b), glm::vec3(leastStep)));
 }
 
 /// The surfaces that a picture shows.
@@ -43,8 +73,8 @@ struct ShownSurfaces
 /// The edge pixels of a picture, in order.
 struct EdgePixels
 {
-  std::vector<std::uint32_t> ofShadows;  ///< lit and dark pixels meet
-  std::vector<std::uint32_t> ofSurfaces; ///< several surfaces, all lit or all dark
+  std::vector<std::uint32_t> ofShadows;  ///< pixels meet that are not lit alike
+  std::vector<std::uint32_t> ofSurfaces; ///< several surfaces, all lit alike
 };
 
 /// The surfaces and visibility of a row's pixels, each combined with its two neighbours.
@@ -58,13 +88,14 @@ public:
     const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
     const auto places = static_cast<std::size_t>(width) + 2;
     this->ownSurface_.resize(places);
-    this->ownKinds_.resize(places);
+    this->ownLight_.resize(places);
     this->leastSurface_.resize(places);
     this->mostSurface_.resize(places);
-    this->kinds_.resize(places);
+    this->leastLight_.resize(places);
+    this->mostLight_.resize(places);
     // Shifted by one place, for copies of the border's pixels on both sides.
     float* const surface = this->ownSurface_.data() + 1;
-    int* const kinds = this->ownKinds_.data() + 1;
+    float* const light = this->ownLight_.data() + 1;
     for (int x = 0; x < width; ++x)
     {
       surface[x] = surfaces.numbers[first + static_cast<std::size_t>(x)].x;
@@ -72,18 +103,21 @@ public:
     for (int x = 0; x < width; ++x)
     {
       const std::size_t pixel = first + static_cast<std::size_t>(x);
-      kinds[x] = canBeLit(classes[pixel]) ? (visibility[pixel] > 0.0f ? lit : dark) : 0;
+      light[x] = canBeLit(classes[pixel]) ? visibility[pixel] : unreached;
     }
     surface[-1] = surface[0];
     surface[width] = surface[width - 1];
-    kinds[-1] = kinds[0];
-    kinds[width] = kinds[width - 1];
+    light[-1] = light[0];
+    light[width] = light[width - 1];
+    const auto orMost = [](float of) { return of < 0.0f ? -unreached : of; };
     for (int x = 0; x < width; ++x)
     {
       const auto i = static_cast<std::size_t>(x);
       this->leastSurface_[i] = std::min(std::min(surface[x - 1], surface[x]), surface[x + 1]);
       this->mostSurface_[i] = std::max(std::max(surface[x - 1], surface[x]), surface[x + 1]);
-      this->kinds_[i] = kinds[x - 1] | kinds[x] | kinds[x + 1];
+      this->leastLight_[i] =
+        std::min(std::min(orMost(light[x - 1]), orMost(light[x])), orMost(light[x + 1]));
+      this->mostLight_[i] = std::max(std::max(light[x - 1], light[x]), light[x + 1]);
     }
   }
 
@@ -91,29 +125,33 @@ public:
   static void findEdges(const ShownRow& below, const ShownRow& row, const ShownRow& above,
     std::size_t firstPixel, EdgePixels& found)
   {
-    const std::size_t width = row.kinds_.size() - 2;
+    const std::size_t width = row.ownLight_.size() - 2;
     for (std::size_t x = 0; x < width; ++x)
     {
       const bool isOneSurface = below.leastSurface_[x] == above.mostSurface_[x] &&
         row.leastSurface_[x] == above.mostSurface_[x] &&
         row.mostSurface_[x] == above.leastSurface_[x] &&
         below.mostSurface_[x] == above.leastSurface_[x];
-      const bool hasBoth = (below.kinds_[x] | row.kinds_[x] | above.kinds_[x]) == (lit | dark);
-      if ((!isOneSurface || hasBoth) && row.ownKinds_[x + 1] != 0)
+      const float most =
+        std::max(std::max(below.mostLight_[x], row.mostLight_[x]), above.mostLight_[x]);
+      const float least =
+        std::min(std::min(below.leastLight_[x], row.leastLight_[x]), above.leastLight_[x]);
+      const bool hasStep = most - least > leastStep;
+      if ((!isOneSurface || hasStep) && row.ownLight_[x + 1] >= 0.0f)
       {
-        (hasBoth ? found.ofShadows : found.ofSurfaces)
+        (hasStep ? found.ofShadows : found.ofSurfaces)
           .push_back(static_cast<std::uint32_t>(firstPixel + x));
       }
     }
   }
 
 private:
-  static constexpr int lit = 1, dark = 2;
+  static constexpr float unreached = -2.0f; ///< by the light
 
   std::vector<float> ownSurface_;                 ///< ShownSurfaces::numbers
   std::vector<float> leastSurface_, mostSurface_; ///< of three pixels
-  std::vector<int> ownKinds_;                     ///< lit, dark or neither
-  std::vector<int> kinds_;                        ///< of three pixels, combined by or
+  std::vector<float> ownLight_;                   ///< visibility, or `unreached`
+  std::vector<float> leastLight_, mostLight_;     ///< of the reached ones of three pixels
 };
 
 /// Return the edge pixels of a band of rows.
@@ -168,13 +206,18 @@ EdgePixels findEdgePixels(const ShownSurfaces& surfaces, const std::vector<float
 //------------------------------------------------------------------------------
 std::vector<EdgePixel> EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input,
   const std::vector<std::uint8_t>& classes, std::size_t perPixel,
-  const std::vector<float>& visibility, const SharedPicture* several, LightCounts& counts)
+  const std::vector<float>& visibility, const RayFilter* filter, const SharedPicture* several,
+  LightCounts& counts)
 {
   const Drawn drawn = several ? several->drawn : input.receivers.drawn();
   const ReceiverImages& images = drawn.images;
+  const std::size_t allPixels = classes.size();
+  const bool isColoured = filter && filter->isColoured();
   EdgePixels edges =
     findEdgePixels({ images.width, images.height, several ? several->surfaces : images.fragments },
-      visibility, classes);
+      isColoured ? mixed(visibility) : visibility, classes);
+  const auto ofCentre = [&](std::uint32_t pixel)
+  { return channelsAt(visibility, pixel, allPixels); };
   // Calls take(pixel, mean of its samples) for pixels with `count` samples each.
   const auto trace =
     [&](const std::vector<std::uint32_t>& pixels, std::size_t count, bool drops, const auto& take)
@@ -201,9 +244,14 @@ std::vector<EdgePixel> EdgeSamples::smooth(CpuScreenTechnique& technique, const 
       ofEdges.classes = &this->classes_;
       technique.computeVisibility(ofEdges, this->visibility_, ofSamples);
       counts.rays += ofSamples.rays;
+      if (filter)
+      {
+        counts.rays += static_cast<std::int64_t>(
+          scaleByFilter(*filter, input.light, input.occluders, samples, this->visibility_));
+      }
       for (std::size_t i = 0; i < some.size(); ++i)
       {
-        take(some[i], this->mean(i, count, visibility[some[i]]));
+        take(some[i], this->mean(i, count, ofCentre(some[i])));
       }
     }
   };
@@ -211,9 +259,9 @@ std::vector<EdgePixel> EdgeSamples::smooth(CpuScreenTechnique& technique, const 
   if (perPixel > probes)
   {
     trace(edges.ofSurfaces, probes, false,
-      [&](std::uint32_t pixel, float mean)
+      [&](std::uint32_t pixel, const glm::vec3& mean)
       {
-        if (mean != visibility[pixel])
+        if (differ(mean, ofCentre(pixel)))
         {
           pixels.push_back(pixel);
         }
@@ -225,11 +273,11 @@ std::vector<EdgePixel> EdgeSamples::smooth(CpuScreenTechnique& technique, const 
   }
   std::vector<EdgePixel> smooth;
   trace(pixels, perPixel, true,
-    [&](std::uint32_t pixel, float mean)
+    [&](std::uint32_t pixel, const glm::vec3& mean)
     {
-      if (mean != visibility[pixel])
+      if (differ(mean, ofCentre(pixel)))
       {
-        smooth.push_back({ pixel, mean });
+        smooth.push_back({ pixel, mean, ofCentre(pixel) });
       }
     });
   return smooth;
@@ -349,10 +397,11 @@ void EdgeSamples::dropHidden(const ReceiverImages& images, const EmbreeTracer& h
 /// Return the mean of a pixel's samples, without those that face away from the light.
 /// @param pixel its index among the pixels with samples
 /// @param ofCentre returned if no sample counts
-float EdgeSamples::mean(std::size_t pixel, std::size_t perPixel, float ofCentre) const
+glm::vec3 EdgeSamples::mean(
+  std::size_t pixel, std::size_t perPixel, const glm::vec3& ofCentre) const
 {
   const SampleBlocks blocks(perPixel);
-  float sum = 0.0f;
+  glm::vec3 sum(0.0f);
   int count = 0;
   for (std::size_t row = 0; row < blocks.side; ++row)
   {
@@ -360,7 +409,7 @@ float EdgeSamples::mean(std::size_t pixel, std::size_t perPixel, float ofCentre)
     for (std::size_t i = first; i < first + blocks.side; ++i)
     {
       const bool counts = canBeLit(this->classes_[i]);
-      sum += counts ? this->visibility_[i] : 0.0f;
+      sum += counts ? channelsAt(this->visibility_, i, this->classes_.size()) : glm::vec3(0.0f);
       count += counts ? 1 : 0;
     }
   }

@@ -14,6 +14,7 @@ namespace gnomon
 {
 
 class EmbreeTracer;
+class RayFilter;
 struct Drawn;
 
 /// A picture that several processes draw, each its own part of the triangles. All of them must call
@@ -37,13 +38,17 @@ struct SharedPicture
 struct EdgePixel
 {
   std::uint32_t pixel;
-  float visibility; ///< mean of its samples
+  ///@{
+  /// By channel; all alike without a coloured filter.
+  glm::vec3 visibility; ///< mean of its samples
+  glm::vec3 ofCentre;
+  ///@}
 };
 
 /// Traces receivers between the centres of pixels near edges, for smooth edges of hard shadows.
 ///
-/// An *edge pixel* faces the light. It and its eight neighbours include both lit and dark pixels,
-/// or several surfaces. A sample is a place in an edge pixel. Its receiver lies on the pixel's own
+/// An *edge pixel* faces the light. It and its eight neighbours differ in visibility, or include
+/// several surfaces. A sample is a place in an edge pixel. Its receiver lies on the pixel's own
 /// triangle, or on a neighbour's triangle that continues the pixel's surface. A triangle continues
 /// it on the same drawn surface, turned by less than 45 degrees, within a pixel's side of the own
 /// triangle's plane. So surfaces behind an outline do not colour the pixel. Samples count if they
@@ -60,12 +65,14 @@ public:
   /// @param technique that computed the visibility of the pixels' centres, and its input
   /// @param classes of the pixels, of TracedClass
   /// @param perPixel 4, 16 or 64
-  /// @param visibility of the pixels' centres
+  /// @param visibility of the pixels' centres, as the filter leaves it
+  /// @param filter null if all casters block. Each sample has what it leaves of its own ray
   /// @param several null if this process draws the picture alone
   /// @param counts the traced rays are added to it
   std::vector<EdgePixel> smooth(CpuScreenTechnique& technique, const ScreenInput& input,
     const std::vector<std::uint8_t>& classes, std::size_t perPixel,
-    const std::vector<float>& visibility, const SharedPicture* several, LightCounts& counts);
+    const std::vector<float>& visibility, const RayFilter* filter, const SharedPicture* several,
+    LightCounts& counts);
 
   /// Return the bytes cached for the next picture.
   std::size_t bytes() const
@@ -80,7 +87,7 @@ private:
   void share(const SharedPicture& several);
   void dropHidden(const ReceiverImages& images, const EmbreeTracer& hiders,
     const SharedPicture* several, const std::vector<std::uint32_t>& pixels, std::size_t perPixel);
-  float mean(std::size_t pixel, std::size_t perPixel, float ofCentre) const;
+  glm::vec3 mean(std::size_t pixel, std::size_t perPixel, const glm::vec3& ofCentre) const;
 
   ReceiverPixels receivers_;          ///< of the samples
   std::vector<float> orders_;         ///< of their triangles (SamplePlacing)

@@ -572,6 +572,11 @@ TEST(FramePlans, smoothThePicturesEdgesAtRest)
     { "named", [&](Scene& scene, FrameWishes&) { light(scene).edge.samples = 16; }, 1, 2 },
     { "switched off", [&](Scene& scene, FrameWishes&) { light(scene).edge.samples = 1; }, 1, 3 },
     { "an area", [&](Scene& scene, FrameWishes&) { light(scene).area.emplace(); }, 1, 2 },
+    { "casters that let light through",
+      [](Scene& scene, FrameWishes&) { scene.props.transmits = true; }, 16, 0 },
+    { "such casters, in motion",
+      [](Scene& scene, FrameWishes&) { scene.props.transmits = scene.picture.moves = true; }, 1,
+      0 },
     { "a point of one", [&](Scene& scene, FrameWishes&) { light(scene).isPointOfArea = true; }, 1,
       3 },
   };

@@ -15,6 +15,20 @@ using gnomon::VisibilityImages;
 namespace
 {
 
+/// Have each second prop but the ground be a translucent caster.
+void turnToGlass(const BuiltinPass& scene)
+{
+  vtkActorCollection* const actors = scene.renderer->GetActors();
+  for (int i = 1; i < actors->GetNumberOfItems(); i += 2)
+  {
+    vtkProp* const actor = vtkProp::SafeDownCast(actors->GetItemAsObject(i));
+    vtkActor::SafeDownCast(actor)->GetProperty()->SetOpacity(0.3 + 0.1 * (i % 5));
+    vtkGnomonPropKeys::SetTransmits(
+      actor, i % 4 == 1 ? vtkGnomonPropKeys::TRANSMITS_GREY : vtkGnomonPropKeys::TRANSMITS_COLORED);
+  }
+  scene.pass->TranslucentCastersOn();
+}
+
 /// A built-in scene, drawn at any size.
 class SampledScene
 {
@@ -27,6 +41,9 @@ public:
 
   static constexpr int side = 256;   // pixels
   static constexpr int perSide = 16; // samples of the truth
+
+  /// Have each second prop but the ground let light through.
+  void makeGlass() { turnToGlass(this->scene_); }
 
   VisibilityImages draw(const char* samples, int sizePixels = side)
   {
@@ -244,6 +261,46 @@ TEST_P(EdgeSamplesOf, areOfPicturesAtRestAlone)
     scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
     EXPECT_TRUE(scene.render() == byDefault) << "at rest again";
   }
+}
+
+/// Where glass and opaque props cast: pixels at edges have the mean of their samples' products.
+class GlassEdgesOf : public EdgeSamplesOf
+{
+};
+INSTANTIATE_TEST_SUITE_P(Scenes, GlassEdgesOf,
+  testing::Values(Case{ "posts", 3.0 }, Case{ "cups", 3.0 }, Case{ "stack", 3.0 }),
+  [](const testing::TestParamInfo<Case>& of) { return std::string(of.param.scene); });
+
+TEST_P(GlassEdgesOf, areCloserToTheTruth)
+{
+  SampledScene scene(this->scene());
+  scene.makeGlass();
+  const VisibilityImages one = scene.draw("1");
+  const std::vector<double> truth = scene.truth(one);
+  EXPECT_GT(countBetween(one.visibility[0]), 500u) << "no glass";
+  const double ofOne = errorOf(one, truth).rms;
+  const double ofSixteen = errorOf(scene.draw("16"), truth).rms;
+  EXPECT_LT(ofSixteen, ofOne / GetParam().factor);
+  EXPECT_LT(errorOf(scene.draw("64"), truth).rms, ofSixteen);
+}
+
+TEST_P(GlassEdgesOf, areOfPicturesAtRestAlone)
+{
+  const BuiltinPass scene(this->scene(), 301, 203);
+  turnToGlass(scene);
+  const Picture hard = scene.render("silhouette edge_samples=1");
+  const VisibilityImages centres = scene.pass->GetVisibility();
+  const Picture smooth = scene.render("edge_samples=16");
+  const Picture byDefault = scene.render("edge_samples=auto");
+  EXPECT_GT(differingPixels(hard, byDefault, 8), 100u);
+  EXPECT_EQ(differingPixels(smooth, byDefault, 1), 0u);
+  EXPECT_EQ(scene.pass->GetVisibility().visibility, centres.visibility);
+  EXPECT_TRUE(scene.render() == byDefault) << "once more";
+  scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+  scene.renderer->GetActiveCamera()->Azimuth(1e-9);
+  EXPECT_TRUE(scene.render() == hard) << "in motion";
+  scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
+  EXPECT_TRUE(scene.render() == byDefault) << "at rest again";
 }
 
 /// A lit plate over ground wholly in its shadow, and lit ground before a dark wall.
