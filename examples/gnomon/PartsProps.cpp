@@ -29,6 +29,7 @@
 #include <vtkOpenGLSphereMapper.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
+#include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPointGaussianMapper.h>
 #include <vtkPolyDataMapper.h>
@@ -230,6 +231,21 @@ Prop imageProp()
   return actor;
 }
 
+/// Return a pane that colours the light it lets through, once translucent props are to cast.
+Prop stainedPane()
+{
+  vtkNew<vtkPlaneSource> pane;
+  pane->SetOrigin(-0.7, -0.6, 0.0);
+  pane->SetPoint1(0.7, -0.6, 0.0);
+  pane->SetPoint2(-0.7, 0.6, 0.0);
+  pane->Update();
+  const Pointer<vtkActor> actor = actorOf(pane->GetOutput());
+  actor->GetProperty()->SetColor(0.9, 0.25, 0.1);
+  actor->GetProperty()->SetOpacity(0.6);
+  vtkGnomonPropKeys::SetTransmits(actor, vtkGnomonPropKeys::TRANSMITS_COLORED);
+  return actor;
+}
+
 /// Return a ball of voxels.
 Prop volumeProp()
 {
@@ -337,6 +353,8 @@ const std::vector<SceneProp>& kindsOfProps()
           vtkGnomonPropKeys::SetCasts(actor, true);
           vtkGnomonPropKeys::SetTransmits(actor, vtkGnomonPropKeys::TRANSMITS_NOTHING);
         }) },
+    { "glass ball", ballWith([](Actor* actor) { actor->GetProperty()->SetOpacity(0.3); }) },
+    { "stained pane", stainedPane },
     { "clipped", ballWith(clip) },
     { "elevation colours", elevationProp },
     { "unlit", ballWith([](Actor* actor) { actor->GetProperty()->LightingOff(); }) },
@@ -468,12 +486,12 @@ Prop helixProp()
 //------------------------------------------------------------------------------
 void addProps(Scene& scene)
 {
-  constexpr std::size_t columns = 7;
+  constexpr std::size_t columns = 6;
   for (std::size_t i = 0; i < kindsOfProps().size(); ++i)
   {
     const SceneProp& kind = kindsOfProps()[i];
-    const Vec3 at{ 2.0 * (static_cast<double>(i % columns) - 3.0), heightOfProps,
-      2.0 * (static_cast<double>(i / columns) - 1.5) };
+    const Vec3 at{ 2.0 * (static_cast<double>(i % columns) - 2.5), heightOfProps,
+      2.0 * (static_cast<double>(i / columns) - 2.0) };
     scene.props.push_back({ kind.name,
       [&kind, at]
       {

@@ -38,7 +38,8 @@ soft-window 0.3 0
 END
   $programs/gnomon render bunny -o $figures/no_sky.png --size 400x300
   $programs/gnomon render bunny -o $figures/sky.png --size 400x300 --sky 0.5
-  $programs/gnomon render props -o $figures/props.png --size 900x560 --camera "fov=32" --sky 0.3
+  $programs/gnomon render props -o $figures/props.png --size 900x560 --camera "fov=32" --sky 0.3 \
+    --glass
 }
 
 techniques()

@@ -18,6 +18,12 @@ bool isAnnotation(const std::string& name)
   return name == "text" || name == "axes" || name == "annotated cube";
 }
 
+/// Glass casts only if asked, and its shadows are not wholly dark.
+bool isGlass(const std::string& name)
+{
+  return name == "glass ball" || name == "stained pane";
+}
+
 class KindsOfProps : public PassTestOf<const char*>
 {
 protected:
@@ -66,7 +72,7 @@ protected:
   void hideEach(const Check& check)
   {
     const std::vector<gnomon::tool::SceneProp> props = gnomon::tool::loadScene("props").props;
-    ASSERT_EQ(props.size(), 28u);
+    ASSERT_EQ(props.size(), 30u);
     vtkPropCollection* all = this->scene.renderer->GetViewProps();
     for (std::size_t i = 0; i < props.size(); ++i)
     {
@@ -96,8 +102,30 @@ TEST_P(KindsOfProps, castOrAreListed)
       // Without the prop, bounds and texels differ, so a few pixels at other shadows' edges change.
       const bool casts = without.darkGround + 30 < all.darkGround;
       const bool isListed = without.leftOut != all.leftOut;
-      EXPECT_EQ(casts, !isListed && !isAnnotation(name) && name != "volume");
+      EXPECT_EQ(casts, !isListed && !isAnnotation(name) && !isGlass(name) && name != "volume");
     });
+}
+
+TEST_P(KindsOfProps, letLightThroughIfAsked)
+{
+  const std::vector<gnomon::tool::SceneProp> props = gnomon::tool::loadScene("props").props;
+  vtkPropCollection* const all = this->scene.renderer->GetViewProps();
+  for (const bool asks : { false, true })
+  {
+    this->scene.pass->SetTranslucentCasters(asks);
+    const Picture picture = this->scene.render();
+    for (std::size_t i = 0; i < props.size(); ++i)
+    {
+      if (isGlass(props[i].name))
+      {
+        auto* const prop = vtkProp::SafeDownCast(all->GetItemAsObject(static_cast<int>(i) + 1));
+        vtkGnomonPropKeys::SetCasts(prop, false);
+        const std::size_t changed = differingPixels(this->scene.render(), picture, 4);
+        EXPECT_EQ(changed > 100, asks) << props[i].name << ": " << changed;
+        prop->GetPropertyKeys()->Remove(vtkGnomonPropKeys::CASTS());
+      }
+    }
+  }
 }
 
 /// A plate hides the sun from everything and nothing from the camera.
