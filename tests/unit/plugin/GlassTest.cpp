@@ -332,6 +332,31 @@ TEST_F(Glass, TakesItsShareOfTheSky)
   EXPECT_NEAR(this->scene.redAt(this->scene.render(), 0.0, 0.0), 0.75 * seen, 2.0);
 }
 
+TEST_F(Glass, SurfacesKeepTheirBytesBesideGlassThatCastsNothing)
+{
+  this->scene.addThings();
+  this->scene.lookDown(4.0);
+  vtkActor* const pane = this->addPane(3.0, 0.5, 0.5);
+  pane->SetPosition(-2.5, 1.0, 0.0);
+  this->scene.pass->TranslucentCastersOff();
+  for (const char* const technique : { "raytraced", "silhouette", "crsm", "auto", "pcf" })
+  {
+    this->scene.choose(technique);
+    pane->VisibilityOn();
+    const Picture with = this->scene.render();
+    pane->VisibilityOff();
+    const Picture without = this->scene.render();
+    const std::size_t changed = countPixels(with,
+      [&](int x, int y)
+      {
+        const glm::dvec2 place = this->scene.floorAt(x, y) - glm::dvec2(-2.5, 1.0);
+        return std::max(std::abs(place.x), std::abs(place.y)) > 0.6 &&
+          with.at(x, y) != without.at(x, y);
+      });
+    EXPECT_EQ(changed, 0u) << technique;
+  }
+}
+
 TEST_F(Glass, ScenesWithoutItKeepTheirBytes)
 {
   this->scene.addThings();

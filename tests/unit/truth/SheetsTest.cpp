@@ -239,7 +239,7 @@ struct AimedSheets : testing::TestWithParam<int>
 TEST_P(AimedSheets, LoseAndRepeatNoRay)
 {
   const Occluders occluders = makeSheets({ { this->mesh() } });
-  this->expectOne(occluders, 60000, glm::translate(glm::dmat4(1.0), -occluders.frame.centre));
+  this->expectOne(occluders, 1000000, glm::translate(glm::dmat4(1.0), -occluders.frame.centre));
 }
 
 TEST_P(AimedSheets, LoseAndRepeatNoRayWhereRotated)
@@ -252,7 +252,7 @@ TEST_P(AimedSheets, LoseAndRepeatNoRayWhereRotated)
         inCube(random, 5.0));
     const Occluders occluders = makeSheets({ { this->mesh(), turn } });
     this->expectOne(
-      occluders, 30000, glm::translate(glm::dmat4(1.0), -occluders.frame.centre) * turn);
+      occluders, 250000, glm::translate(glm::dmat4(1.0), -occluders.frame.centre) * turn);
   }
 }
 
@@ -269,7 +269,7 @@ TEST_P(AimedSheets, LoseAndRepeatNoRayAsInstances)
         { 0.0, 0.0, 0.7 * i }));
   }
   makeInstanced(occluders, 0, instances);
-  EXPECT_EQ(countWrong(occluders, 60000, 3.0,
+  EXPECT_EQ(countWrong(occluders, 1000000, 3.0,
               [&](Random& generator) -> TestRay
               {
                 const glm::vec3 point = 0.4f * onEdge(occluders, generator);
@@ -321,7 +321,7 @@ TEST(Sheets, ClosedSurfacesAreCrossedOnceFromInsideAndEvenlyFromOutside)
     }
     const Occluders occluders = makeSheets({ { mesh } });
     const glm::vec3 middle(glm::dvec3(0.0, -0.25, -0.4) * 0.01 - occluders.frame.centre);
-    EXPECT_EQ(countWrong(occluders, 100000, 1.0,
+    EXPECT_EQ(countWrong(occluders, 1000000, 1.0,
                 [&](Random& random) -> TestRay
                 {
                   const glm::vec3 origin =
