@@ -39,22 +39,20 @@ const Volumes& TransmittanceStage::volumes()
 //------------------------------------------------------------------------------
 const Sheets* TransmittanceStage::sheets()
 {
-  bool changes = this->sheets_ && !this->occluders_.hasSheets();
-  if (changes)
+  if (!this->occluders_.hasSheets())
   {
     this->sheets_.reset();
+    return nullptr;
   }
-  if (this->occluders_.hasSheets())
+  bool changes = true;
+  try
   {
-    try
-    {
-      changes = (this->sheets_ ? *this->sheets_ : this->sheets_.emplace()).update(this->occluders_);
-    }
-    catch (const std::exception&)
-    {
-      this->sheets_.reset(); // it has a part of the sheets
-      throw;
-    }
+    changes = (this->sheets_ ? *this->sheets_ : this->sheets_.emplace()).update(this->occluders_);
+  }
+  catch (const std::exception&)
+  {
+    this->sheets_.reset(); // it has a part of the sheets
+    throw;
   }
   if (changes)
   {
@@ -63,7 +61,7 @@ const Sheets* TransmittanceStage::sheets()
       of.sheets.reset();
     }
   }
-  return this->sheets_ ? &*this->sheets_ : nullptr;
+  return &*this->sheets_;
 }
 
 //------------------------------------------------------------------------------
@@ -128,19 +126,21 @@ std::vector<const PointFilter*> TransmittanceStage::filtersOf(const LightPlan& l
     }
     filters.push_back(found.texture.get());
   }
-  if (this->sheets_)
+  if (!this->sheets_)
   {
-    if (!found.sheets)
-    {
-      const ShadowRayLight rays(light.light, this->occluders_.frame.centre);
-      found.sheets = std::make_unique<SheetMap>(
-        *this->sheets_, boundsOfSheets(this->occluders_), rays, found.texels);
-      this->frame_.endStage("maps: sheets");
-    }
-    if (!found.sheets->empty())
-    {
-      filters.push_back(found.sheets.get());
-    }
+    found.sheets.reset();
+    return filters;
+  }
+  if (!found.sheets)
+  {
+    const ShadowRayLight rays(light.light, this->occluders_.frame.centre);
+    found.sheets = std::make_unique<SheetMap>(
+      *this->sheets_, boundsOfSheets(this->occluders_), rays, found.texels);
+    this->frame_.endStage("maps: sheets");
+  }
+  if (!found.sheets->empty())
+  {
+    filters.push_back(found.sheets.get());
   }
   return filters;
 }

@@ -85,7 +85,14 @@ SheetErrors compareAtPoints(const Occluders& occluders, const ShadowLight& light
   std::vector<SheetPoint> points;
   std::vector<glm::dvec3> truths;
   std::vector<double> cosines;
-  const bool isSun = light.kind == LightKind::Directional;
+  const auto wayFrom = [&](const glm::dvec3& point)
+  {
+    const glm::dvec3 along(rays.toLight);
+    const glm::dvec3 way = glm::dvec3(rays.position) - point;
+    return rays.kind != LightKind::Directional ? way
+      : rays.hasBox                            ? glm::dot(way, along) * along
+                                               : 20.0 * along;
+  };
   while (points.size() < 8000)
   {
     const glm::uvec3 triangle = occluders.triangles[random() % occluders.triangles.size()];
@@ -94,8 +101,11 @@ SheetErrors compareAtPoints(const Occluders& occluders, const ShadowLight& light
     const double v = uniform(random, 0.0, 1.0);
     const glm::dvec3 point = (1.0 - u) * corner(0) + u * (1.0 - v) * corner(1) + u * v * corner(2);
     glm::dvec3 normal = glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
-    const glm::dvec3 toLight =
-      isSun ? 20.0 * glm::dvec3(rays.toLight) : glm::dvec3(rays.position) - point;
+    const glm::dvec3 toLight = wayFrom(point);
+    if (rays.hasBox && glm::dot(toLight, glm::dvec3(rays.toLight)) < 0.01)
+    {
+      continue; // before its near face
+    }
     normal = glm::dot(normal, toLight) < 0.0 ? -normal : normal;
     points.push_back({ glm::vec4(point, 1.0f), glm::vec4(normal, 0.0f) });
     cosines.push_back(glm::dot(normal, glm::normalize(toLight)));
@@ -123,7 +133,8 @@ struct SheetLight
   ShadowLight light;
 };
 const SheetLight sheetLights[] = { { "sun", directionalLight({ 0.3, -0.2, -1.0 }) },
-  { "lamp", pointLight({ -1.0, 0.5, 6.0 }) }, { "within", pointLight({ 0.1, 0.05, 0.15 }) } };
+  { "lamp", pointLight({ -1.0, 0.5, 6.0 }) }, { "within", pointLight({ 0.1, 0.05, 0.15 }) },
+  { "box", boxLight({ 0.3, -0.2, -1.0 }, { 0.0, 0.0, 0.2 }, glm::dvec3(6.0)) } };
 
 /// Sheets one behind the other: panes, or closed shells.
 std::vector<Prop> makeNestedSheets(bool areShells, int sheets)
@@ -160,9 +171,11 @@ TEST_P(SheetMaps, HoldWhatRaysFindBeforeEachSheet)
   const SheetErrors errors = compareAtPoints(occluders, light, 512);
   // A texel's last crossing stands for more of five shells' ten.
   const bool merges = areShells && sheets == 5;
-  EXPECT_LT(errors.mean, merges ? 0.008 : 0.002);
-  EXPECT_LT(errors.wrong, merges ? 0.12 : 0.01);
-  EXPECT_LT(errors.truth, sheets > 1 ? 1.0 - 0.3 * opacity : 1.0001);
+  // The light begins at a texel's accuracy where its box cuts a shell.
+  const bool isCut = light.box.has_value();
+  EXPECT_LT(errors.mean, merges ? 0.008 : isCut ? 0.004 : 0.002);
+  EXPECT_LT(errors.wrong, merges ? 0.12 : isCut ? 0.02 : 0.01);
+  EXPECT_LT(errors.truth, sheets > 1 ? 1.0 - 0.15 * opacity : 1.0001);
 }
 
 TEST_F(GlslTest, SheetMapsOfMoreTexelsAreCloserToRays)
@@ -188,7 +201,7 @@ std::string nameOfSheets(const testing::TestParamInfo<SheetMapCase>& of)
 }
 
 INSTANTIATE_TEST_SUITE_P(, SheetMaps,
-  testing::Combine(testing::Values(1, 2, 5), testing::Values(0.1, 0.5, 0.9), testing::Range(0, 3),
+  testing::Combine(testing::Values(1, 2, 5), testing::Values(0.1, 0.5, 0.9), testing::Range(0, 4),
     testing::Bool()),
   nameOfSheets);
 

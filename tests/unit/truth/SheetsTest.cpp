@@ -298,7 +298,7 @@ TEST_P(AimedSheets, LoseAndRepeatNoRayAfterDeformation)
     occluders.positionsVersion += 100;
     sheets.update(occluders);
     std::size_t wrong = 0;
-    for (int i = 0; i < 10000; ++i)
+    for (int i = 0; i < 100000; ++i)
     {
       const glm::vec3 point = 0.9f * onEdge(occluders, random);
       const TestRay ray{ point + glm::vec3(0.25f, -0.5f, -9.0f), { -0.25f, 0.5f, 9.0f } };
