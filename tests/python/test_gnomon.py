@@ -191,18 +191,22 @@ class Shadows(unittest.TestCase):
                 self.assertTrue(lights.GetItemAsObject(0).LightTypeIsHeadlight())
 
     def test_an_untouched_light_kit_gives_way_and_comes_back(self):
-        scene = Scene(has_sun=False)
-        vtkLightKit().AddLightsToRenderer(scene.renderer)
-        kit = lights_of(scene.renderer)
-        self.assertEqual(len(kit), 5)
-        with self.assertWarnsRegex(UserWarning, "kit gave way"):
-            shadows = gnomon.add_shadows(scene.renderer)
-        scene.window.Render()
-        casts = [light["casts"] for light in gnomon.report(shadows)["lights"]]
-        self.assertEqual(casts.count(True), 1)
-        self.assertEqual(len(lights_of(scene.renderer)), 2)
-        gnomon.remove_shadows(scene.renderer)
-        self.assertEqual(lights_of(scene.renderer), kit)
+        for is_drawn in (False, True):  # which moves the headlight to the camera
+            with self.subTest(is_drawn=is_drawn):
+                scene = Scene(has_sun=False)
+                vtkLightKit().AddLightsToRenderer(scene.renderer)
+                kit = lights_of(scene.renderer)
+                self.assertEqual(len(kit), 5)
+                if is_drawn:
+                    scene.window.Render()
+                with self.assertWarnsRegex(UserWarning, "kit gave way"):
+                    shadows = gnomon.add_shadows(scene.renderer)
+                scene.window.Render()
+                casts = [light["casts"] for light in gnomon.report(shadows)["lights"]]
+                self.assertEqual(casts.count(True), 1)
+                self.assertEqual(len(lights_of(scene.renderer)), 2)
+                gnomon.remove_shadows(scene.renderer)
+                self.assertEqual(lights_of(scene.renderer), kit)
 
     def test_lights_of_programs_are_never_touched(self):
         def dim(lights):

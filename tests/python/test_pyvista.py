@@ -1,5 +1,6 @@
 """Shadows in PyVista's plotters. Skipped where there is no PyVista."""
 
+import itertools
 import os
 import subprocess
 import sys
@@ -34,9 +35,36 @@ def plotter_of(**arguments):
     return pyvista.Plotter(off_screen=True, window_size=(200, 100), lighting="none", **arguments)
 
 
+PASSES = {
+    "ssao": lambda plotter: plotter.enable_ssao(radius=0.5, kernel_size=32),
+    "edl": lambda plotter: plotter.enable_eye_dome_lighting(),
+    "ssaa": lambda plotter: plotter.enable_anti_aliasing("ssaa"),
+    "fxaa": lambda plotter: plotter.enable_anti_aliasing("fxaa"),
+    "peeling": lambda plotter: plotter.enable_depth_peeling(8),
+    "depth of field": lambda plotter: plotter.enable_depth_of_field(),
+    "blur": lambda plotter: plotter.add_blurring(),
+}
+REFUSED = ({"ssaa", "fxaa"}, {"ssao", "depth of field"})  # which PyVista does not take together
+
+
 def picture_of(plotter):
     plotter.render()  # PyVista does not know of a pass that comes or goes
     return plotter.screenshot()
+
+
+def pictures_with(names):
+    """A scene's picture with some of PASSES and "shadows", and with these removed again."""
+    plotter = plotter_of()
+    add_scene(plotter)
+    plotter.add_mesh(pyvista.Plane(center=(2, 1, 1.5)), color="red", opacity=0.5)
+    for name in names:
+        {"shadows": gnomon.add_shadows, **PASSES}[name](plotter)
+    picture_of(plotter)  # VTK's first one with a depth of field is black
+    picture = picture_of(plotter)
+    gnomon.remove_shadows(plotter)
+    without = picture_of(plotter)
+    plotter.close()
+    return picture, without
 
 
 def darker(before, after):
@@ -109,26 +137,93 @@ class PyVista(unittest.TestCase):
         self.assertLess(distances.max(), 0.1)
         plotter.close()
 
+    def test_all_orders_of_passes_and_shadows_give_the_same_picture(self):
+        pairs = [
+            pair for count in (1, 2) for pair in itertools.combinations(PASSES, count)
+            if set(pair) not in REFUSED
+        ]
+        self.assertEqual(len(pairs), 26)
+        for pair in pairs:
+            plain, _ = pictures_with(pair)
+            pictures = []
+            for order in itertools.permutations(("shadows", *pair)):
+                with self.subTest(order=order):
+                    picture, without = pictures_with(order)
+                    self.assertGreater(darker(plain, picture), 50)
+                    self.assertTrue((without == plain).all())
+                    pictures.append(picture)
+                    self.assertTrue((picture == pictures[0]).all())
+
     def test_the_default_lights_give_way_and_come_back(self):
-        plotter = pyvista.Plotter(off_screen=True, window_size=(200, 100))
-        add_scene(plotter, has_sun=False)
-        before = lights_of(plotter.renderer)
-        with self.assertWarnsRegex(UserWarning, "kit gave way"):
-            shadows = gnomon.add_shadows(plotter)
-        picture_of(plotter)
-        self.assertEqual(sum(light["casts"] for light in gnomon.report(shadows)["lights"]), 1)
-        gnomon.remove_shadows(plotter)
-        self.assertEqual(lights_of(plotter.renderer), before)
+        for is_drawn in (False, True):
+            plotter = pyvista.Plotter(off_screen=True, window_size=(200, 100))
+            add_scene(plotter, has_sun=False)
+            if is_drawn:
+                plain = picture_of(plotter)
+            before = lights_of(plotter.renderer)
+            with self.assertWarnsRegex(UserWarning, "kit gave way"):
+                shadows = gnomon.add_shadows(plotter)
+            picture_of(plotter)
+            self.assertEqual(sum(light["casts"] for light in gnomon.report(shadows)["lights"]), 1)
+            gnomon.remove_shadows(plotter)
+            self.assertEqual(lights_of(plotter.renderer), before)
+            if is_drawn:
+                self.assertTrue((picture_of(plotter) == plain).all())
+            plotter.close()
+
+    def test_chosen_lights_stay_and_cast_on_request(self):
+        for lighting, light, casting, count in (
+            ("light kit", None, "auto", 1),
+            ("light kit", None, "all", 4),  # a headlight's shadow is never seen
+            ("three lights", "auto", "auto", 1),
+            ("three lights", "auto", "all", 3),
+            ("none", "auto", "auto", 0),
+        ):
+            with self.subTest(lighting=lighting, casting=casting):
+                plotter = pyvista.Plotter(off_screen=True, lighting=lighting)
+                add_scene(plotter, has_sun=False)
+                before = lights_of(plotter.renderer)
+                with warnings.catch_warnings():
+                    warnings.simplefilter("error")
+                    shadows = gnomon.add_shadows(plotter, light=light, casting=casting)
+                picture_of(plotter)
+                casts = [light["casts"] for light in gnomon.report(shadows)["lights"]]
+                self.assertEqual(casts.count(True), count)
+                self.assertEqual(lights_of(plotter.renderer), before)
+                plotter.close()
+
+    def test_shown_pictures_and_transparent_ones_have_shadows(self):
+        plotter = plotter_of()
+        add_scene(plotter)
+        plain = plotter.screenshot(transparent_background=True)
+        gnomon.add_shadows(plotter)
+        plotter.render()
+        clear = plotter.screenshot(transparent_background=True)
+        self.assertTrue((clear[..., 3] == plain[..., 3]).all())
+        self.assertEqual((clear[0, 0, 3], clear[50, 100, 3]), (0, 255))
+        self.assertGreater(darker(plain[..., :3], clear[..., :3]), 50)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "picture.png")
+            plotter.show(screenshot=path)
+            gnomon.assert_images_equal(plotter.screenshot(), path)
+            self.assertGreater(darker(plain[..., :3], plotter.screenshot()), 50)
         plotter.close()
 
-    def test_the_default_lights_stay_and_cast_on_request(self):
-        plotter = pyvista.Plotter(off_screen=True, window_size=(200, 100))
-        add_scene(plotter, has_sun=False)
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            shadows = gnomon.add_shadows(plotter, light=None)
-        picture_of(plotter)
-        self.assertGreater(sum(light["casts"] for light in gnomon.report(shadows)["lights"]), 1)
+    def test_volumes_cast_shadows(self):
+        plotter = plotter_of()
+        ball = pyvista.ImageData(
+            dimensions=(21, 21, 21), spacing=(0.1, 0.1, 0.1), origin=(-1, -1, 1)
+        )
+        ball["density"] = 1 - numpy.linalg.norm(ball.points - ball.center, axis=1)
+        plotter.add_volume(ball, opacity=[0, 0.2], clim=(0, 1), show_scalar_bar=False)
+        plotter.add_mesh(pyvista.Plane(i_size=8, j_size=8), color="white")
+        plotter.add_light(pyvista.Light(position=(1, 0, 1), light_type="scene light"))
+        plotter.camera_position = "xy"
+        plain = picture_of(plotter)
+        with self.assertWarnsRegex(UserWarning, "vtkVolume"), gnomon.shadows(plotter):
+            self.assertEqual(darker(plain, picture_of(plotter)), 0)
+        with gnomon.shadows(plotter, volumes=True):
+            self.assertGreater(darker(plain, picture_of(plotter)), 50)
         plotter.close()
 
     def test_pictures_go_to_files_and_are_compared(self):

@@ -58,8 +58,10 @@ install_inside "$root" $(debian_packages "$project") libvtk9-qt-dev \
   > "$folder/$release-packages.log" 2>&1 ||
   untested "its packages do not install ($folder/$release-packages.log)"
 # Not in all releases; what takes it is skipped without.
-inside "$root" apt-get install -qq --yes --no-install-recommends -o Dpkg::Use-Pty=0 \
-  python3-pyvista > "$folder/$release-optional.log" 2>&1 || echo "$release has no python3-pyvista"
+for package in python3-pyvista python3-tqdm python3-trimesh; do
+  inside "$root" apt-get install -qq --yes --no-install-recommends -o Dpkg::Use-Pty=0 $package \
+    > "$folder/$release-$package.log" 2>&1 || echo "$release has no $package"
+done
 inside "$root" dpkg-query -W -f '${Package} ${Version}\n' \
   g++ libvtk9-dev libembree-dev libgl1-mesa-dri
 

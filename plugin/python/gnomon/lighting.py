@@ -107,18 +107,22 @@ def _is_lone_headlight(lit):
 
 
 def _is_default_kit(lights):
-    """True if lights equal those of a vtkLightKit with its defaults, as PyVista's are."""
+    """True if lights equal those of a vtkLightKit with its defaults, as PyVista's are.
+
+    PyVista rounds their colours to 8 bits.
+    """
     renderer = vtkRenderer()
     vtkLightKit().AddLightsToRenderer(renderer)
     kit = lights_of(renderer)
     return len(lights) == len(kit) and all(
         light.GetInformation().GetNumberOfKeys() == 0
-        and all(abs(a - b) < 1e-6 for a, b in zip(_numbers_of(light), _numbers_of(other)))
+        and all(abs(a - b) < 0.5 / 255 for a, b in zip(_numbers_of(light), _numbers_of(other)))
         for light, other in zip(lights, kit)
     )
 
 
 def _numbers_of(light):
+    """All that tells lights apart but a headlight's place, which pictures move to the camera."""
     return (
         light.GetLightType(),
         light.GetSwitch(),
@@ -127,8 +131,7 @@ def _numbers_of(light):
         light.GetShadowAttenuation(),
         *light.GetDiffuseColor(),
         *light.GetSpecularColor(),
-        *light.GetPosition(),
-        *light.GetFocalPoint(),
+        *(() if light.LightTypeIsHeadlight() else light.GetPosition() + light.GetFocalPoint()),
     )
 
 
