@@ -641,3 +641,11 @@ void vtkGnomonVisibilityFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ComputeReasons: " << (this->ComputeReasons ? "On" : "Off") << "\n";
   os << indent << "ExplainedLight: " << this->ExplainedLight << "\n";
 }
+
+//------------------------------------------------------------------------------
+/// Update a filter, for plugin/python/gnomon/data.py: foreign calls release Python's lock, which
+/// VTK's wrappers hold.
+extern "C" GNOMONPLUGIN_EXPORT void gnomonUpdate(vtkObjectBase* filter)
+{
+  vtkAlgorithm::SafeDownCast(filter)->Update();
+}

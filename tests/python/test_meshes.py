@@ -1,9 +1,15 @@
 """Meshes of all kinds, suns with times, and progress of long work."""
 
+import contextlib
+import importlib.util
+import io
 import os
+import sys
 import tempfile
+import threading
 import time
 import unittest
+from unittest import mock
 
 import numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
@@ -32,10 +38,18 @@ def subclass_of(pair):
     return mesh
 
 
-KINDS = (
+KINDS = [
     list, tuple, lambda pair: polydata_of("mesh", pair), subclass_of, Trimesh,
     lambda pair: (numpy.asfortranarray(pair[0], "f4"), numpy.array(pair[1], numpy.uint8)),
-)
+]
+with contextlib.suppress(ImportError):
+    import pyvista
+
+    KINDS.append(lambda pair: pyvista.make_tri_mesh(*map(numpy.array, pair)))
+with contextlib.suppress(ImportError):
+    import trimesh
+
+    KINDS.append(lambda pair: trimesh.Trimesh(*pair, process=False))
 
 
 class Meshes(unittest.TestCase):
@@ -93,6 +107,32 @@ class Progress(unittest.TestCase):
             work(told.append)
             self.assertGreater(len(told), 3)
             self.assertEqual((told, told[-1]), (sorted(told), 1.0))
+
+    def test_other_threads_go_on(self):
+        for work in (hours_of_grid, view_of_grid):
+            ticks, told, is_done = [], [], threading.Event()
+
+            def tick():
+                while not is_done.wait(0.001):
+                    ticks.append(None)
+
+            thread = threading.Thread(target=tick)
+            thread.start()
+            work(lambda done: told.append(len(ticks)))
+            is_done.set()
+            thread.join()
+            self.assertGreater(numpy.diff(told).max(), 3)  # 1 if it waited for progress to be told
+
+    @unittest.skipUnless(importlib.util.find_spec("tqdm"), "there is no tqdm")
+    def test_progress_is_a_bar_of_tqdm(self):
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            hours_of_grid(True)
+        self.assertIn("100%", shown.getvalue())
+
+    def test_a_bar_without_tqdm_is_refused(self):
+        with mock.patch.dict(sys.modules, {"tqdm": None, "tqdm.auto": None}):
+            with self.assertRaisesRegex(ValueError, "progress: .*tqdm"):
+                hours_of_grid(True)
 
     def test_an_exception_of_progress_ends_the_work(self):
         for kind in (RuntimeError, KeyboardInterrupt):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import datetime
 import signal
 import threading
@@ -13,6 +14,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
+from . import GnomonPlugin
 from .arguments import array, choice, number, switch
 from .errors import naming, raising
 from .GnomonLights import vtkGnomonSun
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
         def faces(self) -> Any: ...
 
     Mesh = Union[tuple[ArrayLike, ArrayLike], vtkPolyData, _HasFaces]
+    Progress = Union[Callable[[float], Any], bool, None]
 
 _SKIES = ("uniform", "dome", "overcast")  # in the order of vtkGnomonVisibilityFilter.SkyModelType
 
@@ -99,7 +102,7 @@ def hours_lit(
     casters: Mesh | None = None,
     samples: int = 1,
     angular_diameter: float = 0.0,
-    progress: Callable[[float], Any] | None = None,
+    progress: Progress = None,
 ) -> numpy.ndarray:
     """Return how long each triangle is lit, by vtkGnomonVisibilityFilter.
 
@@ -119,8 +122,8 @@ def hours_lit(
         Rays from a triangle in each direction; 1: from its middle.
     angular_diameter : float
         At which the light is seen, in degrees; the sun's is 0.53. It takes several samples.
-    progress : callable, optional
-        Called with what is done, in [0, 1]. An exception ends the work.
+    progress : callable or bool, optional
+        Called with what is done, in [0, 1]. An exception ends the work. True shows a bar of tqdm.
 
     Returns
     -------
@@ -164,7 +167,7 @@ def sky_view(
     directions: int = 1024,
     distance: float = 0.0,
     up: ArrayLike = (0.0, 0.0, 1.0),
-    progress: Callable[[float], Any] | None = None,
+    progress: Progress = None,
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return how much of the sky each cell sees, by vtkGnomonVisibilityFilter.
 
@@ -184,7 +187,7 @@ def sky_view(
         Length in world units beyond which nothing hides the sky; 0: no limit.
     up : array of 3
         Of the horizon, of any length.
-    progress : callable, optional
+    progress : callable or bool, optional
         As for `hours_lit`.
 
     Returns
@@ -225,7 +228,7 @@ def sky_patches(
     casters: Sequence[Mesh] = (),
     up: ArrayLike = (0.0, 0.0, 1.0),
     north: ArrayLike = (0.0, 1.0, 0.0),
-    progress: Callable[[float], Any] | None = None,
+    progress: Progress = None,
 ) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]:
     """Return which of the sky's 145 patches (Tregenza 1987) each cell sees.
 
@@ -240,7 +243,7 @@ def sky_patches(
     north : array of 3
         Of any length, not along up. Patches go from the horizon up, ring by ring; each ring begins
         in the north and goes on to the east.
-    progress : callable, optional
+    progress : callable or bool, optional
         As for `hours_lit`.
 
     Returns
@@ -284,15 +287,18 @@ def _filter_of(surface, casters):
     return shadows
 
 
+# Releases Python's lock, unlike VTK's wrappers, whose observers take it.
+_update = ctypes.CDLL(GnomonPlugin.__file__).gnomonUpdate
+_update.argtypes, _update.restype = [ctypes.c_void_p], None
+
+
 def _run(algorithm, progress):
     """Execute an algorithm, which tells of its progress, until its end, Ctrl-C or an exception.
 
-    Python runs the handler of a signal in its own code only, here in the observer of the progress.
-    VTK's wrappers end the program if an observer raises KeyboardInterrupt, so exceptions wait for
-    the end.
+    Other threads go on meanwhile. Python runs the handler of a signal in its own code only, here in
+    the observer of the progress. VTK's wrappers end the program if an observer raises
+    KeyboardInterrupt, so exceptions wait for the end.
     """
-    if progress is not None and not callable(progress):
-        raise TypeError(f"progress: found {progress!r}, expected a function of a number")
     raised = []
 
     def calling(function, *arguments):
@@ -301,17 +307,36 @@ def _run(algorithm, progress):
         except BaseException as error:  # KeyboardInterrupt is no Exception
             raised.append(error)
 
-    def tell(*_):
-        if progress is not None and not raised:
-            calling(progress, algorithm.GetProgress())
-        if raised:
-            algorithm.AbortExecuteOn()
+    with _teller_of(progress) as tell, _handling_ctrl_c(calling):
 
-    algorithm.AddObserver("ProgressEvent", tell)
-    with _handling_ctrl_c(calling):
-        algorithm.Update()
+        def observe(*_):
+            if not raised:
+                calling(tell, algorithm.GetProgress())
+            if raised:
+                algorithm.AbortExecuteOn()
+
+        algorithm.AddObserver("ProgressEvent", observe)
+        _update(int(algorithm.GetAddressAsString("").removeprefix("Addr="), 16))
     if raised:
         raise raised[0]
+
+
+@contextlib.contextmanager
+def _teller_of(progress):
+    """Give the function that tells of progress."""
+    if progress is None or progress is False:
+        yield lambda done: None
+    elif progress is not True:
+        if not callable(progress):
+            raise TypeError(f"progress: found {progress!r}, expected a function of a number")
+        yield progress
+    else:
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            raise ValueError("progress: True needs tqdm, which is not installed") from None
+        with tqdm(total=1.0, bar_format="{l_bar}{bar}| {elapsed}<{remaining}") as bar:
+            yield lambda done: bar.update(done - bar.n)
 
 
 @contextlib.contextmanager
