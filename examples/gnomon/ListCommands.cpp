@@ -22,6 +22,17 @@ void printLine(const std::string& name, const std::string& summary)
   std::cout << std::left << std::setw(28) << name << summary << "\n";
 }
 
+/// Return what a setting takes, with its unit: "integer in [16, 16384] (texels)".
+std::string valuesOf(const Setting& setting)
+{
+  std::string values = setting.expected();
+  for (const std::string start : { "one of: ", "an ", "a " })
+  {
+    values.erase(0, values.rfind(start, 0) == 0 ? start.size() : 0);
+  }
+  return values + (setting.unit.empty() ? "" : " (" + setting.unit + ")");
+}
+
 void printSettings()
 {
   for (const SettingsTable* table : settingsTables())
@@ -50,11 +61,11 @@ void printSettingsPage()
   for (const SettingsTable* table : settingsTables())
   {
     std::cout << "\n## " << headingOf(*table)
-              << "\n\n| setting | what it is | unit | values | default |\n|---|---|---|---|---|\n";
+              << "\n\n| setting | meaning | values | default |\n|---|---|---|---|\n";
     for (const Setting& setting : table->settings)
     {
-      std::cout << "| `" << setting.name << "` | " << setting.meaning << " | " << setting.unit
-                << " | " << setting.expected() << " | " << defaultOf(setting) << " |\n";
+      std::cout << "| `" << setting.name << "` | " << setting.meaning << " | " << valuesOf(setting)
+                << " | " << defaultOf(setting) << " |\n";
     }
   }
 }

@@ -1,5 +1,7 @@
 # Check that each row of docs/guide/from_vtkShadowMapPass.md names an existing test, and that all
-# tests of Wishes occur.
+# tests of Wishes occur. The wishes are those of issues and pull requests: Drake 20486, 24987; f3d 13;
+# Open3D 3970; pyrender 105; pysam 228; pyvista 1278, 4939, 6065, 7344, 8685, 9041; Slicer 7780;
+# Solar 1; vedo 64, 559; vtk-js 2823.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)

@@ -201,10 +201,10 @@ std::string helpText(const ViewState& state)
 //------------------------------------------------------------------------------
 std::string keysAsMarkdown()
 {
-  std::string text = "| key | what it does | whose |\n|---|---|---|\n";
+  std::string text = "| key | what it does |\n|---|---|\n";
   for (const ViewKey& key : viewKeys())
   {
-    text += "| `" + key.name + "` | " + key.help + " | " + (key.ofVtk ? "VTK" : "") + " |\n";
+    text += "| `" + key.name + "` | " + key.help + (key.ofVtk ? " (VTK)" : "") + " |\n";
   }
   return text;
 }
