@@ -63,6 +63,7 @@ vtkGnomonEGLRenderWindow::vtkGnomonEGLRenderWindow()
       this->DeviceIndex = static_cast<int>(index);
     }
   }
+  this->SetSize(300, 300); // as VTK's windows
   this->SetMultiSamples(0);
   this->SetOffScreenRendering(1);
   this->SetFrameBlitModeToNoBlit(); // there is nothing to show the picture on

@@ -128,6 +128,16 @@ TEST_F(EGLRenderWindow, drawsWithoutADisplayAndWithoutAWord)
   EXPECT_GT(countColours(picture), 100u); // and shaded
 }
 
+TEST_F(EGLRenderWindow, isAsLargeAsVtksWindowsByDefault)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->AddRenderer(makeSphereScene());
+  window->Render();
+  const auto picture = readPicture(window);
+  ASSERT_EQ(picture.size(), 3u * 300 * 300);
+  EXPECT_GT(countColours(picture), 50u);
+}
+
 TEST_F(EGLRenderWindow, asksForOpenGL45AndTellsWhatItGot)
 {
   vtkNew<vtkGnomonEGLRenderWindow> window;
