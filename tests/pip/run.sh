@@ -1,7 +1,7 @@
 #!/bin/bash
 # Installs Gnomon by pip in a chroot of Debian 13, from its source distribution, without network, in
-# a virtual environment that sees the system's VTK; then draws a shadow, runs the program and
-# uninstalls. Runs as root and needs debootstrap.
+# a virtual environment that sees the system's VTK and PyVista; then draws a shadow and PyVista's
+# gallery, runs the program and uninstalls. Runs as root and needs debootstrap.
 #
 #   tests/pip/run.sh [--fresh]
 #
@@ -40,7 +40,7 @@ make_chroot "$release" "$root" "$folder/$release.log"
 mount_chroot "$root" "$project"
 # shellcheck disable=SC2046 # the packages are words
 logged packages install_inside "$root" $(debian_packages "$project") \
-  python3-build python3-scikit-build-core python3-venv
+  python3-build python3-pyvista python3-scikit-build-core python3-tqdm python3-trimesh python3-venv
 inside "$root" sh -c 'rm -rf /tmp/pip && mkdir /tmp/pip'
 inside "$root" dpkg-query -W -f '${Package} ${Version}\n' python3-scikit-build-core python3-vtk9
 
@@ -59,6 +59,10 @@ announce "drawing a shadow"
 offline 'python /src/tests/python/test_facade_hours.py .'
 offline 'python /src/examples/shadows.py shadows.png | tee said; grep -q "In shadow: [1-9]" said'
 cp "$root/tmp/pip/shadows.png" "$folder"
+
+announce "drawing PyVista's gallery"
+offline 'python /src/tests/python/test_meshes.py'
+offline 'xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" python /src/tests/python/test_pyvista.py'
 
 announce "running the program"
 offline 'gnomon --version; gnomon render bunny -o bunny.png --size 64x64'
