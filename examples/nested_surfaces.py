@@ -23,9 +23,8 @@ def make_density() -> vtk.vtkImageData:
     """The sum of Gaussian densities, in a box of 9 x 9 x 9."""
     axis = numpy.linspace(-4.5, 4.5, SIDE)
     z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij")
-    density = sum(
-        numpy.exp(-((x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2) / 0.9) for a, b, c in ATOMS
-    )
+    squares = [(x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2 for a, b, c in ATOMS]
+    density = numpy.exp(-numpy.array(squares) / 0.9).sum(axis=0)
     image = vtk.vtkImageData()
     image.SetDimensions(SIDE, SIDE, SIDE)
     image.SetOrigin(-4.5, -4.5, -4.5)
