@@ -1,18 +1,32 @@
 #!/bin/bash
-# Installs Gnomon by pip in a chroot of Debian 13, from its source distribution, without network, in
-# a virtual environment that sees the system's VTK and PyVista; then draws a shadow and PyVista's
-# gallery, runs the program and uninstalls. Runs as root and needs debootstrap.
+# Installs Gnomon by pip in a chroot of Debian 13 or unstable, from its source distribution, without
+# network, in a virtual environment that sees the system's VTK and PyVista; then draws a shadow and
+# PyVista's gallery, runs the program and uninstalls. Runs as root and needs debootstrap.
 #
-#   tests/pip/run.sh [--fresh]
+#   tests/pip/run.sh [--fresh] [trixie|sid]
 #
 # The chroot stays in the temporary folder (TMPDIR) for the next run; --fresh makes a new one.
 set -euo pipefail
 script=$(realpath "${BASH_SOURCE[0]}")
 project=$(realpath "$(dirname "$script")/../..")
 source "$project/tests/debian/chroot.sh"
-own_mounts "$script" "$@"
+arguments=("$@")
 
-release=trixie # whose archive has scikit-build-core
+fresh=no
+if [ "${1:-}" = --fresh ]; then
+  fresh=yes
+  shift
+fi
+release=${1:-trixie}
+case "$release" in
+  trixie | sid) ;; # whose archives have scikit-build-core
+  *)
+    echo "Usage: tests/pip/run.sh [--fresh] [trixie|sid]" >&2
+    exit 2
+    ;;
+esac
+own_mounts "$script" "${arguments[@]}"
+
 folder=${TMPDIR:-/tmp}/gnomon-pip
 root=$folder/$release
 
@@ -33,7 +47,7 @@ offline()
 }
 
 announce "making the chroot"
-if [ "${1:-}" = --fresh ]; then
+if [ "$fresh" = yes ]; then
   remove_chroot "$root"
 fi
 make_chroot "$release" "$root" "$folder/$release.log"
