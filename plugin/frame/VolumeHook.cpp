@@ -15,8 +15,8 @@ std::string factorOf(const ShadedLight& shaded, int light)
 {
   const std::string number = std::to_string(light);
   const std::string lit = litOf(shaded, light);
-  return "mix(" + lit + ", " + lit + " * visibility_" + number + "(gnomonSample, gnomonNormalAt_" +
-    number + "(gnomonSample)), gnomonStrength" + number + ")";
+  return "mix(" + lit + ", " + lit + " * visibilityAt_" + number +
+    "(gnomonSample), gnomonStrength" + number + ")";
 }
 
 /// The share of each light that reaches a sample: variables, with a function that finds a light's,
@@ -61,9 +61,7 @@ VolumeHook::VolumeHook(bool viewIsRigid, const std::vector<ShadedLight>& lights)
   {
     const ShadedLight& shaded = lights[i];
     const int number = static_cast<int>(i);
-    this->declarations_ += numberedForLight(shaded.pointwise->visibilityGlsl(shaded.light) +
-        frameShaders().at("plugin/frame/hook_volume_light.glsl"),
-      number);
+    this->declarations_ += numberedForLight(shaded.pointwise->visibilityGlsl(shaded.light), number);
     this->declarations_ += "uniform float gnomonStrength" + std::to_string(i) + ";\n";
     if (shaded.light.texture)
     {

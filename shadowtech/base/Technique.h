@@ -215,8 +215,10 @@ class PointwiseTechnique : public Technique
 public:
   /// Return the source that defines
   ///     float visibility_LIGHT(vec3 positionView, vec3 normalView)
+  ///     float visibilityAt_LIGHT(vec3 positionView)
   /// in GLSL 1.50 and its uniforms, for a light of this kind. The normal is the geometric one on
-  /// the camera's side, of any length. Every identifier that ends in _LIGHT is numbered per light.
+  /// the camera's side, of any length; the second function is of places without a surface. Every
+  /// identifier that ends in _LIGHT is numbered per light.
   virtual std::string visibilityGlsl(const ShadowLight&) const = 0;
   /// Return the uniforms of that source, as of the last bake, for receivers in a camera's view
   /// coordinates.

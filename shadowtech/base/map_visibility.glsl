@@ -101,3 +101,21 @@ float visibility_LIGHT(vec3 positionView, vec3 normalView)
   n = above ? normalize(toLight) : n;
   return visibilityOnMap_LIGHT(p, n, positionView, normalView);
 }
+
+// Return the direction to the light in view coordinates, of any length.
+vec3 towardsLight_LIGHT(vec3 positionView)
+{
+  vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
+  return transpose(mat3(lightFromView_LIGHT)) * toLight_LIGHT(p);
+}
+
+// Return the visibility of a place without a surface: it faces the light. A plane across parallel
+// rays has one depth, so the compiler leaves out what visibility_LIGHT() does with planes.
+float visibilityAt_LIGHT(vec3 positionView)
+{
+  vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
+  vec3 n = toLight_LIGHT(p);
+  return lightReaches_LIGHT(p, n)
+    ? visibilityOnMap_LIGHT(p, n, positionView, towardsLight_LIGHT(positionView))
+    : 0.0;
+}

@@ -10,16 +10,21 @@ std::string FilteredTechnique::visibilityGlsl(const ShadowLight& light) const
 {
   const bool isColoured = std::any_of(this->filters_.begin(), this->filters_.end(),
     [](const PointFilter* filter) { return filter->isColoured(); });
-  std::string source = "#define visibility_LIGHT gnomonSurfaces_LIGHT\n" +
-    this->surfaces_.visibilityGlsl(light) + "#undef visibility_LIGHT\n";
-  std::string product = "gnomonSurfaces_LIGHT(positionView, normalView)";
+  std::string source = "#define visibility_LIGHT gnomonSurfaces_LIGHT\n"
+                       "#define visibilityAt_LIGHT gnomonSurfacesAt_LIGHT\n" +
+    this->surfaces_.visibilityGlsl(light) + "#undef visibility_LIGHT\n#undef visibilityAt_LIGHT\n";
+  std::string shares;
   for (const PointFilter* const filter : this->filters_)
   {
     source += filter->glsl();
-    product += " *\n    " + filter->name() + "(positionView, normalView)";
+    shares += " *\n    " + filter->name() + "(positionView, normalView)";
   }
-  return source + (isColoured ? "vec3" : "float") +
-    " visibility_LIGHT(vec3 positionView, vec3 normalView)\n{\n  return " + product + ";\n}\n";
+  const std::string type = isColoured ? "vec3 " : "float ";
+  return source + type + "visibility_LIGHT(vec3 positionView, vec3 normalView)\n{\n" +
+    "  return gnomonSurfaces_LIGHT(positionView, normalView)" + shares + ";\n}\n" + type +
+    "visibilityAt_LIGHT(vec3 positionView)\n{\n" +
+    "  vec3 normalView = towardsLight_LIGHT(positionView);\n" +
+    "  return gnomonSurfacesAt_LIGHT(positionView)" + shares + ";\n}\n";
 }
 
 //------------------------------------------------------------------------------
