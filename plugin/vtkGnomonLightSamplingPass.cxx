@@ -26,6 +26,8 @@
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -246,6 +248,22 @@ void vtkGnomonLightSamplingPass::AddPictures(const vtkRenderState* s, std::size_
     internal.mean->add(internal.target->picture());
   }
   this->NumberOfRenderedProps = this->Delegate()->GetNumberOfRenderedProps();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightSamplingPass::SetGamma(double gamma)
+{
+  if (std::isnan(gamma))
+  {
+    vtkErrorMacro("Gamma was to be no number.");
+    return;
+  }
+  const double clamped = std::clamp(gamma, 0.0, 10.0);
+  if (clamped != this->Gamma)
+  {
+    this->Gamma = clamped;
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -103,9 +103,10 @@ public:
    * How the delegate's colours stand for light: they are its power of 1 / Gamma, and the mean is
    * that of the light. VTK's physically based shading ends in a power of 1 / 2.2, all other shading
    * in none. 0, the default, takes 2.2 where some surface in view is physically based, and else 1.
-   * In scenes with both kinds, the penumbrae of one of them are not those of its light.
+   * In scenes with both kinds, the penumbrae of one of them are not those of its light. Other
+   * numbers are clamped to [0, 10]; NaN is an error and changes nothing.
    */
-  vtkSetClampMacro(Gamma, double, 0.0, 10.0);
+  virtual void SetGamma(double gamma);
   vtkGetMacro(Gamma, double);
   ///@}
 

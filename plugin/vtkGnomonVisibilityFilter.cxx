@@ -345,6 +345,22 @@ void vtkGnomonVisibilityFilter::SetSkyDistance(double distance)
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonVisibilityFilter::SetAngularDiameter(double degrees)
+{
+  if (std::isnan(degrees))
+  {
+    vtkErrorMacro("AngularDiameter was to be no number.");
+    return;
+  }
+  const double clamped = std::clamp(degrees, 0.0, 89.0);
+  if (clamped != this->AngularDiameter)
+  {
+    this->AngularDiameter = clamped;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonVisibilityFilter::ClearLights()
 {
   this->Internal->lights.clear();

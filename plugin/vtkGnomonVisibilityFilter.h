@@ -175,9 +175,10 @@ public:
   /**
    * Set the angle under which the scene sees a light with a direction, in degrees, in [0, 90). The
    * sun's is 0.53. Use it with Samples of 2 or more: each looks at another point of an even disc.
-   * 0: a point. Default: 0.
+   * 0: a point. Default: 0. Other numbers are clamped to [0, 89]; NaN is an error and changes
+   * nothing.
    */
-  vtkSetClampMacro(AngularDiameter, double, 0.0, 89.0);
+  virtual void SetAngularDiameter(double degrees);
   vtkGetMacro(AngularDiameter, double);
   ///@}
 

@@ -1,10 +1,13 @@
 """The wrapped classes: a getter beside each setter, None for objects, and events."""
 
 import ast
+import contextlib
 import inspect
+import math
 import os
 import re
 import sys
+import tempfile
 import unittest
 
 from vtkmodules.vtkCommonCore import vtkDoubleArray
@@ -49,6 +52,15 @@ MAY_BE_NONE = {
     "vtkGnomonShadowPass.PreReplaceShaderValues(prop)",
     "vtkGnomonShadowPass.SetShaderParameters(vao)",
 }
+# Lights keep what they are told, as VTK's do: the frame's report says why they cast no shadow.
+KEEP_WHAT_IS_NOT_FINITE = {
+    *(f"vtkGnomonAreaLight.{it}(_arg)" for it in ("SetWidth", "SetHeight", "SetUp")),
+    *(f"vtkGnomonAreaLight.SetUp(_arg{i})" for i in (1, 2, 3)),
+    "vtkGnomonAreaLight.SetRadius(radius)",
+}
+# VTK's own, of more pixels than memory holds.
+TAKES_ALL_MEMORY = {f"vtkGnomonEGLRenderWindow.GetZbufferData({it})"
+                    for it in ("x1", "x2", "y1", "y2")}
 if hasattr(gnomon, "vtkGnomonEGLRenderWindow"):
     MAY_BE_NONE.add("vtkGnomonEGLRenderWindow.SetInteractor(interactor)")
 
@@ -161,6 +173,71 @@ class Nulls(unittest.TestCase):
                         ended[f"{name}.{method}({argument})"] = self.end_of(kind, method, values)
         self.assertGreater(len(ended), 200)
         self.assertEqual({k: end for k, end in ended.items() if end != "TypeError"}, {})
+
+    def test_wrong_values_leave_getters_finite_and_no_files(self):
+        ended = {}
+        with tempfile.TemporaryDirectory() as folder:
+            for name in dir(gnomon):
+                kind = getattr(gnomon, name)
+                for method in set(own_methods(kind)) if inspect.isclass(kind) else ():
+                    for arguments in self.signatures(getattr(kind, method)):
+                        for argument, types in arguments:
+                            calls = [[wrong if it == argument else self.example(of)
+                                      for it, of in arguments] for wrong in self.wrong(types)]
+                            key = f"{name}.{method}({argument})"
+                            if key not in TAKES_ALL_MEMORY:
+                                ended[key] = self.state_after(kind, method, calls, folder)
+            self.assertEqual(os.listdir(folder), [])
+        self.assertGreater(len(ended), 200)
+        for key in KEEP_WHAT_IS_NOT_FINITE:
+            self.assertEqual(ended.pop(key), "not finite", key)
+        self.assertEqual({k: end for k, end in ended.items() if end != "finite"}, {})
+
+    @classmethod
+    def wrong(cls, types):
+        """Values of a type that few methods take."""
+        if isinstance(types, ast.Tuple | ast.List):
+            each = [of for of in types.elts if not isinstance(of, ast.Constant)]
+            return [[value] * count for count in (0, 1, len(each), len(each) + 1)
+                    for value in cls.wrong(each[0])]
+        wrong = {"float": [math.nan, math.inf, -math.inf, -1e300], "int": [-1, 2**31 - 1, -(2**31)],
+                 "str": ["", "missing/folder", "\n"]}
+        return wrong.get(types.id, [])
+
+    @classmethod
+    def state_after(cls, kind, name, calls, folder):
+        """Tell whether getters give finite numbers after calls, in a process of its own."""
+        ends = ["finite", "not finite", "an exception"]
+        child = os.fork()
+        if child == 0:
+            os.chdir(folder)
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # VTK's own errors
+            try:
+                os._exit(ends.index(cls.end_of_calls(kind, name, calls)))
+            except BaseException:
+                os._exit(2)
+        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        return ends[code] if code >= 0 else f"signal {-code}"
+
+    @staticmethod
+    def end_of_calls(kind, name, calls):
+        try:
+            it = kind()
+        except (TypeError, NotImplementedError):
+            it = kind  # an abstract one, with static methods
+        getter = getattr(it, re.sub("^(Set|Add|Make)", "Get", name), None)
+        for values in calls:
+            try:
+                getattr(it, name)(*values)
+            except (TypeError, ValueError):
+                pass
+            objects = [value for value in values if hasattr(value, "IsA")]
+            with contextlib.suppress(TypeError):  # of getters with arguments of their own
+                numbers = getter(*objects) if getter else 0.0
+                numbers = numbers if isinstance(numbers, tuple) else (numbers,)
+                if not all(math.isfinite(each) for each in numbers if isinstance(each, float)):
+                    return "not finite"
+        return "finite"
 
     @staticmethod
     def signatures(method):

@@ -26,6 +26,10 @@ def taking_holders(kind):
     def taking(method):
         return staticmethod(wraps(method)(lambda *given: method(*map(unwrap, given))))
 
-    methods = {name: taking(it) for name, it in vars(kind).items() if isroutine(it)}
+    methods = {
+        name: taking(it)
+        for name, it in vars(kind).items()
+        if isroutine(it) and not name.startswith("__")
+    }
     members = {**methods, "__doc__": kind.__doc__, "__module__": "gnomon"}
     return type(kind.__name__, (kind,), members)
