@@ -2,7 +2,7 @@
 
 mat4 gnomonViewFromData; // of places that VTK samples (g_dataPos)
 
-// Find the matrix for all samples of a fragment: a sample of its own costs half a frame more.
+// Find the matrix once for all samples of a fragment: once for each costs half a frame more.
 void gnomonPlaceSamples()
 {
   // VTK's texture coordinates of points and cells differ by a scale and an offset.

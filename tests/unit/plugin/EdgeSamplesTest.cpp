@@ -239,6 +239,23 @@ TEST_P(EdgeSamplesOf, lookAlikeByBothRoutes)
 }
 
 /// By default pictures at rest have smooth edges. Visibility stays that of the pixels' centres.
+void expectSmoothAtRestAlone(const BuiltinPass& scene)
+{
+  const Picture hard = scene.render("silhouette edge_samples=1");
+  const VisibilityImages centres = scene.pass->GetVisibility();
+  const Picture smooth = scene.render("edge_samples=16");
+  const Picture byDefault = scene.render("edge_samples=auto");
+  EXPECT_GT(differingPixels(hard, byDefault, 8), 100u);
+  EXPECT_EQ(differingPixels(smooth, byDefault, 1), 0u);
+  EXPECT_EQ(scene.pass->GetVisibility().visibility, centres.visibility);
+  EXPECT_TRUE(scene.render() == byDefault) << "once more";
+  scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+  scene.renderer->GetActiveCamera()->Azimuth(1e-9);
+  EXPECT_TRUE(scene.render() == hard) << "in motion";
+  scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
+  EXPECT_TRUE(scene.render() == byDefault) << "at rest again";
+}
+
 TEST_P(EdgeSamplesOf, areOfPicturesAtRestAlone)
 {
   const BuiltinPass scene(this->scene(), 301, 203);
@@ -247,19 +264,7 @@ TEST_P(EdgeSamplesOf, areOfPicturesAtRestAlone)
   {
     scene.pass->SetKeepVisibility(route == vtkGnomonShadowPass::ROUTE_IMAGE);
     scene.pass->SetRoute(route);
-    const Picture hard = scene.render("silhouette edge_samples=1");
-    const VisibilityImages centres = scene.pass->GetVisibility();
-    const Picture smooth = scene.render("edge_samples=16");
-    const Picture byDefault = scene.render("edge_samples=auto");
-    EXPECT_GT(differingPixels(hard, byDefault, 8), 100u);
-    EXPECT_EQ(differingPixels(smooth, byDefault, 1), 0u);
-    EXPECT_EQ(scene.pass->GetVisibility().visibility, centres.visibility);
-    EXPECT_TRUE(scene.render() == byDefault) << "once more";
-    scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
-    scene.renderer->GetActiveCamera()->Azimuth(1e-9);
-    EXPECT_TRUE(scene.render() == hard) << "in motion";
-    scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
-    EXPECT_TRUE(scene.render() == byDefault) << "at rest again";
+    expectSmoothAtRestAlone(scene);
   }
 }
 
@@ -288,19 +293,7 @@ TEST_P(GlassEdgesOf, areOfPicturesAtRestAlone)
 {
   const BuiltinPass scene(this->scene(), 301, 203);
   turnToGlass(scene);
-  const Picture hard = scene.render("silhouette edge_samples=1");
-  const VisibilityImages centres = scene.pass->GetVisibility();
-  const Picture smooth = scene.render("edge_samples=16");
-  const Picture byDefault = scene.render("edge_samples=auto");
-  EXPECT_GT(differingPixels(hard, byDefault, 8), 100u);
-  EXPECT_EQ(differingPixels(smooth, byDefault, 1), 0u);
-  EXPECT_EQ(scene.pass->GetVisibility().visibility, centres.visibility);
-  EXPECT_TRUE(scene.render() == byDefault) << "once more";
-  scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
-  scene.renderer->GetActiveCamera()->Azimuth(1e-9);
-  EXPECT_TRUE(scene.render() == hard) << "in motion";
-  scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
-  EXPECT_TRUE(scene.render() == byDefault) << "at rest again";
+  expectSmoothAtRestAlone(scene);
 }
 
 /// A lit plate over ground wholly in its shadow, and lit ground before a dark wall.
