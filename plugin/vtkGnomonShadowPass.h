@@ -335,8 +335,8 @@ public:
    * has vtkRenderer::GetAllocatedRenderTime(), but at least 1.3 times what VTK's drawing takes.
    * "auto" first takes what keeps the errors; where that is too slow, fewer samples of area lights,
    * then hard shadows of their centres, then maps of any error. `penumbra` and
-   * `raytraced` use fewer samples, too, unless `moving_samples` names them. Several processes have
-   * no such time.
+   * `raytraced` use fewer samples, too, unless `moving_samples` names them. Over several processes
+   * the first one's times decide, and area lights have fewer samples with any budget.
    *
    * Other negative numbers are an error and change nothing.
    */

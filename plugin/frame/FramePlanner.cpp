@@ -25,6 +25,10 @@ void FramePlanner::plan(const Bake& bake, const ReadDeferredFacts& readDeferredF
   const double start = steadyMilliseconds();
   this->looked_ = false;
   Scene& scene = this->frame_.scene;
+  if (scene.picture.moves)
+  {
+    this->takeTimesOfFirst();
+  }
   FramePlan& plan = this->frame_.plan;
   std::vector<Evidence> evidence;
   const auto planAgain = [&]
@@ -46,6 +50,29 @@ void FramePlanner::plan(const Bake& bake, const ReadDeferredFacts& readDeferredF
   this->history_ = plan.history;
   this->frame_.lights.take(plan.lights);
   this->milliseconds_ = steadyMilliseconds() - start;
+}
+
+//------------------------------------------------------------------------------
+/// Have all processes plan by the first one's times: it may be the only one with an interactor.
+void FramePlanner::takeTimesOfFirst()
+{
+  FrameWishes& wishes = this->frame_.wishes;
+  MotionTimes& times = this->history_.times;
+  const std::vector<ShadowLight>& lights = this->frame_.scene.lights.set.lights;
+  std::vector<double> numbers{ wishes.windowTime, wishes.timeBudget, times.restByRays };
+  for (const ShadowLight& light : lights)
+  {
+    numbers.push_back(times.sample[light.sceneIndex]);
+  }
+  numbers = this->frame_.ranks->ofFirst(numbers);
+  auto number = numbers.begin();
+  wishes.windowTime = *number++;
+  wishes.timeBudget = *number++;
+  times.restByRays = *number++;
+  for (const ShadowLight& light : lights)
+  {
+    times.sample[light.sceneIndex] = *number++;
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -39,6 +39,7 @@ public:
   std::size_t bytes() const { return this->probes_.bytes(); }
 
 private:
+  void takeTimesOfFirst();
   Evidence gather(const EvidenceRequest& request, const LightPlan& resting, const Bake& bake);
   void probe(const PointwiseTechnique& technique, const ShadowLight& map,
     const EvidenceRequest& request, Evidence& evidence);

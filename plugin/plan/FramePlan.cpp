@@ -92,18 +92,19 @@ void chooseTechniques(FramePlan& plan, const Scene& scene, const FrameWishes& wi
   }
 }
 
-/// Plan with how many samples a light's image begins. Those of several views and processes have all
-/// samples at once: the pass's progress is that of the last view alone.
-/// @param inTime samples that leave a moving frame within the time that the window has
-void planSamples(LightPlan& plan, bool areSeveral, int inTime)
+/// Plan with how many samples a light's image begins. Those of several views have all samples at
+/// once: the pass's progress is that of the last view alone. So have those of several processes, at
+/// rest: nothing draws the next frame.
+/// @param inTime samples that leave a moving frame within the time that it has
+void planSamples(LightPlan& plan, bool hasAll, int inTime)
 {
   const int named = plan.light.refinement.movingSamples;
-  const bool refines = !areSeveral && plan.info().has(refinementSettings()) && plan.light.area;
+  const bool refines = !hasAll && plan.info().has(refinementSettings()) && plan.light.area;
   if (!refines || named > 0)
   {
     plan.firstSamples = refines ? named : 0;
   }
-  else if (!plan.asked && inTime < plan.light.lightSamples)
+  else if (inTime < plan.light.lightSamples)
   {
     const int root = std::max(static_cast<int>(std::sqrt(inTime)), 1);
     plan.firstSamples = root * root; // a square suits all ways to sample
@@ -194,7 +195,7 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   plan.misfits = std::move(lights.misfits);
   plan.notes = std::move(lights.notes);
   plan.headlightIsAlone = scene.lights.set.headlightIsAlone;
-  plan.moves = scene.picture.moves && !wishes.isShared;
+  plan.moves = scene.picture.moves;
   plan.history = history;
 
   plan.sky = planSky(scene, wishes, history.times, plan.notes);
@@ -223,10 +224,12 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
     const PicturePlan& picture = plan.picture;
     light.shadedBy = planShading(light, picture.route.route, picture.shadesPoints);
     planFit(light, picture.route.route, picture.shadesPoints, scene.lights);
-    planSamples(light, scene.picture.severalViews || wishes.isShared,
-      !plan.moves ? light.light.lightSamples
-                  : samplesInTime(wishes, plan.history.times, light.light.sceneIndex,
-                      plan.lights.size(), light.light.lightSamples));
+    const bool isTimed = plan.moves && (!light.asked || wishes.isShared); // planAuto() has the rest
+    const bool hasAll = scene.picture.severalViews || (wishes.isShared && !plan.moves);
+    planSamples(light, hasAll,
+      isTimed ? samplesInTime(wishes, plan.history.times, light.light.sceneIndex,
+                  plan.lights.size(), light.light.lightSamples)
+              : light.light.lightSamples);
   }
   placeVisibility(plan);
   plan.isApproximate = plan.isApproximate || (scene.picture.moves && smoothsAny(plan));

@@ -67,13 +67,14 @@ void MotionTimes::addSky(double milliseconds)
 //------------------------------------------------------------------------------
 double limitOf(const FrameWishes& wishes, const MotionTimes& times)
 {
-  if (wishes.windowTime == 0.0)
+  const double asked = std::max(wishes.windowTime, wishes.isShared ? wishes.timeBudget : 0.0);
+  if (asked == 0.0)
   {
     return 0.0;
   }
   const double drawing =
     times.restByMaps > 0.0 ? times.restByMaps / drawnByMaps : times.restByRays / drawnByRays;
-  return std::max(wishes.windowTime, 1.3 * drawing);
+  return std::max(asked, 1.3 * drawing);
 }
 
 //------------------------------------------------------------------------------
@@ -92,7 +93,7 @@ int samplesInTime(
 {
   const double limit = limitOf(wishes, times);
   const auto sample = times.sample.find(sceneIndex);
-  if (limit == 0.0 || sample == times.sample.end())
+  if (limit == 0.0 || sample == times.sample.end() || sample->second == 0.0)
   {
     return most;
   }

@@ -28,8 +28,8 @@ struct MotionTimes
   void addImage(int sceneIndex, double samples, double milliseconds);
 };
 
-/// Return the milliseconds for a moving frame: the window's, but at least 1.3 times those that VTK
-/// draws; 0: no limit.
+/// Return the milliseconds for a moving frame: the window's, over several processes the time
+/// budget's, but at least 1.3 times those that VTK draws; 0: no limit.
 double limitOf(const FrameWishes& wishes, const MotionTimes& times);
 
 /// True if the view of the sky by few directions fits into a moving frame, beside one sample of

@@ -87,6 +87,15 @@ public:
     this->gatherBytes(mine.data(), all.elements.data(), sizeof(Element), all.firsts);
   }
 
+  /// Return the numbers of the first rank; every rank has as many.
+  std::vector<double> ofFirst(const std::vector<double>& mine)
+  {
+    Gathered<double> all;
+    this->gather(mine, all);
+    all.elements.resize(mine.size());
+    return all.elements;
+  }
+
   /// Return the bytes that this rank has received in the frame, its own among them.
   virtual std::size_t bytesShared() const = 0;
 

@@ -52,7 +52,12 @@ const EstimatorEntry& slow()
 }
 const EstimatorEntry& rays()
 {
-  static const EstimatorEntry entry = estimator("raytraced", Evaluation::ScreenCpu, true);
+  static const EstimatorEntry entry = []
+  {
+    EstimatorEntry made = estimator("raytraced", Evaluation::ScreenCpu, true);
+    made.info.settings.push_back(&refinementSettings());
+    return made;
+  }();
   return entry;
 }
 const EstimatorEntry& raysWithEdges()
@@ -694,9 +699,35 @@ TEST(FramePlans, ofMotionTakeWhatIsChosen)
   wishes.isShared = true;
   plan = planFrame(scene, wishes, {}, {});
   EXPECT_FALSE(plan.needs);
-  EXPECT_FALSE(plan.moves) << "several processes draw all frames alike";
-  EXPECT_FALSE(plan.isApproximate);
+  EXPECT_FALSE(plan.isApproximate) << "several processes draw all frames alike";
   EXPECT_TRUE(plan.choice.empty());
+}
+
+TEST(FramePlans, ofSeveralProcessesKeepTheBudgetByFewerSamples)
+{
+  for (const char* const technique : { "raytraced", "auto" })
+  {
+    SCOPED_TRACE(technique);
+    Scene scene = sceneOf({ technique });
+    ShadowLight& light = scene.lights.set.lights.front();
+    light.area.emplace();
+    light.lightSamples = 64;
+    AutoHistory history;
+    history.times.restByRays = 30.0;
+    history.times.sample[light.sceneIndex] = 1.0;
+    FrameWishes wishes;
+    wishes.isShared = true;
+    wishes.timeBudget = 100.0;
+    scene.picture.moves = true;
+    EXPECT_EQ(planFrame(scene, wishes, history, {}).lights.at(0).firstSamples, 49);
+    scene.picture.moves = false;
+    EXPECT_EQ(planFrame(scene, wishes, history, {}).lights.at(0).firstSamples, 0) << "all";
+    scene.picture.moves = true;
+    wishes.timeBudget = 0.0;
+    EXPECT_EQ(planFrame(scene, wishes, history, {}).lights.at(0).firstSamples, 0);
+    wishes.windowTime = 100.0;
+    EXPECT_EQ(planFrame(scene, wishes, history, {}).lights.at(0).firstSamples, 49);
+  }
 }
 
 TEST(FramePlans, takeMapsOfAnyErrorToKeepTheWindowsRate)

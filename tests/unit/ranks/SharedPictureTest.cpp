@@ -139,6 +139,35 @@ TEST_P(SharedLights, EqualThoseOfOneProcess)
   EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
+/// The first process' budget leaves all of them one sample in motion. At rest all samples show.
+TEST(SharedBudget, leavesMotionFewerSamples)
+{
+  SplitScene scene(boxScene(
+                     [](tool::SceneLight& light)
+                     {
+                       light.settings["light_radius"] = "2";
+                       light.settings["light_samples"] = "16";
+                     }),
+    roundRobin());
+  vtkGnomonShadowPass& pass = *scene.shared().pass;
+  for (const char* const technique : { "raytraced", "auto" })
+  {
+    SCOPED_TRACE(technique);
+    pass.SetTechnique(technique);
+    pass.SetTimeBudget(controller()->GetLocalProcessId() == 0 ? 1e-3 : 1e6);
+    pass.SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+    for (int frame = 0; frame < 4; ++frame)
+    {
+      scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(3.0); });
+      scene.shared().draw();
+    }
+    EXPECT_EQ(pass.GetProgress(), 1.0 / 16.0);
+    pass.SetInteractive(vtkGnomonShadowPass::INTERACTIVE_OFF);
+    EXPECT_GT(scene.expectSame(), 0u);
+    EXPECT_EQ(pass.GetProgress(), 1.0);
+  }
+}
+
 class SharedEdges : public testing::TestWithParam<Split>
 {
 protected:
