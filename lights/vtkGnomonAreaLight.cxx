@@ -1,5 +1,6 @@
 #include "vtkGnomonAreaLight.h"
 
+#include "lights/NumberSetters.h"
 #include "lights/OSPRayRadius.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleKey.h"
@@ -34,15 +35,26 @@ void vtkGnomonAreaLight::SetShape(int shape)
 //------------------------------------------------------------------------------
 void vtkGnomonAreaLight::SetRadius(double radius)
 {
-  // NaN stays: such a light casts no shadow, and the frame's report gives the reason.
-  const double clamped = std::clamp(radius, 0.0, VTK_DOUBLE_MAX);
-  const bool changes = this->Radius != clamped;
-  this->Radius = clamped;
+  gnomon::setClamped(this, "Radius", radius, 0.0, VTK_DOUBLE_MAX, this->Radius);
   this->TellOSPRay(); // its module may have been loaded since the last call
-  if (changes)
-  {
-    this->Modified();
-  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonAreaLight::SetWidth(double width)
+{
+  gnomon::setClamped(this, "Width", width, 0.0, VTK_DOUBLE_MAX, this->Width);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonAreaLight::SetHeight(double height)
+{
+  gnomon::setClamped(this, "Height", height, 0.0, VTK_DOUBLE_MAX, this->Height);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonAreaLight::SetUp(double x, double y, double z)
+{
+  gnomon::setFinite(this, "Up", x, y, z, this->Up);
 }
 
 //------------------------------------------------------------------------------

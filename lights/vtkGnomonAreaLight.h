@@ -38,8 +38,8 @@
  * pass, makes any light such a disk or ball.
  *
  * <b>Errors.</b> A light of size 0 is a point. Some lights cast no shadow, and the frame's report
- * gives the reason: a size that is not finite or immense beside the scene, a light without
- * direction, a rectangle or textured disk with Up along the light, an invalid Texture.
+ * gives the reason: a size that is immense beside the scene, a light without direction, a rectangle
+ * or textured disk with Up along the light, an invalid Texture.
  */
 
 #ifndef vtkGnomonAreaLight_h
@@ -78,7 +78,7 @@ public:
   ///@{
   /**
    * A disk's size, in the units of vtkOSPRayLightNode::SetRadius, see above. Negative values are
-   * clamped to 0. Default: 0.5.
+   * clamped to 0; NaN is an error and changes nothing. Default: 0.5.
    */
   virtual void SetRadius(double radius);
   vtkGetMacro(Radius, double);
@@ -87,11 +87,11 @@ public:
   ///@{
   /**
    * A rectangle's size across Up (Width) and along Up (Height), in the units above. Negative values
-   * are clamped to 0. Default: 1.
+   * are clamped to 0; NaN is an error and changes nothing. Default: 1.
    */
-  vtkSetClampMacro(Width, double, 0.0, VTK_DOUBLE_MAX);
+  virtual void SetWidth(double width);
   vtkGetMacro(Width, double);
-  vtkSetClampMacro(Height, double, 0.0, VTK_DOUBLE_MAX);
+  virtual void SetHeight(double height);
   vtkGetMacro(Height, double);
   ///@}
 
@@ -99,9 +99,11 @@ public:
   /**
    * The up direction of a rectangle, and of a disk with a Texture. It has any length, must not be
    * along the light, and is in the light's own coordinates, as Position is. The height lies in the
-   * plane of Up and the light's direction. Default: (0, 1, 0).
+   * plane of Up and the light's direction. A vector that is not finite is an error and changes
+   * nothing. Default: (0, 1, 0).
    */
-  vtkSetVector3Macro(Up, double);
+  virtual void SetUp(double x, double y, double z);
+  void SetUp(const double up[3]) { this->SetUp(up[0], up[1], up[2]); }
   vtkGetVector3Macro(Up, double);
   ///@}
 

@@ -175,15 +175,15 @@ void vtkGnomonLightKeys::SetBox(
   if (!isSize(width) || !isSize(height) || !isSize(depth))
   {
     vtkErrorWithObjectMacro(light,
-      "A light's box of " << width << " x " << height << " x " << depth
-                          << " is invalid; its sizes must be positive and finite.");
+      "A light's box was to have width " << width << ", height " << height << " and depth " << depth
+                                         << ", expected positive and finite numbers.");
     return;
   }
   if (!isSize(std::hypot(up[0], up[1], up[2])))
   {
     vtkErrorWithObjectMacro(light,
-      "A light's box has an invalid up direction: " << up[0] << ", " << up[1] << ", " << up[2]
-                                                    << ".");
+      "A light's box was to have up (" << up[0] << ", " << up[1] << ", " << up[2]
+                                       << "), expected a finite vector with a length.");
     return;
   }
   const double numbers[6] = { width, height, depth, up[0], up[1], up[2] };

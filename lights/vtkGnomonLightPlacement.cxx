@@ -59,22 +59,23 @@ void place(vtkLight* light, const glm::dvec3& position, const glm::dvec3& focalP
 }
 
 /// True if a sphere is finite and has a positive radius. Else report an error.
-bool isThere(vtkLight* light, const glm::dvec3& centre, double radius)
+/// @param from the arguments that it follows from
+bool isThere(vtkLight* light, const char* from, const glm::dvec3& centre, double radius)
 {
   const bool isThere = isFinite(centre) && radius > 0.0 && std::isfinite(radius);
   if (!isThere)
   {
     vtkErrorWithObjectMacro(light,
-      "The light cannot be placed: a sphere of radius " << radius << " around " << centre.x << ", "
-                                                        << centre.y << ", " << centre.z
-                                                        << " is not a valid target.");
+      "The light cannot be placed: " << from << " give a sphere of radius " << radius << " around "
+                                     << centre.x << ", " << centre.y << ", " << centre.z
+                                     << ", expected finite numbers and a positive radius.");
   }
   return isThere;
 }
 
-void shineOnSphere(vtkLight* light, const glm::dvec3& centre, double radius)
+void shineOnSphere(vtkLight* light, const char* from, const glm::dvec3& centre, double radius)
 {
-  if (!isThere(light, centre, radius))
+  if (!isThere(light, from, centre, radius))
   {
     return;
   }
@@ -94,14 +95,14 @@ void shineOnSphere(vtkLight* light, const glm::dvec3& centre, double radius)
 //------------------------------------------------------------------------------
 void vtkGnomonLightPlacement::ShineOnSphere(vtkLight* light, const double center[3], double radius)
 {
-  shineOnSphere(light, glm::make_vec3(center), radius);
+  shineOnSphere(light, "center and radius", glm::make_vec3(center), radius);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonLightPlacement::ShineOnBox(vtkLight* light, const double bounds[6])
 {
   const gnomon::Bounds box = toBounds(bounds);
-  shineOnSphere(light, box.centre(), box.radius()); // an empty box has radius 0: an error
+  shineOnSphere(light, "bounds", box.centre(), box.radius()); // an empty box has radius 0: an error
 }
 
 //------------------------------------------------------------------------------
@@ -126,7 +127,7 @@ void vtkGnomonLightPlacement::ShineOnPoints(vtkLight* light, vtkPoints* points)
   {
     radius = std::max(radius, glm::length(glm::make_vec3(points->GetPoint(i)) - centre));
   }
-  shineOnSphere(light, centre, radius);
+  shineOnSphere(light, "points", centre, radius);
 }
 
 //------------------------------------------------------------------------------
@@ -154,7 +155,7 @@ void vtkGnomonLightPlacement::MakeKeyLight(
     return;
   }
   const gnomon::Bounds box = toBounds(bounds);
-  if (!isThere(light, box.centre(), box.radius()))
+  if (!isThere(light, "bounds", box.centre(), box.radius()))
   {
     return;
   }
@@ -171,7 +172,8 @@ void vtkGnomonLightPlacement::SetPitchAndYaw(
   if (!std::isfinite(pitchDegrees) || !std::isfinite(yawDegrees))
   {
     vtkErrorWithObjectMacro(light,
-      "The light cannot be turned to pitch " << pitchDegrees << " and yaw " << yawDegrees << ".");
+      "The light cannot be turned to pitchDegrees " << pitchDegrees << " and yawDegrees "
+                                                    << yawDegrees << ", expected finite numbers.");
     return;
   }
   if (!travelOf(light))

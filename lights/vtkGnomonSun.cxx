@@ -1,5 +1,6 @@
 #include "vtkGnomonSun.h"
 
+#include "lights/NumberSetters.h"
 #include "lights/SunPosition.h"
 
 #include "vtkDoubleArray.h"
@@ -130,7 +131,9 @@ void vtkGnomonSun::SetTime(int hour, int minute, double second, double zoneHours
     !isWithin(zoneHours, -14.0, 14.0))
   {
     vtkErrorMacro("There is no time " << hour << ":" << minute << ":" << second << " in a zone "
-                                      << zoneHours << " hours east of UTC.");
+                                      << zoneHours
+                                      << " hours east of UTC: hours are in [0, 24], minutes and "
+                                         "seconds in [0, 60), zones in [-14, 14].");
     return;
   }
   if (this->Hour != hour || this->Minute != minute || this->Second != second ||
@@ -165,31 +168,13 @@ void vtkGnomonSun::SetPlace(double latitude, double longitude)
 //------------------------------------------------------------------------------
 void vtkGnomonSun::SetAltitude(double metres)
 {
-  if (!isWithin(metres, -1000.0, 100000.0))
-  {
-    vtkErrorMacro("The altitude " << metres << " is not in [-1000, 100000] metres.");
-    return;
-  }
-  if (this->Altitude != metres)
-  {
-    this->Altitude = metres;
-    this->Modified();
-  }
+  gnomon::setWithin(this, "Altitude", metres, -1000.0, 100000.0, this->Altitude);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonSun::SetDeltaT(double seconds)
 {
-  if (!isWithin(seconds, -100000.0, 100000.0))
-  {
-    vtkErrorMacro("The Delta T of " << seconds << " is not in [-100000, 100000] seconds.");
-    return;
-  }
-  if (this->DeltaT != seconds)
-  {
-    this->DeltaT = seconds;
-    this->Modified();
-  }
+  gnomon::setWithin(this, "DeltaT", seconds, -100000.0, 100000.0, this->DeltaT);
 }
 
 //------------------------------------------------------------------------------
@@ -198,7 +183,8 @@ void vtkGnomonSun::SetAir(double pressureMillibar, double celsius)
   if (!isWithin(pressureMillibar, 0.0, 5000.0) || !isWithin(celsius, -200.0, 1000.0))
   {
     vtkErrorMacro("There is no air of " << pressureMillibar << " millibar and " << celsius
-                                        << " degrees Celsius.");
+                                        << " degrees Celsius: they are in [0, 5000] and "
+                                           "[-200, 1000].");
     return;
   }
   if (this->Pressure != pressureMillibar || this->Temperature != celsius)
@@ -285,7 +271,7 @@ bool vtkGnomonSun::IsStep(double stepMinutes, vtkDoubleArray* directions)
   }
   if (!(stepMinutes > 0.0 && stepMinutes <= minutesOfDay))
   {
-    vtkErrorMacro("A path's step of " << stepMinutes << " minutes is not in (0, 1440].");
+    vtkErrorMacro("stepMinutes was to be " << stepMinutes << ", expected a number in (0, 1440].");
     return false;
   }
   return true;
@@ -344,7 +330,7 @@ bool vtkGnomonSun::MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray*
   }
   if (dayStep < 1 || dayStep > 366)
   {
-    vtkErrorMacro("A path's step of " << dayStep << " days is not in [1, 366].");
+    vtkErrorMacro("dayStep was to be " << dayStep << ", expected an integer in [1, 366].");
     return false;
   }
   Path path(stepMinutes, directions, hours, times);

@@ -3,6 +3,7 @@
 #include "lights/Hash.h"
 #include "lights/LightManager.h"
 #include "lights/LightSamples.h"
+#include "lights/NumberSetters.h"
 #include "plugin/pass/Complaints.h"
 #include "plugin/pass/PictureTimer.h"
 #include "plugin/pass/PointLights.h"
@@ -26,8 +27,6 @@
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -253,17 +252,7 @@ void vtkGnomonLightSamplingPass::AddPictures(const vtkRenderState* s, std::size_
 //------------------------------------------------------------------------------
 void vtkGnomonLightSamplingPass::SetGamma(double gamma)
 {
-  if (std::isnan(gamma))
-  {
-    vtkErrorMacro("Gamma was to be no number.");
-    return;
-  }
-  const double clamped = std::clamp(gamma, 0.0, 10.0);
-  if (clamped != this->Gamma)
-  {
-    this->Gamma = clamped;
-    this->Modified();
-  }
+  gnomon::setClamped(this, "Gamma", gamma, 0.0, 10.0, this->Gamma);
 }
 
 //------------------------------------------------------------------------------

@@ -59,7 +59,7 @@ void vtkGnomonPropKeys::SetTransmits(vtkProp* prop, int transmits)
   if (transmits < TRANSMITS_NOTHING || transmits > TRANSMITS_COLORED)
   {
     vtkErrorWithObjectMacro(
-      prop, "TRANSMITS was to be " << transmits << ", which is no TransmitsType.");
+      prop, "TRANSMITS was to be " << transmits << ", expected a TransmitsType in [0, 2].");
     return;
   }
   setKey(prop, TRANSMITS(), transmits);

@@ -615,7 +615,6 @@ protected:
 private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
   struct SkySetting;
-  void SetNumber(const char* name, double value, double most, double& number);
   class HookMarks;
   gnomon::FrameEnd DrawFrame(const vtkRenderState* s);
   std::optional<std::string> EnterContext(vtkRenderer* renderer);

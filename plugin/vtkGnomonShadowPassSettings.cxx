@@ -1,6 +1,7 @@
 // The settings of vtkGnomonShadowPass, and what it tells of its last frame.
 #include "vtkGnomonShadowPassInternals.h"
 
+#include "lights/NumberSetters.h"
 #include "lights/SettingsTable.h"
 #include "plugin/frame/VisibilityData.h"
 #include "plugin/pass/ReportText.h"
@@ -35,13 +36,13 @@ gnomon::ChoiceSetting powersOfTwo(int least, int most)
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetMaximumError(double share)
 {
-  this->SetNumber("MaximumError", share, 1.0, this->MaximumError);
+  gnomon::setWithin(this, "MaximumError", share, 0.0, 1.0, this->MaximumError);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetMaximumSoftError(double rootMeanSquare)
 {
-  this->SetNumber("MaximumSoftError", rootMeanSquare, 1.0, this->MaximumSoftError);
+  gnomon::setWithin(this, "MaximumSoftError", rootMeanSquare, 0.0, 1.0, this->MaximumSoftError);
 }
 
 //------------------------------------------------------------------------------
@@ -49,25 +50,24 @@ void vtkGnomonShadowPass::SetTimeBudget(double milliseconds)
 {
   if (milliseconds != GNOMON_TIME_BUDGET_OF_WINDOW)
   {
-    this->SetNumber("TimeBudget", milliseconds, VTK_DOUBLE_MAX, this->TimeBudget);
+    gnomon::setWithin(this, "TimeBudget", milliseconds, 0.0, VTK_DOUBLE_MAX, this->TimeBudget);
   }
-  else if (this->TimeBudget != milliseconds)
+  else
   {
-    this->TimeBudget = milliseconds;
-    this->Modified();
+    gnomon::assign(this, &this->TimeBudget, &milliseconds);
   }
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetMemoryBudget(double mebibytes)
 {
-  this->SetNumber("MemoryBudget", mebibytes, 1e9, this->MemoryBudget);
+  gnomon::setWithin(this, "MemoryBudget", mebibytes, 0.0, 1e9, this->MemoryBudget);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetSkyIntensity(double intensity)
 {
-  this->SetNumber("SkyIntensity", intensity, 1e6, this->SkyIntensity);
+  gnomon::setWithin(this, "SkyIntensity", intensity, 0.0, 1e6, this->SkyIntensity);
 }
 
 //------------------------------------------------------------------------------
@@ -80,17 +80,13 @@ void vtkGnomonShadowPass::SetSkyColor(double red, double green, double blue)
                   << ", expected numbers in [0, 1].");
     return;
   }
-  if (!std::equal(rgb, rgb + 3, this->SkyColor))
-  {
-    std::copy_n(rgb, 3, this->SkyColor);
-    this->Modified();
-  }
+  gnomon::assign(this, this->SkyColor, rgb, 3);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetSkyDistance(double distance)
 {
-  this->SetNumber("SkyDistance", distance, VTK_DOUBLE_MAX, this->SkyDistance);
+  gnomon::setWithin(this, "SkyDistance", distance, 0.0, VTK_DOUBLE_MAX, this->SkyDistance);
 }
 
 //------------------------------------------------------------------------------
@@ -100,15 +96,11 @@ void vtkGnomonShadowPass::SetSkyUp(double x, double y, double z)
   if (!(length > 0.0 && std::isfinite(length)))
   {
     vtkErrorMacro(<< "SkyUp was to be (" << x << ", " << y << ", " << z
-                  << "), which has no direction.");
+                  << "), expected a finite vector with a length.");
     return;
   }
   const double up[3] = { x, y, z };
-  if (!std::equal(up, up + 3, this->SkyUp))
-  {
-    std::copy_n(up, 3, this->SkyUp);
-    this->Modified();
-  }
+  gnomon::assign(this, this->SkyUp, up, 3);
 }
 
 //------------------------------------------------------------------------------
@@ -123,23 +115,6 @@ void vtkGnomonShadowPass::SetSkyDirections(int directions)
   if (this->SkyDirections != directions)
   {
     this->SkyDirections = directions;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-/// Set a number in [0, most]; anything else is an error and changes nothing.
-void vtkGnomonShadowPass::SetNumber(const char* name, double value, double most, double& number)
-{
-  if (!(value >= 0.0 && value <= most))
-  {
-    vtkErrorMacro(<< name << " was to be " << value << ", expected a number in [0, " << most
-                  << "].");
-    return;
-  }
-  if (number != value)
-  {
-    number = value;
     this->Modified();
   }
 }

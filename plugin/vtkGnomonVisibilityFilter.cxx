@@ -1,5 +1,6 @@
 #include "vtkGnomonVisibilityFilter.h"
 
+#include "lights/NumberSetters.h"
 #include "lights/vtkGnomonSun.h"
 #include "plugin/data/AddedLights.h"
 #include "plugin/data/DataScene.h"
@@ -29,7 +30,6 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -39,6 +39,10 @@
 
 namespace
 {
+
+/// The end of errors of directions with hours.
+const char* const givesNoLight =
+  " hours gives no light, expected a finite vector with a length and hours of at least 0.";
 
 /// The inputs that determine the results. Objects count by their times of change, settings by their
 /// values, since an abort also changes the filter's own time.
@@ -175,7 +179,7 @@ void vtkGnomonVisibilityFilter::AddDirection(const double towards[3], double hou
   {
     vtkErrorMacro("Direction " << this->GetNumberOfLights() << " (" << towards[0] << ", "
                                << towards[1] << ", " << towards[2] << ") with " << hours
-                               << " hours gives no light.");
+                               << givesNoLight);
     return;
   }
   this->Internal->lights.push_back({ glm::normalize(glm::make_vec3(towards)), hours, nullptr });
@@ -216,7 +220,7 @@ void vtkGnomonVisibilityFilter::AddDirections(vtkDataArray* directions, vtkDataA
     if (!gnomon::isDirection(towards) || !gnomon::areHours(time))
     {
       vtkErrorMacro("Tuple " << i << " of the directions (" << towards.x << ", " << towards.y
-                             << ", " << towards.z << ") with " << time << " hours gives no light.");
+                             << ", " << towards.z << ") with " << time << givesNoLight);
       return;
     }
     added.push_back({ glm::normalize(towards), time, nullptr });
@@ -267,7 +271,8 @@ void vtkGnomonVisibilityFilter::AddLight(vtkLight* light, double hours)
   if (!light || !gnomon::areHours(hours))
   {
     vtkErrorMacro("Light " << this->GetNumberOfLights() << (light ? "" : ", which is null,")
-                           << " with " << hours << " hours cannot be added.");
+                           << " with " << hours
+                           << " hours cannot be added, expected a number of at least 0.");
     return;
   }
   this->Internal->lights.push_back({ {}, hours, light });
@@ -332,32 +337,13 @@ int vtkGnomonVisibilityFilter::GetSkyDirections()
 //------------------------------------------------------------------------------
 void vtkGnomonVisibilityFilter::SetSkyDistance(double distance)
 {
-  if (!(distance >= 0.0 && std::isfinite(distance)))
-  {
-    vtkErrorMacro("SkyDistance " << distance << " is not finite, or below 0.");
-    return;
-  }
-  if (distance != this->SkyDistance)
-  {
-    this->SkyDistance = distance;
-    this->Modified();
-  }
+  gnomon::setWithin(this, "SkyDistance", distance, 0.0, VTK_DOUBLE_MAX, this->SkyDistance);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonVisibilityFilter::SetAngularDiameter(double degrees)
 {
-  if (std::isnan(degrees))
-  {
-    vtkErrorMacro("AngularDiameter was to be no number.");
-    return;
-  }
-  const double clamped = std::clamp(degrees, 0.0, 89.0);
-  if (clamped != this->AngularDiameter)
-  {
-    this->AngularDiameter = clamped;
-    this->Modified();
-  }
+  gnomon::setClamped(this, "AngularDiameter", degrees, 0.0, 89.0, this->AngularDiameter);
 }
 
 //------------------------------------------------------------------------------
@@ -406,17 +392,7 @@ vtkTypeInt64 vtkGnomonVisibilityFilter::GetNumberOfRays()
 //------------------------------------------------------------------------------
 void vtkGnomonVisibilityFilter::SetUp(double x, double y, double z)
 {
-  if (!std::isfinite(glm::length(glm::dvec3(x, y, z))))
-  {
-    vtkErrorMacro("Up (" << x << ", " << y << ", " << z << ") is not finite.");
-    return;
-  }
-  const double up[3] = { x, y, z };
-  if (!std::equal(up, up + 3, this->Up))
-  {
-    std::copy_n(up, 3, this->Up);
-    this->Modified();
-  }
+  gnomon::setFinite(this, "Up", x, y, z, this->Up);
 }
 
 namespace

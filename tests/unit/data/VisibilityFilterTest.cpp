@@ -568,14 +568,14 @@ TEST_F(VisibilityFilter, InvalidInputIsAnErrorAndChangesNothing)
   this->filter->AddDirections(directions, hours);
   this->expectError("hours of 2 directions");
   this->filter->SetUp(nan, 0.0, 0.0);
-  this->expectError("Up (nan");
+  this->expectError("Up was to be (nan");
   this->filter->AddSunDay(nullptr, 5.0);
   this->expectError("no sun");
   this->filter->AddSunYear(nullptr, 1, 5.0);
   this->expectError("no sun");
   vtkNew<vtkGnomonSun> sun;
   this->filter->AddSunDay(sun, -5.0);
-  this->expectError("step of -5 minutes");
+  this->expectError("stepMinutes was to be -5");
   EXPECT_EQ(this->filter->GetNumberOfLights(), 0);
   EXPECT_EQ(this->filter->GetUp()[2], 0.0);
 

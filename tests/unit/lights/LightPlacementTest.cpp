@@ -152,10 +152,10 @@ TEST_F(LightPlacement, InvalidTargetsAreErrorsAndChangeNothing)
   expectError("radius 0");
   const double broken[3] = { 0.0, nan, 0.0 };
   vtkGnomonLightPlacement::ShineOnSphere(this->light, broken, 1.0);
-  expectError("is not a valid target");
+  expectError("center and radius");
   const double empty[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 }; // VTK's uninitialised bounds
   vtkGnomonLightPlacement::ShineOnBox(this->light, empty);
-  expectError("radius 0");
+  expectError("bounds give a sphere of radius 0");
   vtkNew<vtkCamera> camera;
   vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, empty);
   expectError("radius 0");
@@ -165,13 +165,13 @@ TEST_F(LightPlacement, InvalidTargetsAreErrorsAndChangeNothing)
   expectError("looks nowhere");
   vtkNew<vtkPoints> points;
   vtkGnomonLightPlacement::ShineOnPoints(this->light, points);
-  expectError("is not a valid target");
+  expectError("points give a sphere of radius 0");
   points->InsertNextPoint(0.0, nan, 0.0);
   points->InsertNextPoint(1.0, 0.0, 0.0);
   vtkGnomonLightPlacement::ShineOnPoints(this->light, points);
   expectError("point 0 is not finite");
   vtkGnomonLightPlacement::SetPitchAndYaw(this->light, nan, 0.0);
-  expectError("pitch nan");
+  expectError("pitchDegrees nan");
 
   this->light->SetPosition(0.0, 0.0, 0.0);
   vtkGnomonLightPlacement::ShineOnSphere(this->light, this->centre, 1.0);

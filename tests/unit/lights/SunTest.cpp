@@ -230,9 +230,9 @@ TEST_F(Sun, InvalidValuesAreErrorsAndChangeNothing)
   this->sun->SetPlace(90.5, 0.0);
   this->expectError("latitude 90.5");
   this->sun->SetAltitude(nan);
-  this->expectError("altitude nan");
+  this->expectError("Altitude was to be nan");
   this->sun->SetDeltaT(nan);
-  this->expectError("Delta T of nan");
+  this->expectError("DeltaT was to be nan");
   this->sun->SetAir(-1.0, 10.0);
   this->expectError("no air");
   const double up[3] = { 0.0, 0.0, 1.0 };
@@ -244,11 +244,11 @@ TEST_F(Sun, InvalidValuesAreErrorsAndChangeNothing)
   this->expectError("not be parallel");
   vtkNew<vtkDoubleArray> directions;
   this->sun->MakeDayPath(0.0, directions, nullptr);
-  this->expectError("step of 0 minutes");
+  this->expectError("stepMinutes was to be 0");
   this->sun->MakeDayPath(5.0, nullptr, nullptr);
   this->expectError("needs an array");
   this->sun->MakeYearPath(0, 5.0, directions, nullptr);
-  this->expectError("step of 0 days");
+  this->expectError("dayStep was to be 0");
   EXPECT_EQ(this->sun->GetMTime(), time);
 }
 
