@@ -17,8 +17,8 @@ vtk_module_wrap_python(
 
 set(gnomon_python_folder "${PROJECT_SOURCE_DIR}/plugin/python/gnomon")
 set(gnomon_built_package "${PROJECT_BINARY_DIR}/${GNOMON_PYTHON_DESTINATION}")
-set(gnomon_python_sources __init__.py arguments.py attributes.py catalogue.py data.py errors.py
-  figure.py holders.py images.py lighting.py program.py why.py)
+set(gnomon_python_sources __init__.py arguments.py attributes.py catalogue.py classes.py data.py
+  errors.py figure.py holders.py images.py lighting.py program.py why.py)
 foreach(source IN LISTS gnomon_python_sources)
   configure_file("${gnomon_python_folder}/${source}" "${gnomon_built_package}/gnomon/${source}"
     COPYONLY)

@@ -101,9 +101,11 @@ class Shadows(unittest.TestCase):
                 (gnomon.vtkGnomonLightKeys, (light,)),
             ):
                 with self.subTest(taker=taker):
-                    self.assertFalse(taker.SetSetting(*given, "map_size", "wide"))
+                    with self.assertRaisesRegex(ValueError, "Invalid value 'wide'"):
+                        taker.SetSetting(*given, "map_size", "wide")
                     self.assertIn("Invalid value 'wide'", taker.GetSettingError())
-                    self.assertFalse(taker.SetSetting(*given, "mapsize", "512"))
+                    with self.assertRaisesRegex(ValueError, "no setting 'mapsize'"):
+                        taker.SetSetting(*given, "mapsize", "512")
                     self.assertIn("no setting 'mapsize'", taker.GetSettingError())
                     self.assertTrue(taker.SetSetting(*given, "map_size", "512"))
                     self.assertEqual(taker.GetSettingError(), "")

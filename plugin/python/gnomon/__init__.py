@@ -20,7 +20,7 @@ why(plotter)             prints why it lacks shadows
 settings() and techniques() list what the attributes of `shadows` and the keywords of add_shadows
 take. Without a renderer, hours_lit, sky_view, sun_path and draw take meshes.
 
-The classes, each with its own help(), are VTK's wrappers of the C++ ones: vtkGnomonAreaLight,
+The classes, each with its help(), wrap the C++ ones and raise their errors: vtkGnomonAreaLight,
 vtkGnomonEGLRenderWindow, vtkGnomonFlatteringLights, vtkGnomonLightKeys, vtkGnomonLightPlacement,
 vtkGnomonLightSamplingPass, vtkGnomonPropKeys, vtkGnomonShadowPass, vtkGnomonShadowSettings,
 vtkGnomonSun, vtkGnomonVisibilityFilter.
@@ -37,11 +37,11 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401: the wrapped classes' superc
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from . import GnomonPlugin
 from ._version import __version__ as __version__
 from .arguments import choice
-from .attributes import Attribute, no_such, with_attributes
+from .attributes import Attribute, attributes_of, no_such
 from .catalogue import Technique, settings, techniques
+from .classes import subclass_of
 from .errors import naming, warn_of
 from .GnomonLights import (
     vtkGnomonAreaLight as vtkGnomonAreaLight,
@@ -51,8 +51,8 @@ from .GnomonLights import (
     vtkGnomonSun as vtkGnomonSun,
 )
 from .GnomonPlugin import *  # noqa: F403: vtkGnomonEGLRenderWindow is absent without EGL
-from .holders import taking_holders, unwrap
-from .images import assert_images_equal, shown_in_notebooks
+from .holders import unwrap
+from .images import assert_images_equal, png_of
 from .lighting import replace_default_lights, replace_lights
 from .why import reasons
 
@@ -99,12 +99,12 @@ __all__ = [
 _before: dict[str, Any] = {}
 
 if not TYPE_CHECKING:  # for which every name would exist, and classes made by a call would not
-    if "vtkGnomonEGLRenderWindow" in globals():
-        vtkGnomonEGLRenderWindow = shown_in_notebooks(vtkGnomonEGLRenderWindow)
-    vtkGnomonLightKeys = taking_holders(vtkGnomonLightKeys)
-    vtkGnomonLightPlacement = taking_holders(vtkGnomonLightPlacement)
-    vtkGnomonPropKeys = taking_holders(vtkGnomonPropKeys)
-    vtkGnomonShadowPass = with_attributes(vtkGnomonShadowPass)
+    _more = {
+        "vtkGnomonEGLRenderWindow": {"_repr_png_": png_of},  # for notebooks
+        "vtkGnomonShadowPass": attributes_of(vtkGnomonShadowPass),
+    }
+    for _name in [name for name in globals() if name.startswith("vtkGnomon")]:
+        globals()[_name] = subclass_of(globals()[_name], _more.get(_name, {}))
 
     def __getattr__(name):
         # These need NumPy, which the rest can do without.
@@ -392,13 +392,13 @@ def _renderer_of(target):
 def _find_shadows(renderer):
     """Return the pass of a renderer's shadows, also of one that was replaced since; or None."""
     for each in _chain_of(renderer):
-        if isinstance(each, GnomonPlugin.vtkGnomonShadowPass):
+        if isinstance(each, vtkGnomonShadowPass):
             return each
     return _before.get(_address_of(renderer), [None])[0]
 
 
 def _shadows_of(shadows):
-    if isinstance(shadows, GnomonPlugin.vtkGnomonShadowPass):
+    if isinstance(shadows, vtkGnomonShadowPass):
         return shadows
     with naming("shadows"):
         found = _find_shadows(_renderer_of(shadows))

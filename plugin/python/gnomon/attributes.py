@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import os.path
 import re
+from functools import wraps
 
 from .arguments import choice, number, switch
 from .catalogue import settings, value_of
@@ -28,8 +29,8 @@ class Attribute(property):
         self.type_name = type_name
 
 
-def with_attributes(kind):
-    """Return a subclass of the shadow pass with an attribute for each number and setting.
+def attributes_of(kind):
+    """Return the members of the shadow pass in Python: an attribute for each number and setting.
 
     Each pair of a setter and a getter is one, and each setting of lights that name none. They
     refuse wrong values by a ValueError or TypeError, and other names by an AttributeError.
@@ -47,11 +48,18 @@ def with_attributes(kind):
             raise AttributeError(no_such(name, members))
         kind.__setattr__(self, name, value)
 
-    return type(
-        kind.__name__,
-        (kind,),
-        {**members, "__setattr__": set_known, "__doc__": kind.__doc__, "__module__": "gnomon"},
-    )
+    @wraps(kind.SetSettings)
+    def set_settings(self, settings):
+        from . import vtkGnomonShadowSettings  # those that C++ makes do not raise what they report
+
+        kind.SetSettings(self, settings or vtkGnomonShadowSettings())
+
+    def start(self, **values):  # which newer VTK takes
+        set_settings(self, None)
+        kind.__init__(self, **values)
+
+    own = {"__init__": start, "__setattr__": set_known, "SetSettings": set_settings}
+    return {**members, **own}
 
 
 def no_such(name, names):

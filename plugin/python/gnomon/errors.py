@@ -1,10 +1,16 @@
 """VTK's errors and warnings, for exceptions and Python's warnings."""
 
 import sys
+import threading
 import warnings
 from contextlib import contextmanager
 
 from vtkmodules.vtkCommonCore import vtkObject
+
+# The callers within raising(), of all threads, and VTK's switch of warnings before the first.
+_watched: list[tuple[vtkObject, ...]] = []
+_before = True
+_lock = threading.Lock()
 
 
 def _text_of(message):
@@ -30,32 +36,42 @@ def raising(*callers):
     Many programs switch VTK's warnings off for the whole process, and VTK then reports nothing:
     here they are on.
     """
+    global _before
     errors = []
 
     def take(_caller, _event, message):
         errors.append(_text_of(message))
 
     take.CallDataType = "string0"
-    before = vtkObject.GetGlobalWarningDisplay()
-    vtkObject.GlobalWarningDisplayOn()
+    with _lock:
+        if not _watched:
+            _before = vtkObject.GetGlobalWarningDisplay()
+            vtkObject.GlobalWarningDisplayOn()
+        _watched.append(callers)
     observers = [(caller, caller.AddObserver("ErrorEvent", take)) for caller in callers]
     try:
         yield errors
     finally:
         for caller, observer in observers:
             caller.RemoveObserver(observer)
-        vtkObject.SetGlobalWarningDisplay(before)
+        with _lock:
+            _watched.remove(callers)
+            if not _watched:
+                vtkObject.SetGlobalWarningDisplay(_before)
     if errors:
         raise ValueError(errors[0])
 
 
 def warn_of(caller):
-    """Have Python warn of what a pass says of its frames."""
+    """Have Python warn of what a pass says of its frames; calls of its methods raise it."""
 
-    def warn(_caller, _event, message):
-        # The caller's line is one more frame away from add_shadows().
-        is_inside = sys._getframe(1).f_globals.get("__package__") == __package__
-        warnings.warn(_text_of(message), stacklevel=3 if is_inside else 2)
+    def warn(teller, event, message):
+        if event == "ErrorEvent" and any(teller in callers for callers in _watched):
+            return
+        level, frame = 2, sys._getframe(1)  # the first one outside of the package
+        while frame.f_back and frame.f_globals.get("__package__") == __package__:
+            level, frame = level + 1, frame.f_back
+        warnings.warn(_text_of(message), stacklevel=level)
 
     warn.CallDataType = "string0"
     for event in ("ErrorEvent", "WarningEvent"):

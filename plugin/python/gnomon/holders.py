@@ -1,8 +1,5 @@
 """VTK objects that objects of other packages hold."""
 
-from functools import wraps
-from inspect import isroutine
-
 from vtkmodules.vtkCommonCore import vtkObjectBase
 
 # tvtk's, props' of vedo and Mayavi, lights' of Mayavi, plotters', figures' of Mayavi
@@ -18,18 +15,3 @@ def unwrap(holder):
         parts = (getattr(held, name, None) for name in _ATTRIBUTES)
         held = next((part for part in parts if part is not None), None)
     return holder
-
-
-def taking_holders(kind):
-    """Return a subclass of a class of static methods that take an object's holder, too."""
-
-    def taking(method):
-        return staticmethod(wraps(method)(lambda *given: method(*map(unwrap, given))))
-
-    methods = {
-        name: taking(it)
-        for name, it in vars(kind).items()
-        if isroutine(it) and not name.startswith("__")
-    }
-    members = {**methods, "__doc__": kind.__doc__, "__module__": "gnomon"}
-    return type(kind.__name__, (kind,), members)

@@ -80,15 +80,9 @@ def assert_images_equal(
         )
 
 
-def shown_in_notebooks(kind):
-    """Return a subclass of a window class that notebooks show as a picture."""
-
-    def png_of(window):
-        """Draw the window, and return its picture as the bytes of a PNG file."""
-        return _encoded(_pixels(window))
-
-    members = {"_repr_png_": png_of, "__doc__": kind.__doc__, "__module__": "gnomon"}
-    return type(kind.__name__, (kind,), members)
+def png_of(window):
+    """Draw a window, and return its picture as the bytes of a PNG file."""
+    return _encoded(_pixels(window))
 
 
 def _off_screen():
