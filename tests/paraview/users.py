@@ -14,7 +14,6 @@ import sys
 import time
 
 import numpy as np
-from paraview import servermanager
 from paraview.simple import Box, Calculator, ColorBy, Connect, Contour, CreateView, Delete
 from paraview.simple import GetActiveView, GetActiveViewOrCreate, Line, LoadState, Plane
 from paraview.simple import PointSource, Render, ResetSession, Ruler, SaveScreenshot, SaveState
@@ -260,9 +259,7 @@ def views(pictures):
     view.OrientationAxesVisibility = view.CenterAxesVisibility = 0
     show_box(view)
     plain = pictures.take(view, "comparative")
-    root = GetActiveView().SMProxy.GetRootView()
-    servermanager.vtkSMPropertyHelper(root, "ShowShadows").Set(1)
-    root.UpdateVTKObjects()
+    view.ShowShadows = 1
     judge("a comparative view", plain, pictures.take(view, "comparative-with-shadows"))
 
 
@@ -372,14 +369,20 @@ def dragging(pictures):
     plain, view = draw(False), draw(True)
     scenario.check("auto is the default", view.Technique == "auto", view.Technique)
     view.LightSize = 4.0
-    ratio = {}
+    times = {}
     for technique in ("raytraced", "auto"):
         view.Technique = technique
-        ratio[technique] = milliseconds(view) / milliseconds(plain)
-        pictures.row(f"plain frames of {technique}", f"{ratio[technique]:.1f}")
-    text = ", ".join(f"{name} {value:.1f} plain frames" for name, value in ratio.items())
-    is_cheaper = ratio["auto"] < 0.7 * ratio["raytraced"] or scenario.processes() > 1
-    scenario.check("auto drags faster than raytraced", is_cheaper, text)
+        times[technique], plain_time = milliseconds(view), milliseconds(plain)
+        pictures.row(f"plain frames of {technique}", f"{times[technique] / plain_time:.1f}")
+    text = ", ".join(f"{name} {value:.0f} ms" for name, value in times.items())
+    text += f", plain {plain_time:.0f} ms"
+    if scenario.processes() == 1:
+        is_cheaper = times["auto"] < 0.7 * times["raytraced"]
+        scenario.check("auto drags faster than raytraced", is_cheaper, text)
+    else:
+        # The view asks its window for five frames a second.
+        limit = max(1.2 * 200.0, 1.6 * plain_time)
+        scenario.check("a drag keeps its rate", max(times.values()) < limit, text)
 
 
 CASES = {

@@ -45,10 +45,16 @@ bool isClient()
   return vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT;
 }
 
-/// True if a view draws for interaction: it then asks its window for speed.
+/// Return the frames a second that a view asks for.
+double updateRate(vtkPVRenderView* view)
+{
+  return view->GetRenderWindow()->GetDesiredUpdateRate();
+}
+
+/// True if a view draws for interaction.
 bool isInteractive(vtkPVRenderView* view)
 {
-  return view->GetRenderWindow()->GetDesiredUpdateRate() > 1.0;
+  return updateRate(view) > 1.0;
 }
 
 /// True if the processes of a server draw the view, or those of a batch.
@@ -155,6 +161,10 @@ void vtkPVGnomonShadows::PlacePass()
   this->Pass->SetImageReductionFactor(!isComposited ? 1
       : interactive ? this->View->GetInteractiveRenderImageReductionFactor()
                     : this->View->GetStillRenderImageReductionFactor());
+  // Servers have no interactor, by which the pass would know the time.
+  this->Pass->SetTimeBudget(interactive && isDistributed(this->View)
+      ? 1000.0 / updateRate(this->View)
+      : GNOMON_TIME_BUDGET_OF_WINDOW);
   this->Pass->SetInteractive(
     interactive ? vtkGnomonShadowPass::INTERACTIVE_ON : vtkGnomonShadowPass::INTERACTIVE_OFF);
 }
