@@ -45,20 +45,6 @@ bool hasPixels(const vtkRenderState* s)
   return s->GetFrameBuffer() || (size[0] > 0 && size[1] > 0);
 }
 
-/// True if an outer pass has the scene drawn into a framebuffer of its own. Not all of them say so
-/// in the render state.
-bool drawsIntoOuterPass(const vtkRenderState* s)
-{
-  auto* window = vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
-  if (!window)
-  {
-    return false;
-  }
-  GLint framebuffer = 0;
-  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
-  return static_cast<GLuint>(framebuffer) != window->GetRenderFramebuffer()->GetFBOIndex();
-}
-
 /// Does what PreRender() does, but names a pass once in property keys that props share, so that it
 /// fills their shaders once. A part of an assembly has the assembly's keys, and may be in the
 /// renderer by itself, too.
@@ -435,21 +421,6 @@ void vtkGnomonShadowPass::DrawDeferred(const vtkRenderState* s)
   const gnomon::AroundOpaque around(s, isAmong, before, afterwards);
   this->DrawScene(around.state());
   around.end();
-}
-
-//------------------------------------------------------------------------------
-vtkRenderPass* vtkGnomonShadowPass::FindDelegate(const vtkRenderState* s)
-{
-  if (s->GetRenderer()->GetSelector())
-  {
-    return nullptr;
-  }
-  if (!this->DelegatePass && drawsIntoOuterPass(s))
-  {
-    // The renderer's own drawing copies depths between framebuffers of its own formats.
-    return this->Internal->steps;
-  }
-  return this->DelegatePass;
 }
 
 //------------------------------------------------------------------------------

@@ -2,9 +2,14 @@
 #include "vtkGnomonLightSamplingPass.h"
 #include "vtkGnomonShadowPassInternals.h"
 
+#include "shadowtech/base/Gl.h"
+
 #include "vtkCameraPass.h"
 #include "vtkImageProcessingPass.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderPassCollection.h"
+#include "vtkRenderState.h"
 #include "vtkRenderWindow.h"
 #include "vtkSSAAPass.h"
 #include "vtkSequencePass.h"
@@ -90,6 +95,20 @@ struct Place
   }
 };
 
+/// True if an outer pass has the scene drawn into a framebuffer of its own. Not all of them say so
+/// in the render state.
+bool drawsIntoOuterPass(const vtkRenderState* s)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
+  if (!window)
+  {
+    return false;
+  }
+  GLint framebuffer = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+  return static_cast<GLuint>(framebuffer) != window->GetRenderFramebuffer()->GetFBOIndex();
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -162,4 +181,19 @@ void vtkGnomonShadowPass::Uninstall(vtkRenderer* renderer)
   {
     place.set(taken.replaced);
   }
+}
+
+//------------------------------------------------------------------------------
+vtkRenderPass* vtkGnomonShadowPass::FindDelegate(const vtkRenderState* s)
+{
+  if (s->GetRenderer()->GetSelector())
+  {
+    return nullptr;
+  }
+  if (!this->DelegatePass && drawsIntoOuterPass(s))
+  {
+    // The renderer's own drawing copies depths between framebuffers of its own formats.
+    return this->Internal->steps;
+  }
+  return this->DelegatePass;
 }

@@ -30,25 +30,21 @@ void replace(std::string& source, const std::string& search, const std::string& 
 /// compute it, as they are in no layer. The deferred route first draws opaque ones as lit.
 std::string visibilityOf(const HookVariant& variant, const ShadedLight& shaded, int light)
 {
-  const Route route = variant.route;
   const char* const bit = variant.edgeBit == noBit ? "gnomonBit(" : "gnomonSmoothBit(";
   // A visibility of one channel scales the mean colour of the light's texture, or white.
   const bool isColour = shaded.light.texture || shaded.channels == 3;
   const std::string even = isColour ? litOf(shaded, light) + " * " : "";
   const auto layer = [&](int channel)
   { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
-  const std::string fetched = route == Route::Deferred ? litOf(shaded, light)
+  const std::string fetched = variant.route == Route::Deferred ? litOf(shaded, light)
     : shaded.bit != noBit  ? even + bit + std::to_string(shaded.bit) + ")"
     : shaded.channels == 3 ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
                            : even + layer(0);
   const std::string computed =
     even + "visibility_" + std::to_string(light) + "(gnomonPosition, gnomonNormal)";
-  if (route == Route::Inline)
-  {
-    return computed;
-  }
-  return shaded.pointwise ? "(gnomonTranslucent == 0 ? " + fetched + " : " + computed + ")"
-                          : fetched;
+  return variant.route == Route::Inline ? computed
+    : shaded.pointwise ? "(gnomonTranslucent == 0 ? " + fetched + " : " + computed + ")"
+                       : fetched;
 }
 
 /// Return the declaration that multiplies a light's colour by its visibility on props that receive.

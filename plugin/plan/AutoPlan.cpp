@@ -1,10 +1,10 @@
 #include "plugin/plan/AutoPlan.h"
 
 #include "lights/LightViews.h"
+#include "plugin/plan/AutoSteps.h"
 #include "plugin/plan/PicturePlan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -30,35 +30,6 @@ constexpr int framesPerProbeOfMoved = 4;
 
 /// The largest side to which an error limit enlarges a map.
 constexpr int mostTexels = 4096;
-
-/// Samples of area lights in motion, tried in turn; then 16, 32, 64... Up to 16 a frame takes at
-/// most 1.25 times as long as with the number before (soft-window: 24 to 52 ms).
-constexpr std::array<int, 5> fewSamples = { 4, 6, 8, 10, 12 };
-
-/// Return the samples of an area light at a step of its choice, from the second step on.
-int samplesOf(int step)
-{
-  const auto next = static_cast<std::size_t>(step - 1);
-  return next < fewSamples.size() ? fewSamples[next] : 16 << (next - fewSamples.size());
-}
-
-/// Return by how many steps a map's side is to be halved, as its probes say: wrong pixels lie along
-/// edges, and their number is in proportion to the texels' width. As many probes as there may be
-/// are to prove the smaller map if they go on like these, with twice as many wrong, to be safe.
-int spareSteps(const WrongProbes& probes, int step, double limit)
-{
-  WrongProbes expected{ mostLooks * probes.asked, 2 * mostLooks * probes.wrong };
-  int spare = 0;
-  for (; spare < step; ++spare)
-  {
-    expected.wrong = std::min(2 * expected.wrong, expected.asked);
-    if (expected.mostShare() > limit)
-    {
-      break;
-    }
-  }
-  return spare;
-}
 
 std::string percent(double share)
 {
@@ -407,7 +378,7 @@ std::string Planner::tryMap(const LightPlan& light, AutoChoice& choice)
     // If no point of all looks faces the light, hardly one pixel in 4,000 does.
     if (wrong.asked == 0 || wrong.mostShare() <= limit)
     {
-      const int spare = isShown || hasShrunk ? 0 : spareSteps(wrong, known.step, limit);
+      const int spare = isShown || hasShrunk ? 0 : spareSteps(wrong, mostLooks, known.step, limit);
       known.isProbed = spare == 0;
       if (known.isProbed)
       {

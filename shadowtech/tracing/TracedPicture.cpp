@@ -11,12 +11,6 @@ namespace gnomon
 namespace
 {
 
-static_assert(static_cast<int>(TracedClass::Traced) == static_cast<int>(Certainty::Uncertain) &&
-    static_cast<int>(TracedClass::Lit) == static_cast<int>(Certainty::Lit) &&
-    static_cast<int>(TracedClass::Shadow) == static_cast<int>(Certainty::Shadow) &&
-    static_cast<int>(TracedClass::Unreached) == static_cast<int>(Certainty::Unreached),
-  "a receiver's class is what is known of it");
-
 /// True if a pixel of this class is dark without a ray.
 constexpr bool isDark(TracedClass of)
 {

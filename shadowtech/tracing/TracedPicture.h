@@ -62,13 +62,15 @@ public:
     TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays, bool again) const = 0;
 };
 
-/// How a pixel's visibility was decided, if rays are traced: indices into classesOfTracing().
+/// How a pixel's visibility was decided, if rays are traced: indices into classesOfTracing(). A
+/// receiver's class is what is known of it.
 enum class TracedClass : std::uint8_t
 {
-  Traced,
-  Lit,       ///< certainly, without a ray
-  Shadow,    ///< likewise
-  Unreached, ///< faces away from the light, or outside its cone or box
+  Traced = static_cast<std::uint8_t>(Certainty::Uncertain),
+  Lit = static_cast<std::uint8_t>(Certainty::Lit),       ///< without a ray
+  Shadow = static_cast<std::uint8_t>(Certainty::Shadow), ///< likewise
+  /// Faces away from the light, or is outside its cone or box.
+  Unreached = static_cast<std::uint8_t>(Certainty::Unreached),
   NoReceiver ///< no surface, or one that receives no shadows
 };
 /// Return the names and colours of the TracedClass values.
