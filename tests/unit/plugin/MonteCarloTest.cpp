@@ -131,6 +131,9 @@ TEST_F(MonteCarlo, hasThePenumbraOfAHalfPlane)
     const double expected = std::sqrt(1.0 / (6.0 * rays * rays * rays));
     EXPECT_NEAR(rms, expected, 0.05 * expected) << rays;
   }
+  this->scene.set("mc_rays", 3);
+  const double filtered = rmsOf(drawKept(this->scene, "mc_filter=5"));
+  EXPECT_LT(filtered, 0.25 * std::sqrt(1.0 / 162.0));
   // Random rays of `raytraced`, without the grid: sqrt(1 / 54) is expected, and 0.135 specified.
   const double random =
     rmsOf(drawKept(this->scene, "raytraced light_sampling=random light_samples=9"));
@@ -214,6 +217,72 @@ TEST_F(MonteCarlo, decidesGroundsThatCast)
   addRectangle(this->scene, { -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 1.0, 50.0);
   this->scene.lookDown(0.1, 2.0, -2.25);
   EXPECT_GT(expectDecided("a low step", 0.0), 0);
+}
+
+/// Steps of equal length hit nothing that is not there, and step over few of many small boxes.
+TEST_F(MonteCarlo, linearSearchMissesLittle)
+{
+  this->scene.addFloor(4.0);
+  this->stopFloorFromCasting();
+  this->scene.addBox({ -3.0, -3.0, 0.0 }, { -2.8, -2.8, 5.0 }); // rays are searched from 0 to 5
+  for (int i = 0; i < 49; ++i)
+  {
+    const glm::dvec3 lower(0.5 * (i % 7) - 1.7, 0.5 * (i / 7) - 1.7, 0.4 + 0.08 * i);
+    this->scene.addBox(lower, lower + 0.2);
+  }
+  this->addLamp({ 0.0, 0.0, 6.0 }, glm::dvec3(0.0), 50.0, 1.0);
+  this->scene.lookDown(3.0);
+  this->scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 0.3); // below the boxes
+  this->scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 3.0);
+  this->scene.choose("mc_filter=0 mc_layers=near_far");
+  const std::vector<float> found = this->scene.visibilityBy("montecarlo");
+  const std::vector<float> stepped = this->scene.visibilityBy("mc_search=linear");
+  double hidden = 0.0;
+  double missed = 0.0;
+  std::size_t darker = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    hidden += 1.0 - found[i];
+    missed += stepped[i] - found[i];
+    darker += stepped[i] < found[i] ? 1 : 0;
+  }
+  EXPECT_LE(darker, 2u) << "rounding";
+  EXPECT_GT(hidden, 1000.0);
+  EXPECT_GT(missed, 0.0);
+  EXPECT_LT(missed, 0.005 * hidden);
+}
+
+/// The filter takes off noise, widens no penumbra, mixes no surfaces and leaves alone what bounds
+/// decide far from any ray.
+TEST_F(MonteCarlo, filterIsNearerToTheTruth)
+{
+  this->buildScene();
+  this->scene.addBox({ -3.5, 0.0, 1.0 }, { -1.5, 3.0, 2.0 });
+  const std::vector<float> truth = this->fineTruth();
+  const VisibilityImages noisy = drawKept(this->scene, "montecarlo mc_filter=0");
+  const VisibilityImages& kept = drawKept(this->scene, "mc_filter=5");
+  const glm::ivec2 size(160, 120);
+  double square = 0.0;
+  double squareOfNoise = 0.0;
+  std::size_t worse = 0;
+  std::size_t decided = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+  {
+    const double off = std::abs(kept.visibility[0][i] - truth[i]);
+    const double noise = std::abs(noisy.visibility[0][i] - truth[i]);
+    square += off * off;
+    squareOfNoise += noise * noise;
+    worse += off > noise + 0.05 ? 1 : 0;
+    const bool noRays = holdsAround(size, i % 160, i / 160, 5,
+      [&](int x, int y)
+      { return noisy.classes[0].ofPixels[static_cast<std::size_t>(y * 160 + x)] < 4; });
+    decided += noRays ? 1 : 0;
+    EXPECT_TRUE(!noRays || kept.visibility[0][i] == noisy.visibility[0][i]) << i;
+  }
+  EXPECT_GT(decided, 1000u);
+  EXPECT_LT(square, 0.5 * squareOfNoise);
+  EXPECT_LE(worse, 10u);
+  EXPECT_EQ(this->scene.drawAnew().visibility[0], kept.visibility[0]);
 }
 
 TEST_F(MonteCarlo, findsTheSameByBothNamesOfThePyramid)
