@@ -165,24 +165,6 @@ TEST_F(PcfGlsl, theMapsEndIsReadAgainWhereAKernelIsWider)
   }
 }
 
-TEST(PoissonDisc, isEvenlyScattered)
-{
-  const auto& points = poissonDisc();
-  double least = 2.0;
-  glm::dvec2 middle(0.0);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    EXPECT_LE(glm::length(points[i]), 1.0);
-    middle += points[i] / static_cast<double>(points.size());
-    for (std::size_t j = 0; j < i; ++j)
-    {
-      least = std::min(least, glm::distance(points[i], points[j]));
-    }
-  }
-  EXPECT_GE(least, 0.8 * 0.476);
-  EXPECT_LT(glm::length(middle), 0.1);
-}
-
 TEST_F(PcfGlsl, turningTheDiscKeepsTheMean)
 {
   // Half of the plane is dark: the mean along the edge is one half, for any angles.
