@@ -300,6 +300,20 @@ TEST_F(Pcss, tellsWhatTheEarlyOutDecides)
   }
 }
 
+/// The map's depths begin at the face of a box around the scene, else at the nearest caster.
+TEST_F(Pcss, isTheSameInABoxAroundTheScene)
+{
+  PassScene scene(140, 100);
+  scene.addThings();
+  vtkLight* const sun = addSoftSun(scene, { 0.4, 0.5, -1.0 }, "8");
+  sun->SetPosition(-4.0, -5.0, 10.0);
+  const std::vector<float> hard = scene.visibilityBy("nsm");
+  const std::vector<float> plain = scene.visibilityBy("pcss");
+  const double up[3] = { 0.0, 1.0, 0.0 };
+  vtkGnomonLightKeys::SetBox(sun, 30.0, 30.0, 30.0, up);
+  EXPECT_LT(meanDifference(scene.visibilityBy("pcss"), plain), 0.25 * meanDifference(plain, hard));
+}
+
 /// Where the light is fully hidden, `pcss` shows a little of it in some pixels.
 TEST_F(Pcss, fewLightLeaksGrowWithTheLight)
 {
