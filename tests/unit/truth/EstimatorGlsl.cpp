@@ -29,33 +29,10 @@ void fillTexture(GlTexture& texture, GLenum format, const glm::ivec3& size, cons
 }
 
 //------------------------------------------------------------------------------
-void fillDepths(GlTexture& texture, const Depths& depths)
-{
-  std::vector<float> texels;
-  for (int y = 0; y < mapSize; ++y)
-  {
-    for (int x = 0; x < mapSize; ++x)
-    {
-      texels.push_back(depths({ x, y }));
-    }
-  }
-  fillTexture(texture, GL_RED, { mapSize, mapSize, 1 }, texels.data());
-}
-
-//------------------------------------------------------------------------------
 LightViews sunViews(const ShadowLight& light)
 {
   return fitLightViews(
     light, { glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, {}, { mapSize, 1 }, {} });
-}
-
-//------------------------------------------------------------------------------
-void replaceOnce(std::string& text, const std::string& from, const std::string& to)
-{
-  const std::size_t place = text.find(from);
-  ASSERT_NE(place, std::string::npos) << from;
-  text.replace(place, from.size(), to);
-  EXPECT_EQ(text.find(from, place + to.size()), std::string::npos) << "once: " << from;
 }
 
 //------------------------------------------------------------------------------
@@ -109,8 +86,7 @@ std::vector<float> visibilityAt(const PointwiseTechnique& technique, const Shado
 
 //------------------------------------------------------------------------------
 std::vector<float> runGlsl(const PointwiseTechnique& technique, const ShadowLight& light,
-  const LightViews& views, const Map& map, const std::vector<glm::dvec2>& places,
-  const std::vector<Uniform>& more)
+  const LightViews& views, const Map& map, const std::vector<glm::dvec2>& places)
 {
   const LightView& view = views.views.front();
   const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(view, mapSize));
@@ -123,12 +99,16 @@ std::vector<float> runGlsl(const PointwiseTechnique& technique, const ShadowLigh
     points.emplace_back(centredFromView * glm::dvec4(across, distance, 1.0));
   }
   GlTexture texture;
-  fillDepths(texture, [&](const glm::ivec2& texel) { return map(texel) ? 0.25f : 1.0f; });
+  std::vector<float> depths;
+  for (int i = 0; i < mapSize * mapSize; ++i)
+  {
+    depths.push_back(map({ i % mapSize, i / mapSize }) ? 0.25f : 1.0f);
+  }
+  fillTexture(texture, GL_RED, { mapSize, mapSize, 1 }, depths.data());
   std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, {});
   uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, texture.name() } });
   uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(1e-6, 0.0) });
   uniforms.push_back(kernelUnit(technique.mapReach(light)));
-  uniforms.insert(uniforms.end(), more.begin(), more.end());
   ShaderLibrary library;
   return visibilityAt(
     technique, light, library, points, glm::vec3(-light.directionWorld), std::move(uniforms));

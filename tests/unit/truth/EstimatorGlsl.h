@@ -27,23 +27,13 @@ constexpr int mapSize = 64;
 /// True if a texel holds a caster that hides the points below.
 using Map = std::function<bool(const glm::ivec2&)>;
 
-/// A map's depths, texel by texel.
-using Depths = std::function<float(const glm::ivec2&)>;
-
 /// Fill a texture of floats, which is read without interpolation.
 /// @param format GL_RED, GL_RG or GL_RGBA
 /// @param size width, height, and the number of layers if it is an array; else 0
 void fillTexture(GlTexture& texture, GLenum format, const glm::ivec3& size, const void* texels);
 
-/// A map's layer of depths.
-void fillDepths(GlTexture& texture, const Depths& depths);
-
 /// Return the views of a sun around the cube [-1, 1]^3.
 LightViews sunViews(const ShadowLight& light);
-
-/// Replace a text that must occur in a shader exactly once, for tests that count or change its
-/// work.
-void replaceOnce(std::string& text, const std::string& from, const std::string& to);
 
 /// Return the source of a compute shader that maps `given[i]` to `result[i]`.
 /// @param declarations before `main`
@@ -77,10 +67,8 @@ std::vector<float> visibilityAt(const PointwiseTechnique& technique, const Shado
   std::vector<Uniform> uniforms);
 
 /// Run the shader at places of the first view's map, on a plane across the light.
-/// @param more uniforms of the technique, in place of those of a bake
 std::vector<float> runGlsl(const PointwiseTechnique& technique, const ShadowLight& light,
-  const LightViews& views, const Map& map, const std::vector<glm::dvec2>& places,
-  const std::vector<Uniform>& more = {});
+  const LightViews& views, const Map& map, const std::vector<glm::dvec2>& places);
 
 /// Return a sun along -z.
 inline ShadowLight filteredSun(const char* kernel, int texels)
