@@ -841,6 +841,12 @@ TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
   }
   scene.showSplats(blocks);
   expectSpheres([](double size) { return 0.5 * size; });
+
+  vtkNew<vtkPolyData> bare; // without vertex cells, all points are drawn
+  bare->ShallowCopy(scene.data);
+  bare->SetVerts(nullptr);
+  scene.showSplats(bare);
+  expectSpheres([](double size) { return 0.5 * size; });
 }
 
 /// VTK draws solids and splats alike in all representations.
