@@ -48,14 +48,15 @@ void vtkGnomonShadowPass::SetMaximumSoftError(double rootMeanSquare)
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetTimeBudget(double milliseconds)
 {
-  if (milliseconds != GNOMON_TIME_BUDGET_OF_WINDOW)
+  const bool isTime = milliseconds >= 0.0 && milliseconds <= VTK_DOUBLE_MAX; // NaN is none
+  if (!isTime && milliseconds != GNOMON_TIME_BUDGET_OF_WINDOW)
   {
-    gnomon::setWithin(this, "TimeBudget", milliseconds, 0.0, VTK_DOUBLE_MAX, this->TimeBudget);
+    vtkErrorMacro("TimeBudget was to be " << milliseconds
+                                          << ", expected a number of at least 0, or "
+                                             "GNOMON_TIME_BUDGET_OF_WINDOW (-1).");
+    return;
   }
-  else
-  {
-    gnomon::assign(this, &this->TimeBudget, &milliseconds);
-  }
+  gnomon::assign(this, &this->TimeBudget, &milliseconds);
 }
 
 //------------------------------------------------------------------------------
