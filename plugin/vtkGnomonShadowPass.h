@@ -336,7 +336,7 @@ public:
    * "auto" first takes what keeps the errors; where that is too slow, fewer samples of area lights,
    * then hard shadows of their centres, then maps of any error. `penumbra` and
    * `raytraced` use fewer samples, too, unless `moving_samples` names them. Over several processes
-   * the first one's times decide, and area lights have fewer samples with any budget.
+   * the first one's time and budget count, and a budget in milliseconds limits these samples, too.
    *
    * Other negative numbers are an error and change nothing.
    */

@@ -23,7 +23,7 @@ inline int samplesOf(int step)
 /// Return by how many steps a map's side is to be halved, as its probes say: wrong pixels lie along
 /// edges, and their number is in proportion to the texels' width. As many probes as there may be
 /// are to prove the smaller map if they go on like these, with twice as many wrong, to be safe.
-/// @param looks at so many pixels, of which there are so many at most
+/// @param looks the most sets of pixels that prove a map; `probes` are those of one set
 inline int spareSteps(const WrongProbes& probes, std::size_t looks, int step, double limit)
 {
   WrongProbes expected{ looks * probes.asked, 2 * looks * probes.wrong };

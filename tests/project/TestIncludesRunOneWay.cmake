@@ -1,8 +1,7 @@
 # Check that includes run one way, folder by folder. Each folder lists the folders that it may
 # include beside itself, all of them above it, so the list has no cycles. Nothing includes examples/
 # or tests/, lights/ includes no OpenGL, and plugin/plan/ neither OpenGL, VTK nor the report. One
-# file a system includes headers of window systems and operating systems. No source of
-# shadowtech/ and plugin/ is longer than 500 lines, but the pass's, which has 600.
+# file a system includes headers of window systems and operating systems.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -98,17 +97,6 @@ foreach(file IN LISTS files)
   if(paths AND NOT DEFINED system_of_${file})
     string(APPEND faults "${file}: ${paths} is of a system\n")
   endif()
-  file(READ "${SOURCE_DIR}/${file}" text)
-  string(REGEX MATCHALL "\n" text "${text}")
-  string(LENGTH "${text}" length)
-  math(EXPR length "(${length} + 1) / 2") # ends of lines, with semicolons between
-  set(most 500)
-  if(file STREQUAL "plugin/vtkGnomonShadowPass.cxx")
-    set(most 600)
-  endif()
-  if(file MATCHES "^(shadowtech|plugin)/.*\\.(cpp|cxx)$" AND length GREATER most)
-    string(APPEND faults "${file}: ${length} lines, ${most} are the most\n")
-  endif()
   foreach(line IN LISTS lines)
     string(REGEX REPLACE ".*include[ \t]*[<\"]([^>\"]*)[>\"].*" "\\1" name "${line}")
     math(EXPR count "${count} + 1")
@@ -136,7 +124,7 @@ foreach(file IN LISTS files)
 endforeach()
 
 if(faults)
-  message(FATAL_ERROR "Includes that the list of folders does not allow, or long sources:\n${faults}")
+  message(FATAL_ERROR "Includes that the list of folders does not allow:\n${faults}")
 endif()
 if(count EQUAL 0)
   message(FATAL_ERROR "No includes found under ${SOURCE_DIR}.")
