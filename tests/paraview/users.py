@@ -376,13 +376,9 @@ def dragging(pictures):
         pictures.row(f"plain frames of {technique}", f"{times[technique] / plain_time:.1f}")
     text = ", ".join(f"{name} {value:.0f} ms" for name, value in times.items())
     text += f", plain {plain_time:.0f} ms"
-    if scenario.processes() == 1:
-        is_cheaper = times["auto"] < 0.7 * times["raytraced"]
-        scenario.check("auto drags faster than raytraced", is_cheaper, text)
-    else:
-        # The view asks its window for five frames a second.
-        limit = max(1.2 * 200.0, 1.6 * plain_time)
-        scenario.check("a drag keeps its rate", max(times.values()) < limit, text)
+    # The view asks its window for five frames a second.
+    limit = max(1.2 * 200.0, 1.6 * plain_time)
+    scenario.check("a drag keeps its rate", max(times.values()) < limit, text)
 
 
 CASES = {
