@@ -62,8 +62,9 @@ public:
   {
     return Certainty::Uncertain;
   }
-  /// Decide a tile's receivers. Entries of receivers without a shadow ray may be set to anything.
-  /// @param certain all Uncertain on entry; set to Lit or Shadow where decided
+  /// Decide a tile's receivers.
+  /// @param certain of each pixel, row by row. Uncertain on entry where a decision is asked for,
+  /// and set to Lit or Shadow if there is one. Others may be set to anything
   virtual void ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const = 0;
 };
 

@@ -167,28 +167,6 @@ void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache
   }
 }
 
-void copyTile(const ReceiverPixels& picture, const Rectangle& tile, ReceiverPixels& receivers)
-{
-  const auto width = static_cast<std::size_t>(picture.width);
-  for (std::size_t row = 0; row < tile.rows; ++row)
-  {
-    const std::size_t from = (tile.firstRow + row) * width + tile.firstColumn;
-    const std::size_t to = row * tile.columns;
-    const auto copy = [&](auto array)
-    { std::copy_n(&(picture.*array)[from], tile.columns, &(receivers.*array)[to]); };
-    for (const auto plane : ReceiverPixels::planes)
-    {
-      copy(plane);
-    }
-    copy(&ReceiverPixels::surface);
-    copy(&ReceiverPixels::curved);
-    if (!picture.curves.empty())
-    {
-      copy(&ReceiverPixels::curves);
-    }
-  }
-}
-
 /// Visit all tiles of a picture, by several threads at once.
 /// @param skipped by tile: 1 for tiles that are left out; null: none
 /// @param visitTile called with a tile and the thread's own Local
@@ -266,19 +244,18 @@ void Receivers::visitTiles(const std::function<void(const ReceiverTile&)>& visit
   visitRectangles<TileMaking>(this->width_, this->height_, skipped,
     [&](const Rectangle& tile, TileMaking& making)
     {
-      making.receivers.resize(static_cast<int>(tile.columns), static_cast<int>(tile.rows),
-        drawn ? drawn->findsCurves : !this->stored_->curves.empty());
-      making.known.assign(making.receivers.size(), Certainty::Uncertain);
-      if (!drawn)
+      making.known.assign(tile.columns * tile.rows, Certainty::Uncertain);
+      if (drawn)
       {
-        copyTile(*this->stored_, tile, making.receivers);
-      }
-      else
-      {
+        making.receivers.resize(
+          static_cast<int>(tile.columns), static_cast<int>(tile.rows), drawn->findsCurves);
         projectTile(*drawn, tile, making.cache, making.receivers, decider ? &making.known : nullptr,
           0, tile.columns);
       }
-      visit({ tile.firstColumn, tile.firstRow, making.receivers, making.known });
+      visit({ tile.firstColumn, tile.firstRow, tile.columns, tile.rows,
+        drawn ? making.receivers : *this->stored_,
+        drawn ? 0 : tile.firstRow * this->width_ + tile.firstColumn,
+        drawn ? tile.columns : this->width_, making.known });
     });
 }
 

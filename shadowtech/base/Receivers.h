@@ -148,11 +148,28 @@ struct ReceiverTile
   static constexpr std::size_t mostRows = 16;
 
   std::size_t firstColumn, firstRow; ///< its lower left pixel in the picture
-  /// The tile's receivers: fewer than the most at the picture's right and upper border.
-  const ReceiverPixels& receivers;
-  /// Each receiver's certainty by its triangle and line; Uncertain without a decider. Receivers
-  /// decided so are left out of `receivers`, as if their pixels showed nothing.
+  std::size_t columns, rows;       ///< fewer than the most at the picture's right and upper border
+  const ReceiverPixels& receivers; ///< the tile's alone, or those of the picture
+  ///@{
+  /// Where the tile begins among `receivers`, and the step from a row to the next.
+  std::size_t first, perRow;
+  ///@}
+  /// The certainty of each pixel of the tile by its triangle and line, row by row; Uncertain
+  /// without a decider. Receivers decided so are left out of `receivers`, as if their pixels showed
+  /// nothing.
   const std::vector<Certainty>& known;
+
+  std::size_t size() const { return this->columns * this->rows; }
+  /// Return the tile's number among those of the picture, row by row.
+  std::size_t number(std::size_t tilesAcross) const
+  {
+    return this->firstRow / mostRows * tilesAcross + this->firstColumn / mostColumns;
+  }
+  /// Return the index of a pixel's receiver.
+  std::size_t at(std::size_t column, std::size_t row) const
+  {
+    return this->first + row * this->perRow + column;
+  }
 };
 
 /// The receivers of a picture, computed on demand from the images of the receivers stage. A

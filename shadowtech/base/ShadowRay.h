@@ -189,7 +189,9 @@ struct ShadowRay
 inline ShadowRay shadowRayDirectional(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
-  return { position + offset * normal, light.toLight, facesLight(normal, light.toLight) };
+  // Copied number by number: GCC does not vectorise loops that copy the struct.
+  const glm::vec3 toLight(light.toLight.x, light.toLight.y, light.toLight.z);
+  return { position + offset * normal, toLight, facesLight(normal, toLight) };
 }
 
 /// Return the shadow ray to a directional light with a box. It ends at the box's near face, where

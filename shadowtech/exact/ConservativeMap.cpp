@@ -320,34 +320,47 @@ Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) co
 }
 
 //------------------------------------------------------------------------------
-void ConservativeMap::ask(const ReceiverPixels& receivers,
-  const std::vector<std::uint8_t>& onCaster, std::vector<Certainty>& certain) const
+void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, std::size_t count,
+  const std::vector<std::uint8_t>& onCaster, Certainty* certain) const
 {
   if (this->texels_.empty())
   {
     return;
   }
   Looks looks;
-  for (std::size_t from = 0; from < receivers.size(); from += Looks::most)
+  for (std::size_t done = 0; done < count; done += Looks::most)
   {
-    const std::size_t part = std::min(Looks::most, receivers.size() - from);
-    if (std::all_of(&receivers.surface[from], &receivers.surface[from] + part,
-          [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered; }))
+    const std::size_t part = std::min(Looks::most, count - done);
+    Certainty* const certainties = certain + done;
+    if (std::all_of(certainties, certainties + part,
+          [](Certainty known) { return known != Certainty::Uncertain; }))
     {
       continue;
     }
+    const std::size_t from = first + done;
     lookAt(this->lookUp_, receivers, from, static_cast<int>(part), looks);
+    const auto isAsked = [&](std::size_t i)
+    { return looks.texel[i] >= 0 && certainties[i] == Certainty::Uncertain; };
+    const auto texelOf = [&](std::size_t i)
+    { return &this->texels_[static_cast<std::size_t>(looks.texel[i])]; };
     for (std::size_t i = 0; i < part; ++i)
     {
-      if (looks.texel[i] < 0 || certain[from + i] != Certainty::Uncertain)
+      if (isAsked(i))
+      {
+        __builtin_prefetch(texelOf(i)); // neighbours' texels lie anywhere in memory
+      }
+    }
+    for (std::size_t i = 0; i < part; ++i)
+    {
+      if (!isAsked(i))
       {
         continue;
       }
-      const TexelBounds& texel = this->texels_[static_cast<std::size_t>(looks.texel[i])];
+      const TexelBounds& texel = *texelOf(i);
       const bool isOnCaster = onCaster[receivers.surface[from + i] + 1u] != 0;
       const bool lit = looks.farthest[i] <= texel.litUpToOf(isOnCaster, receivers.offset[from + i]);
       const bool shadow = looks.nearest[i] > texel.shadowFrom;
-      certain[from + i] = lit ? Certainty::Lit : shadow ? Certainty::Shadow : Certainty::Uncertain;
+      certainties[i] = lit ? Certainty::Lit : shadow ? Certainty::Shadow : Certainty::Uncertain;
     }
   }
 }

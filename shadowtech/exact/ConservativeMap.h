@@ -72,10 +72,12 @@ public:
     const LightView& view, bool hasBox, const LookUp& lookUp, std::vector<TexelBounds> texels);
 
   /// Decide receivers that are still uncertain.
+  /// @param first, count which of the receivers
   /// @param onCaster indexed by surface + 1, so that `notCovered` is at 0: true if the surface
   /// casts, on both sides
-  void ask(const ReceiverPixels& receivers, const std::vector<std::uint8_t>& onCaster,
-    std::vector<Certainty>& certain) const;
+  /// @param certain one for each of them
+  void ask(const ReceiverPixels& receivers, std::size_t first, std::size_t count,
+    const std::vector<std::uint8_t>& onCaster, Certainty* certain) const;
 
   /// Return the values that the map's casters share.
   CasterScene sceneOf(const Occluders& occluders) const;

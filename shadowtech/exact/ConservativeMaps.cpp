@@ -64,7 +64,11 @@ void ConservativeMaps::ofPixels(const ReceiverTile& tile, std::vector<Certainty>
 {
   for (const ConservativeMap& map : this->maps_)
   {
-    map.ask(tile.receivers, this->onCaster_, certain);
+    for (std::size_t row = 0; row < tile.rows; ++row)
+    {
+      map.ask(tile.receivers, tile.at(0, row), tile.columns, this->onCaster_,
+        certain.data() + row * tile.columns);
+    }
   }
 }
 

@@ -48,14 +48,16 @@ Certainty certaintyOf(ChainClass of)
 }
 
 /// Visit a tile's receivers.
-/// @param visit called with the receiver's number in the tile and in the picture
+/// @param visit called with the pixel's number in the tile, its receiver's index, and its number in
+/// the picture
 template <typename Visit>
 void visitPixels(const ReceiverTile& tile, std::size_t width, const Visit& visit)
 {
-  const auto columns = static_cast<std::size_t>(tile.receivers.width);
-  for (std::size_t i = 0; i < tile.receivers.size(); ++i)
+  for (std::size_t i = 0; i < tile.size(); ++i)
   {
-    visit(i, (tile.firstRow + i / columns) * width + tile.firstColumn + i % columns);
+    const std::size_t row = i / tile.columns;
+    const std::size_t column = i % tile.columns;
+    visit(i, tile.at(column, row), (tile.firstRow + row) * width + tile.firstColumn + column);
   }
 }
 
@@ -123,8 +125,8 @@ std::vector<std::uint8_t> Chain::contour() const
     [&](const ReceiverTile& tile)
     {
       visitPixels(tile, width,
-        [&](std::size_t i, std::size_t pixel)
-        { statuses[pixel] = this->lookAt(tile.receivers, i).status(); });
+        [&](std::size_t, std::size_t receiver, std::size_t pixel)
+        { statuses[pixel] = this->lookAt(tile.receivers, receiver).status(); });
     });
   return contourOf(
     statuses, static_cast<int>(width), static_cast<int>(height), this->stages_.contourPixels / 2);
@@ -147,10 +149,10 @@ std::size_t Chain::run(std::vector<float>& visibility) const
 void Chain::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const
 {
   visitPixels(tile, this->input_.receivers.width(),
-    [&](std::size_t i, std::size_t pixel)
+    [&](std::size_t i, std::size_t receiver, std::size_t pixel)
     {
       const bool inContour = this->contour_.empty() || this->contour_[pixel] != 0;
-      const ChainClass found = this->classOf(this->lookAt(tile.receivers, i), inContour);
+      const ChainClass found = this->classOf(this->lookAt(tile.receivers, receiver), inContour);
       certain[i] = certaintyOf(found);
       if (this->input_.classes)
       {

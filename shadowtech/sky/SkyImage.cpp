@@ -92,15 +92,13 @@ struct SkyPacket
     std::size_t side, std::size_t part, std::size_t place)
   {
     const ReceiverPixels& receivers = tile.receivers;
-    const auto columns = static_cast<std::size_t>(receivers.width);
-    const auto rows = static_cast<std::size_t>(receivers.height);
     this->count = 0;
-    for (std::size_t y = place / side; y < rows; y += side)
+    for (std::size_t y = place / side; y < tile.rows; y += side)
     {
-      for (std::size_t x = part + place % side; x < std::min(part + columnsOfPart(side), columns);
-           x += side)
+      for (std::size_t x = part + place % side;
+           x < std::min(part + columnsOfPart(side), tile.columns); x += side)
       {
-        const std::size_t i = y * columns + x;
+        const std::size_t i = tile.at(x, y);
         const std::uint32_t surface = receivers.surface[i];
         if (surface != ReceiverPixels::notCovered && occluders.surfaces[surface].receives)
         {
@@ -246,11 +244,10 @@ std::size_t SkyImage::traceAll(const Sky& sky, const Receivers& receivers,
   receivers.visitTiles(
     [&](const ReceiverTile& tile)
     {
-      const auto columns = static_cast<std::size_t>(tile.receivers.width);
       SkyPacket packet; // 9 KB, uninitialised on purpose
       const auto flush = [&]
       { rays += packet.trace(tracer, sky.farthest, this->all_, this->seen_); };
-      for (std::size_t part = 0; part < columns; part += SkyPacket::columnsOfPart(sideOfBlock))
+      for (std::size_t part = 0; part < tile.columns; part += SkyPacket::columnsOfPart(sideOfBlock))
       {
         for (std::size_t place = 0; place < directions.size(); ++place)
         {

@@ -50,7 +50,6 @@ public:
     , y_(x_.size())
     , z_(x_.size())
   {
-    const auto columns = static_cast<std::size_t>(tile.receivers.width);
     for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
     {
       if (traced.needed[pixel] == 0)
@@ -62,7 +61,7 @@ public:
       this->pixels_[pixel] = samples.pixel(static_cast<std::uint32_t>(tile.firstColumn + column),
         static_cast<std::uint32_t>(tile.firstRow + row));
       const ReceiverPixels& receivers = tile.receivers;
-      const std::size_t from = row * columns + column;
+      const std::size_t from = tile.at(column, row);
       const AreaRays rays =
         areaRays(light, receivers.position(from), receivers.normal(from), traced.direction(pixel));
       for (glm::length_t axis = 0; axis < 3; ++axis)

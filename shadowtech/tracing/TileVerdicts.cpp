@@ -280,18 +280,6 @@ bool TileVerdicts::needManyRays() const
 }
 
 //------------------------------------------------------------------------------
-void TileVerdicts::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const
-{
-  const auto columns = static_cast<std::size_t>(tile.receivers.width);
-  for (std::size_t i = 0; i < tile.receivers.size(); ++i)
-  {
-    const Certainty known =
-      this->ofPixel(tile.firstColumn + i % columns, tile.firstRow + i / columns);
-    certain[i] = known != Certainty::Uncertain ? known : certain[i];
-  }
-}
-
-//------------------------------------------------------------------------------
 /// Call `visit` for each part of a tile's rows that lies in one cell, with its first and end pixel
 /// and what is known of it. Equal neighbours are merged.
 template <typename Visit>
@@ -316,6 +304,23 @@ void TileVerdicts::visitRows(std::size_t tile, const Visit& visit) const
     visit(row * width + firstColumn, row * width + middle, left);
     visit(row * width + middle, row * width + endColumn, right);
   }
+}
+
+//------------------------------------------------------------------------------
+void TileVerdicts::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const
+{
+  const std::size_t across = this->boxes_.levels()[ReceiverBoxes::levelOfTiles].columns;
+  const std::size_t width = this->boxes_.width();
+  this->visitRows(tile.number(across),
+    [&](std::size_t first, std::size_t end, Certainty known)
+    {
+      if (known != Certainty::Uncertain)
+      {
+        const std::size_t row = first / width - tile.firstRow;
+        const std::size_t column = first % width - tile.firstColumn;
+        std::fill_n(&certain[row * tile.columns + column], end - first, known);
+      }
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -48,11 +48,13 @@ void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns
   }
 }
 
-/// Fill a row of a tile whose pixels are all of one class and need no rays.
-/// @param lit the visibility of lit pixels, by channel
-void fillRow(TracedClass of, const std::array<float, 3>& lit, std::size_t columns, std::size_t to,
+/// Fill a row of a tile whose pixels need no rays.
+/// @param known of all of them; Uncertain: they receive nothing
+void fillRow(Certainty known, const std::array<float, 3>& lit, std::size_t columns, std::size_t to,
   TracedTile& tile)
 {
+  const TracedClass of =
+    known == Certainty::Uncertain ? TracedClass::NoReceiver : static_cast<TracedClass>(known);
   std::fill_n(&tile.classes[to], columns, static_cast<std::uint8_t>(of));
   std::fill_n(&tile.needed[to], columns, 0);
   for (std::size_t channel = 0; channel < tile.channels; ++channel)
@@ -66,18 +68,20 @@ void fillRow(TracedClass of, const std::array<float, 3>& lit, std::size_t column
 /// @param receives by surface + 1: 1 or 0
 /// @param certain null: nothing is certain
 /// @param lit the visibility of lit pixels, by channel
-void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* receives,
-  const Certainty* certain, const std::array<float, 3>& lit, std::size_t to, TracedTile& traced)
+void classify(const ReceiverTile& tile, std::size_t row, const std::uint8_t* receives,
+  const Certainty* certain, const std::array<float, 3>& lit, TracedTile& traced)
 {
-  const auto columns = static_cast<std::size_t>(tile.receivers.width);
-  for (std::size_t x = 0; x < columns; ++x)
+  const std::uint32_t* const surfaces = &tile.receivers.surface[tile.at(0, row)];
+  const std::size_t from = row * tile.columns;
+  const std::size_t to = row * TracedTile::columns;
+  for (std::size_t x = 0; x < tile.columns; ++x)
   {
     const Certainty known = tile.known[from + x];
     const bool reached = traced.needed[to + x] != 0;
     const Certainty asked = !reached ? Certainty::Unreached
       : certain                      ? certain[from + x]
                                      : Certainty::Uncertain;
-    const bool receiving = receives[tile.receivers.surface[from + x] + 1u] != 0;
+    const bool receiving = receives[surfaces[x] + 1u] != 0;
     const TracedClass of = known != Certainty::Uncertain ? static_cast<TracedClass>(known)
       : receiving                                        ? static_cast<TracedClass>(asked)
                                                          : TracedClass::NoReceiver;
@@ -91,14 +95,13 @@ void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* re
 }
 
 /// True if all pixels of a row are left out or not covered, and all are of one class.
-bool isAlike(const ReceiverTile& tile, std::size_t from)
+bool isAlike(const ReceiverTile& tile, std::size_t row)
 {
-  const auto columns = static_cast<std::ptrdiff_t>(tile.receivers.width);
-  const Certainty* const known = &tile.known[from];
-  const std::uint32_t* const surfaces = &tile.receivers.surface[from];
-  return std::all_of(surfaces, surfaces + columns,
+  const Certainty* const known = &tile.known[row * tile.columns];
+  const std::uint32_t* const surfaces = &tile.receivers.surface[tile.at(0, row)];
+  return std::all_of(surfaces, surfaces + tile.columns,
            [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered; }) &&
-    std::all_of(known, known + columns, [&](Certainty other) { return other == known[0]; });
+    std::all_of(known, known + tile.columns, [&](Certainty other) { return other == known[0]; });
 }
 
 std::size_t tilesAcross(std::size_t pixels, std::size_t ofTile)
@@ -154,11 +157,10 @@ TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluder
       this->lit_[static_cast<std::size_t>(channel)] = whole * this->texture_->mean[channel];
     }
   }
-  this->skipped_.assign(this->tiles(), 0);
   for (std::size_t tile = 0; tile < this->tiles(); ++tile)
   {
     const bool isDark = this->verdicts_ && this->verdicts_->darkTiles()[tile] != 0;
-    this->skipped_[tile] = this->isKept(tile) || isDark ? 1 : 0;
+    this->skipped_.push_back(this->isKept(tile) || isDark ? 1 : 0);
   }
   this->receives_.push_back(0);
   for (const Surface& surface : occluders.surfaces)
@@ -182,23 +184,29 @@ float TracedPicture::rayFar() const
 
 //------------------------------------------------------------------------------
 /// Return what is known of a tile's receivers; null: nothing.
-const Certainty* TracedPicture::certaintiesOf(const ReceiverTile& tile, std::size_t number) const
+const Certainty* TracedPicture::certaintiesOf(const ReceiverTile& tile, const TracedTile& of) const
 {
   if (!this->certain_)
   {
     return nullptr;
   }
-  std::vector<Certainty>& certain = this->certain_[number];
+  std::vector<Certainty>& certain = this->certain_[of.number];
   if (certain.empty())
   {
-    certain.assign(tile.receivers.size(), Certainty::Uncertain);
-    if (this->decider_)
+    certain.resize(tile.size());
+    for (std::size_t row = 0; row < tile.rows; ++row)
     {
-      this->decider_->ofPixels(tile, certain);
+      const int* const needed = &of.needed[row * TracedTile::columns];
+      std::transform(needed, needed + tile.columns, &certain[row * tile.columns],
+        [](int is) { return is != 0 ? Certainty::Uncertain : Certainty::Unreached; });
     }
     if (this->verdicts_)
     {
       this->verdicts_->ofPixels(tile, certain);
+    }
+    if (this->decider_)
+    {
+      this->decider_->ofPixels(tile, certain);
     }
   }
   return certain.data();
@@ -227,45 +235,37 @@ template <typename MakeRay>
 void TracedPicture::prepare(
   const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const
 {
-  const ReceiverPixels& receivers = tile.receivers;
-  const auto columns = static_cast<std::size_t>(receivers.width);
-  const auto rows = static_cast<std::size_t>(receivers.height);
   traced.channels = this->channels();
-  traced.receivers = &receivers;
+  traced.receivers = &tile.receivers;
   traced.columnsOfPicture = this->receivers_.width();
-  traced.number =
-    tile.firstRow / TracedTile::rows * tilesAcross(traced.columnsOfPicture, TracedTile::columns) +
-    tile.firstColumn / TracedTile::columns;
+  traced.number = tile.number(tilesAcross(traced.columnsOfPicture, TracedTile::columns));
   traced.firstPixel = tile.firstRow * traced.columnsOfPicture + tile.firstColumn;
-  if (columns < TracedTile::columns || rows < TracedTile::rows)
+  if (tile.size() < TracedTile::pixels)
   {
     traced.needed.fill(0);
   }
   std::array<bool, TracedTile::rows> alike;
-  for (std::size_t y = 0; y < rows; ++y)
+  for (std::size_t y = 0; y < tile.rows; ++y)
   {
-    alike[y] = isAlike(tile, y * columns);
+    alike[y] = isAlike(tile, y);
     if (alike[y])
     {
-      const Certainty known = tile.known[y * columns];
       fillRow(
-        known == Certainty::Uncertain ? TracedClass::NoReceiver : static_cast<TracedClass>(known),
-        this->lit_, columns, y * TracedTile::columns, traced);
+        tile.known[y * tile.columns], this->lit_, tile.columns, y * TracedTile::columns, traced);
       continue;
     }
     const auto make = [&](auto count)
-    { makeRays(receivers, y * columns, count, makeRay, y * TracedTile::columns, traced); };
-    columns == TracedTile::columns
+    { makeRays(tile.receivers, tile.at(0, y), count, makeRay, y * TracedTile::columns, traced); };
+    tile.columns == TracedTile::columns
       ? make(std::integral_constant<std::size_t, TracedTile::columns>())
-      : make(columns);
+      : make(tile.columns);
   }
-  const Certainty* const certain = this->certaintiesOf(tile, traced.number);
-  for (std::size_t y = 0; y < rows; ++y)
+  const Certainty* const certain = this->certaintiesOf(tile, traced);
+  for (std::size_t y = 0; y < tile.rows; ++y)
   {
     if (!alike[y])
     {
-      classify(tile, y * columns, this->receives_.data(), certain, this->lit_,
-        y * TracedTile::columns, traced);
+      classify(tile, y, this->receives_.data(), certain, this->lit_, traced);
     }
   }
 }
@@ -274,23 +274,27 @@ void TracedPicture::prepare(
 /// Find the pixels whose triangle is turned away from the light, while the curve above is not.
 /// They need their rays.
 template <typename MakeRay>
-void TracedPicture::findTurned(const MakeRay& makeRay, TracedTile& traced) const
+void TracedPicture::findTurned(
+  const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const
 {
-  const ReceiverPixels& receivers = *traced.receivers;
-  const auto columns = static_cast<std::size_t>(receivers.width);
-  for (std::size_t i = 0; i < receivers.curves.size(); ++i)
+  const ReceiverPixels& receivers = tile.receivers;
+  for (std::size_t row = 0; row < tile.rows; ++row)
   {
-    const std::size_t pixel = i / columns * TracedTile::columns + i % columns;
-    if (receivers.curved[i] != 0 && this->receives_[receivers.surface[i] + 1u] != 0 &&
-      traced.classes[pixel] == static_cast<std::uint8_t>(TracedClass::Unreached) &&
-      makeRay(receivers.position(i), receivers.curves[i].normal, receivers.offset[i]).traced)
+    for (std::size_t column = 0; column < tile.columns; ++column)
     {
-      traced.turned.push_back({ pixel, i });
-      traced.needed[pixel] = 1;
-      traced.classes[pixel] = static_cast<std::uint8_t>(TracedClass::Traced);
-      for (std::size_t channel = 0; channel < traced.channels; ++channel)
+      const std::size_t i = tile.at(column, row);
+      const std::size_t pixel = row * TracedTile::columns + column;
+      if (receivers.curved[i] != 0 && this->receives_[receivers.surface[i] + 1u] != 0 &&
+        traced.classes[pixel] == static_cast<std::uint8_t>(TracedClass::Unreached) &&
+        makeRay(receivers.position(i), receivers.curves[i].normal, receivers.offset[i]).traced)
       {
-        traced.visibility[channel][pixel] = this->lit_[channel];
+        traced.turned.push_back({ pixel, i });
+        traced.needed[pixel] = 1;
+        traced.classes[pixel] = static_cast<std::uint8_t>(TracedClass::Traced);
+        for (std::size_t channel = 0; channel < traced.channels; ++channel)
+        {
+          traced.visibility[channel][pixel] = this->lit_[channel];
+        }
       }
     }
   }
@@ -300,19 +304,18 @@ void TracedPicture::findTurned(const MakeRay& makeRay, TracedTile& traced) const
 /// Copy a tile into the picture.
 void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) const
 {
-  const auto columns = static_cast<std::size_t>(tile.receivers.width);
-  const auto rows = static_cast<std::size_t>(tile.receivers.height);
-  for (std::size_t y = 0; y < rows; ++y)
+  for (std::size_t y = 0; y < tile.rows; ++y)
   {
     const std::size_t first = traced.firstPixel + y * traced.columnsOfPicture;
     for (std::size_t channel = 0; channel < traced.channels; ++channel)
     {
-      std::copy_n(&traced.visibility[channel][y * TracedTile::columns], columns,
+      std::copy_n(&traced.visibility[channel][y * TracedTile::columns], tile.columns,
         &this->visibility_[channel * this->pixels() + first]);
     }
     if (this->classes_)
     {
-      std::copy_n(&traced.classes[y * TracedTile::columns], columns, &(*this->classes_)[first]);
+      std::copy_n(
+        &traced.classes[y * TracedTile::columns], tile.columns, &(*this->classes_)[first]);
     }
   }
 }
@@ -429,7 +432,7 @@ std::size_t TracedPicture::visitTiles(
           }
           TracedTile traced; // 56 KB, uninitialised on purpose
           this->prepare(tile, makeRay, traced);
-          this->findTurned(makeRay, traced);
+          this->findTurned(tile, makeRay, traced);
           if (!this->samples_)
           {
             traced.samplesOfRay[0].fill(1.0f);

@@ -80,7 +80,7 @@ std::vector<PixelClass> classesOfTracing();
 struct TurnedPixel
 {
   std::size_t pixel;    ///< of the tile
-  std::size_t receiver; ///< of the tile's receivers
+  std::size_t receiver; ///< index of its receiver
 };
 
 /// A tile of the picture: the pixels that need their shadow ray, and their visibility if it is not
@@ -106,7 +106,7 @@ struct alignas(64) TracedTile
   std::array<Plane<float>, 3> samplesOfRay;
   ///@}
   Plane<std::uint8_t> classes;     ///< TracedClass
-  const ReceiverPixels* receivers; ///< of the tile
+  const ReceiverPixels* receivers; ///< the tile's and perhaps others
   std::vector<TurnedPixel> turned; ///< needed ones
 
   std::size_t channels;         ///< of the visibility: 1 or 3
@@ -191,12 +191,12 @@ public:
   void finish() const;
 
 private:
-  const Certainty* certaintiesOf(const ReceiverTile& tile, std::size_t number) const;
+  const Certainty* certaintiesOf(const ReceiverTile& tile, const TracedTile& of) const;
   void fillDarkTiles() const;
   template <typename MakeRay>
   void prepare(const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const;
   template <typename MakeRay>
-  void findTurned(const MakeRay& makeRay, TracedTile& traced) const;
+  void findTurned(const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const;
   std::size_t visitSamples(const SampleRange& samples, const ReceiverTile& tile, TracedTile& traced,
     const std::function<std::size_t(TracedTile&)>& trace) const;
   void keep(const ReceiverTile& tile, const TracedTile& traced) const;

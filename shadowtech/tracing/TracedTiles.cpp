@@ -211,10 +211,8 @@ void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
 //------------------------------------------------------------------------------
 void TracedTiles::note(const ReceiverTile& tile)
 {
-  const std::size_t number = tile.firstRow / ReceiverTile::mostRows * this->tilesAcross_ +
-    tile.firstColumn / ReceiverTile::mostColumns;
-  this->boxes_[number] = boxOf(tile.receivers, 0, static_cast<std::size_t>(tile.receivers.width),
-    static_cast<std::size_t>(tile.receivers.height));
+  this->boxes_[tile.number(this->tilesAcross_)] =
+    boxOf(tile.receivers, tile.first, tile.columns, tile.rows);
 }
 
 //------------------------------------------------------------------------------

@@ -304,7 +304,7 @@ struct Flaps
     edges.update(this->occluders);
     std::vector<Certainty> certain(receivers.size(), Certainty::Uncertain);
     publishedRule(layers)(this->view, false, width, this->occluders, edges)
-      .ask(receivers, { 0, 1 }, certain);
+      .ask(receivers, 0, receivers.size(), { 0, 1 }, certain.data());
     return certain;
   }
 };
@@ -388,7 +388,7 @@ struct Askew
       receiversAt(this->view, [&](const glm::dvec2& texel) { return depthAt(texel) + behind; });
     std::vector<Certainty> certain(receivers.size(), Certainty::Uncertain);
     const std::uint8_t casts = onCaster ? 1 : 0;
-    this->map().ask(receivers, { 0, casts }, certain);
+    this->map().ask(receivers, 0, receivers.size(), { 0, casts }, certain.data());
     return certain;
   }
 };

@@ -374,12 +374,13 @@ TEST(Receivers, TilesAreThePicture)
     receivers.visitTiles(
       [&](const ReceiverTile& tile)
       {
-        const auto columns = static_cast<std::size_t>(tile.receivers.width);
-        pixels += tile.receivers.size();
-        for (std::size_t i = 0; i < tile.receivers.size(); ++i)
+        pixels += tile.size();
+        for (std::size_t n = 0; n < tile.size(); ++n)
         {
-          place(picture,
-            (tile.firstRow + i / columns) * receivers.width() + tile.firstColumn + i % columns,
+          const std::size_t row = n / tile.columns;
+          const std::size_t column = n % tile.columns;
+          const std::size_t i = tile.at(column, row);
+          place(picture, (tile.firstRow + row) * receivers.width() + tile.firstColumn + column,
             { positionOf(tile.receivers, i), normalOf(tile.receivers, i),
               tile.receivers.offset[i] },
             tile.receivers.surface[i]);
