@@ -162,6 +162,7 @@ TEST_P(Refining, restartsOnceWhenSomethingChanges)
       } },
     { "light", [&] { this->light->SetPosition(-2.0, -2.6, 6.0); } },
     { "size", [&] { this->light->SetWidth(1.3); } },
+    { "cone", [&] { this->light->SetConeAngle(45.0); } },
     { "shape", [&] { this->light->SetShapeToDisk(); } },
     { "caster", [&] { box->SetPosition(0.1, 0.0, 0.0); } },
     { "caster out of view", [&] { outOfView->SetPosition(0.1, 0.1, 0.0); } },
