@@ -337,7 +337,7 @@ vtkSmartPointer<vtkPolyData> makeBumps(int n, unsigned int seed)
       }
     }
   }
-  return makePolyData(points, quads);
+  return meshOf(points, quads);
 }
 
 /// Return polygons, then strips, lines and vertices. VTK skips parts of many polygons because their
@@ -445,12 +445,7 @@ void addNormals(vtkDataSetAttributes* attributes, vtkIdType count)
 
 vtkSmartPointer<vtkPolyData> moved(vtkPolyData* data, double x, double y)
 {
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    data->GetPoint(i, p);
-    data->GetPoints()->SetPoint(i, p[0] + x, p[1] + y, p[2]);
-  }
+  movePoints(data, [=](const glm::dvec3& at) { return at + glm::dvec3(x, y, 0.0); });
   return data;
 }
 
@@ -458,9 +453,9 @@ vtkSmartPointer<vtkPolyData> moved(vtkPolyData* data, double x, double y)
 
 TEST_F(DrawnSurfaces, ConcavePolygons)
 {
-  this->add(makePolyData(
-    { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 1, 0.4, 0 }, { 0, 2, 0 }, { -1, 1, 0 } },
-    { { 1, 2, 3, 4, 5, 0 } }));
+  this->add(
+    meshOf({ { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 1, 0.4, 0 }, { 0, 2, 0 }, { -1, 1, 0 } },
+      { { 1, 2, 3, 4, 5, 0 } }));
   this->expectRight(this->check());
 }
 
@@ -511,7 +506,7 @@ TEST_F(DrawnSurfaces, MixedCells)
 TEST_F(DrawnSurfaces, StripsBehindPolygonsThatAreAllSkipped)
 {
   const auto data =
-    makePolyData({ { 0, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0.2 }, { 0, 2, 0 } },
+    meshOf({ { 0, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0.2 }, { 0, 2, 0 } },
       { { 0, 1, 0, 1, 0 } });
   data->SetStrips(makeCells({ { 0, 2, 3, 4, 5 } }));
   this->add(data);
@@ -563,6 +558,7 @@ TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
 {
   // Twelve blocks with and without colours, normals and strips, some hidden or translucent.
   vtkNew<vtkMultiBlockDataSet> root;
+  vtkNew<vtkMultiBlockDataSet> hidden;
   std::vector<vtkSmartPointer<vtkPolyData>> blocks;
   for (unsigned int i = 0; i < 12; ++i)
   {
@@ -577,17 +573,18 @@ TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
       addNormals(block->GetPointData(), block->GetNumberOfPoints());
     }
     blocks.push_back(block);
-    root->SetBlock(2 * i, block); // every second block is null
+    (i == 5 || i == 6 ? hidden : root)->SetBlock(2 * i, block); // every second block is null
   }
+  root->SetBlock(10, hidden);
+  root->SetBlock(24, blocks[8]); // which VTK draws once
   vtkNew<SharedBlocksMapper> mapper;
   mapper->SetInputDataObject(root);
   vtkNew<vtkCompositeDataDisplayAttributes> attributes;
   mapper->SetCompositeDataDisplayAttributes(attributes);
-  attributes->SetBlockVisibility(blocks[5], false);
+  attributes->SetBlockVisibility(hidden, false);
+  attributes->SetBlockVisibility(blocks[6], true);
   attributes->SetBlockOpacity(blocks[7], 0.5);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  this->renderer->AddActor(actor);
+  this->renderer->AddActor(actorOf(mapper));
 
   const Count count = this->check();
   EXPECT_EQ(this->collector().occluders().surfaces.size(), 14u); // four with strips
@@ -646,8 +643,7 @@ TEST_F(DrawnSurfaces, OfMappersInsideOthers)
   for (const auto& [mapper, surfaces] : cases)
   {
     SCOPED_TRACE(mapper->GetInputDataObject(0, 0)->GetClassName());
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
+    const auto actor = actorOf(mapper);
     actor->SetPosition(3, -2, 1);
     actor->RotateZ(10);
     this->renderer->AddActor(actor);
@@ -714,8 +710,7 @@ TEST_F(DrawnSurfaces, ASharedMapperServesActorsWithMatricesOfTheirOwn)
   vtkActor* const first = this->add(makeMixed());
   for (const double side : { 1.0, -1.0 })
   {
-    vtkNew<vtkActor> other;
-    other->SetMapper(first->GetMapper());
+    const auto other = actorOf(first->GetMapper());
     other->SetPosition(1.5 * side, 0.2, 0);
     other->SetScale(side, 1, 1);
     other->RotateZ(40);

@@ -11,11 +11,9 @@
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
 #include "vtkGlyph3DMapper.h"
-#include "vtkImageData.h"
 #include "vtkImageSlice.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkOpenGLSphereMapper.h"
-#include "vtkPlane.h"
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
 #include "vtkProperty.h"
@@ -24,7 +22,6 @@
 #include "vtkShaderProperty.h"
 #include "vtkSphereSource.h"
 #include "vtkTextActor3D.h"
-#include "vtkTexture.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVolume.h"
 
@@ -109,9 +106,7 @@ vtkSmartPointer<vtkActor> makeCompositeActor(vtkDataObject* tree)
   mapper->SetInputDataObject(tree);
   vtkNew<vtkCompositeDataDisplayAttributes> attributes;
   mapper->SetCompositeDataDisplayAttributes(attributes);
-  const auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  return actor;
+  return actorOf(mapper);
 }
 
 /// One source at every point of a polydata.
@@ -135,8 +130,7 @@ TEST(OccluderTriangles, EqualVerticesAreNeverDrawnAndTakeNoNumber)
   // The second point equals the third. VTK draws one triangle of the quad; the other does not count
   // as dropped.
   Scene scene;
-  scene.add(
-    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } }));
+  scene.add(meshOf({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } }));
   scene.collect();
   ASSERT_EQ(scene.surface(0).triangleCount, 1u);
   EXPECT_TRUE(scene.surface(0).triangleOfDrawn.empty());
@@ -148,9 +142,8 @@ TEST(OccluderTriangles, EqualVerticesAreNeverDrawnAndTakeNoNumber)
 TEST(OccluderTriangles, DropsWhatHasNoAreaOrIsNotFinite)
 {
   Scene scene;
-  scene.add(
-    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 2, 0, 0 }, { notANumber, 0, 0 } },
-      { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 }, { 0, 1, 7 }, { 1, 3, 2 } }));
+  scene.add(meshOf({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 2, 0, 0 }, { notANumber, 0, 0 } },
+    { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 }, { 0, 1, 7 }, { 1, 3, 2 } }));
   scene.collect();
   EXPECT_EQ(scene.occluders().droppedZeroArea, 1u);
   EXPECT_EQ(scene.occluders().droppedNonFinite, 2u);
@@ -199,7 +192,7 @@ const std::vector<std::pair<std::string, MakeProp>>& propsWithLastPoint()
   };
   const auto glyphs = [=](const glm::dvec3& last, int resolution, vtkIdType count)
   {
-    const auto places = makePolyData(points(last), {}, VTK_DOUBLE);
+    const auto places = meshOf(points(last), {}, VTK_DOUBLE);
     while (places->GetNumberOfPoints() < count)
     {
       places->GetPoints()->InsertNextPoint(0.5, 0.5, 0.0);
@@ -212,12 +205,12 @@ const std::vector<std::pair<std::string, MakeProp>>& propsWithLastPoint()
   static const std::vector<std::pair<std::string, MakeProp>> props{
     { "polygons",
       [=](const glm::dvec3& last) {
-        return makeActor(makePolyData(points(last), { { 0, 1, 3, 2 }, { 0, 1, 4 } }, VTK_DOUBLE));
+        return makeActor(meshOf(points(last), { { 0, 1, 3, 2 }, { 0, 1, 4 } }, VTK_DOUBLE));
       } },
     { "strips",
       [=](const glm::dvec3& last)
       {
-        const auto data = makePolyData(points(last), {}, VTK_DOUBLE);
+        const auto data = meshOf(points(last), {}, VTK_DOUBLE);
         data->SetStrips(makeCells({ { 0, 1, 2, 3, 4 } }));
         return makeActor(data);
       } },
@@ -227,7 +220,7 @@ const std::vector<std::pair<std::string, MakeProp>>& propsWithLastPoint()
       [=](const glm::dvec3& last)
       {
         vtkNew<vtkOpenGLSphereMapper> mapper;
-        const auto data = makePolyData(points(last), {}, VTK_DOUBLE);
+        const auto data = meshOf(points(last), {}, VTK_DOUBLE);
         data->SetVerts(makeCells({ { 0 }, { 1 }, { 2 }, { 3 }, { 4 } }));
         mapper->SetInputData(data);
         mapper->SetRadius(0.5);
@@ -344,9 +337,8 @@ TEST(OccluderTriangles, PointsInAnyArrayAreRead)
 TEST(OccluderTriangles, OnlyUsedPointsBecomeVertices)
 {
   Scene scene;
-  scene.add(
-    makePolyData({ { 1e9, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { notANumber, 0, 0 } },
-      { { 1, 2, 3 } }));
+  scene.add(meshOf({ { 1e9, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { notANumber, 0, 0 } },
+    { { 1, 2, 3 } }));
   scene.collect();
   EXPECT_EQ(scene.surface(0).vertexCount, 3u);
   EXPECT_NEAR(scene.occluders().allCentred.radius(), std::sqrt(0.5), 1e-6);
@@ -470,29 +462,6 @@ TEST(OccluderProps, VerticesThatShaderCodeMayMoveAreNoted)
   EXPECT_FALSE(isNoted());
 }
 
-TEST(OccluderProps, TranslucentOnesAreHeldIfAskedToCast)
-{
-  Scene scene;
-  vtkActor* const pane = scene.add(makeSquare());
-  pane->GetProperty()->SetOpacity(0.5);
-  EXPECT_EQ(scene.collectSurfaces(), 0u);
-  EXPECT_EQ(scene.collector.translucentReceivers(), 1u);
-  vtkGnomonPropKeys::SetCasts(pane, true);
-  ASSERT_EQ(scene.collectSurfaces(), 1u);
-  EXPECT_FALSE(scene.surface(0).casts);
-  ASSERT_TRUE(scene.surface(0).sheet);
-  EXPECT_EQ(scene.surface(0).sheet->colour.a, 0.5f);
-  vtkGnomonPropKeys::SetTransmits(pane, vtkGnomonPropKeys::TRANSMITS_NOTHING);
-  scene.collect();
-  EXPECT_TRUE(scene.surface(0).casts);
-  EXPECT_FALSE(scene.surface(0).sheet);
-  vtkGnomonPropKeys::SetReceives(pane, false);
-  scene.collect();
-  EXPECT_EQ(scene.collector.translucentReceivers(), 0u);
-  vtkGnomonPropKeys::SetCasts(pane, false);
-  EXPECT_EQ(scene.collectSurfaces(), 0u);
-}
-
 TEST(OccluderGlyphs, GlyphsThatVtkDoesNotDrawAreLeftOut)
 {
   Scene scene;
@@ -535,7 +504,7 @@ TEST(OccluderGlyphs, MoreTrianglesThanTheBoundAreLeftOutAndNoted)
     corners.insert(corners.end(), { { 0, 0, i }, { 1, 0, i }, { 0, 1, i } });
     triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
   }
-  const PlacedGlyphs glyphs(points, makePolyData(corners, triangles));
+  const PlacedGlyphs glyphs(points, meshOf(corners, triangles));
   scene.renderer->AddActor(glyphs.actor);
   scene.add(makeSquare());
   for (int frame = 0; frame < 2; ++frame)
@@ -556,45 +525,6 @@ TEST(OccluderGlyphs, AreKeptAsInstancesWhereThatIsCheaper)
   EXPECT_FALSE(areInstancesCheaper(0, 1000000));
 }
 
-/// VTK replaces a scale of 0 by 1e-10; the triangles of these glyphs have no area.
-TEST(OccluderGlyphs, InstancesThatCannotBeSeenAreLeftOut)
-{
-  Scene scene;
-  const auto points = vtkSmartPointer<vtkPolyData>::New();
-  points->SetPoints(vtkNew<vtkPoints>());
-  for (int i = 0; i < 4096; ++i)
-  {
-    points->GetPoints()->InsertNextPoint(0.0, i == 5 ? notANumber : 2.0 * i, 0.0);
-  }
-  vtkNew<vtkPlaneSource> source;
-  source->SetResolution(4, 8); // 64 triangles
-  source->Update();
-  const PlacedGlyphs glyphs(points, source->GetOutput());
-  vtkNew<vtkFloatArray> sizes;
-  sizes->SetName("sizes");
-  sizes->SetNumberOfTuples(4096);
-  sizes->Fill(1.0);
-  sizes->SetTuple1(17, 0.0);
-  points->GetPointData()->AddArray(sizes);
-  glyphs.mapper->SetScaleArray("sizes");
-  glyphs.mapper->SetScaleModeToScaleByMagnitude();
-  scene.renderer->AddActor(glyphs.actor);
-  scene.collect();
-  const std::vector<glm::mat4x3>& instances = scene.surface(0).centredFromSource;
-  ASSERT_EQ(instances.size(), 4096u);
-  for (std::size_t i = 0; i < 4096; ++i)
-  {
-    EXPECT_EQ(Surface::isLeftOut(instances[i]), i == 5 || i == 17) << i;
-  }
-  EXPECT_EQ(scene.occluders().droppedNonFinite, 64u);
-  EXPECT_EQ(scene.occluders().droppedZeroArea, 64u);
-
-  glyphs.actor->SetScale(0.0, 0.0, 0.0);
-  scene.collect();
-  EXPECT_EQ(scene.occluders().droppedNonFinite + scene.occluders().droppedZeroArea, 64u * 4096u);
-  EXPECT_TRUE(scene.occluders().castersCentred.empty());
-}
-
 TEST(OccluderProps, AMappersPieceIsAskedFor)
 {
   Scene scene;
@@ -613,42 +543,6 @@ TEST(OccluderProps, AMappersPieceIsAskedFor)
   mapper->SetNumberOfPieces(1);
   scene.collect();
   EXPECT_EQ(scene.surface(0).triangleCount, 2 * half);
-}
-
-TEST(OccluderBlocks, FollowVisibilityAndOpacityAsDrawn)
-{
-  // root { a, none, branch { b, c }, a again }
-  Scene scene;
-  const auto a = makeSquare();
-  const auto c = makeSquare();
-  vtkNew<vtkMultiBlockDataSet> branch;
-  branch->SetBlock(0, makeSquare());
-  branch->SetBlock(1, c);
-  vtkNew<vtkMultiBlockDataSet> root;
-  root->SetBlock(0, a);
-  root->SetBlock(1, nullptr);
-  root->SetBlock(2, branch);
-  root->SetBlock(3, a);
-  const auto actor = makeCompositeActor(root);
-  vtkCompositeDataDisplayAttributes* const attributes =
-    SharedBlocksMapper::SafeDownCast(actor->GetMapper())->GetCompositeDataDisplayAttributes();
-  scene.renderer->AddActor(actor);
-  EXPECT_EQ(scene.collectSurfaces(), 3u); // a is drawn once
-
-  // A visible block below a hidden one is drawn.
-  attributes->SetBlockVisibility(branch, false);
-  attributes->SetBlockVisibility(c, true);
-  EXPECT_EQ(scene.collectSurfaces(), 2u);
-  attributes->SetBlockOpacity(c, 0.5);
-  EXPECT_EQ(scene.collectSurfaces(), 1u);
-
-  attributes->RemoveBlockVisibilities();
-  attributes->RemoveBlockOpacities();
-  // Up to VTK 9.3 the opaque pass skips a translucent actor; later it draws the actor's opaque
-  // blocks.
-  actor->GetProperty()->SetOpacity(0.5);
-  attributes->SetBlockOpacity(a, 1.0);
-  EXPECT_EQ(scene.collectSurfaces(), actor->HasOpaqueGeometry() ? 1u : 0u);
 }
 
 TEST(OccluderBlocks, AnEditedBlockIsReadAlone)
@@ -684,26 +578,6 @@ TEST(OccluderChanges, ModifiedDataOfTheSameShapeKeepsVersions)
   scalars->Fill(1.0);
   square->GetPointData()->SetScalars(scalars);
   expectNothingDone(scene);
-}
-
-TEST(OccluderChanges, ChangedFlagsKeepGeometry)
-{
-  Scene scene;
-  vtkActor* const actor = scene.add(makeSquare());
-  actor->SetPosition(3, 0, 0);
-  scene.add(makeSquare());
-  scene.collect();
-  const Occluders before = scene.occluders();
-  vtkGnomonPropKeys::SetCasts(actor, false);
-  const SnapshotChange change = scene.collect();
-  EXPECT_EQ(change.extracted + change.retransformed, 0);
-  EXPECT_FALSE(scene.surface(0).casts);
-  EXPECT_NE(scene.occluders().topologyVersion, before.topologyVersion);
-  EXPECT_EQ(scene.surface(0).topologyVersion, before.surfaces[0].topologyVersion);
-  EXPECT_EQ(scene.surface(0).positionsVersion, before.surfaces[0].positionsVersion);
-  const glm::dvec3 centre = scene.occluders().frame.centre;
-  expectNear(scene.occluders().castersCentred.upper + centre, { 1, 1, 0 });
-  expectNear(scene.occluders().allCentred.upper + centre, { 4, 1, 0 });
 }
 
 TEST(OccluderCentre, LiesOnAGridAsCoarseAsTheScene)
@@ -796,44 +670,10 @@ TEST(OccluderCentre, DoesNotDependOnRemovedProps)
   EXPECT_EQ(scene.occluders().allCentred.upper, before.allCentred.upper);
 }
 
-namespace
-{
-
-/// Return a texture with these alphas, side by side.
-vtkSmartPointer<vtkTexture> makeTexture(const std::vector<int>& alphas)
-{
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(alphas.size()), 1, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  for (std::size_t i = 0; i < alphas.size(); ++i)
-  {
-    image->SetScalarComponentFromDouble(static_cast<int>(i), 0, 0, 3, alphas[i]);
-  }
-  auto texture = vtkSmartPointer<vtkTexture>::New();
-  texture->SetInputData(image);
-  return texture;
-}
-
-/// Return the unit square, with texture coordinates equal to its points.
-vtkSmartPointer<vtkPolyData> makeTexturedSquare()
-{
-  auto square = makeSquare();
-  vtkNew<vtkFloatArray> coordinates;
-  coordinates->SetNumberOfComponents(2);
-  for (vtkIdType i = 0; i < square->GetNumberOfPoints(); ++i)
-  {
-    coordinates->InsertNextTuple2(square->GetPoint(i)[0], square->GetPoint(i)[1]);
-  }
-  square->GetPointData()->SetTCoords(coordinates);
-  return square;
-}
-
-} // namespace
-
 TEST(OccluderCutouts, CoordinatesThatAreNotFiniteOrNotThereAreZero)
 {
   Scene scene;
-  const auto square = makeTexturedSquare();
+  const auto square = makeSquare();
   vtkNew<vtkFloatArray> coordinates;
   coordinates->SetNumberOfComponents(2);
   coordinates->InsertNextTuple2(notANumber, 0.5);
@@ -841,49 +681,8 @@ TEST(OccluderCutouts, CoordinatesThatAreNotFiniteOrNotThereAreZero)
   coordinates->InsertNextTuple2(0.25, 0.5);
   square->GetPointData()->SetTCoords(coordinates);
   vtkActor* const actor = scene.add(square);
-  actor->SetTexture(makeTexture({ 0, 255 }));
+  actor->SetTexture(textureOf(makeVeil(2, 1, [](int x, int) { return 255 * x; })));
   scene.collect();
   EXPECT_EQ(scene.surface(0).textureCoordinates,
     (std::vector<glm::vec2>{ { 0, 0 }, { 0, 0 }, { 0.25, 0.5 }, { 0, 0 } }));
-}
-
-TEST(OccluderCutouts, AreHeldForTexturesWithHolesOnly)
-{
-  Scene scene;
-  vtkActor* const actor = scene.add(makeTexturedSquare());
-  scene.add(makeSquare()); // without texture coordinates
-  scene.collect();
-  const auto expectNone = [&]
-  {
-    EXPECT_FALSE(scene.surface(0).cutout);
-    EXPECT_TRUE(scene.surface(0).textureCoordinates.empty());
-  };
-  actor->SetTexture(makeTexture({ 255, 255, 255 }));
-  expectNothingDone(scene);
-  expectNone();
-
-  actor->SetTexture(makeTexture({ 0, 255, 0 }));
-  EXPECT_EQ(scene.collect().extracted, 1);
-  ASSERT_TRUE(scene.surface(0).cutout);
-  EXPECT_EQ(scene.surface(0).cutout->texels, (std::vector<std::uint8_t>{ 0, 255, 0 }));
-  EXPECT_EQ(scene.surface(0).textureCoordinates,
-    (std::vector<glm::vec2>{ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }));
-  EXPECT_FALSE(scene.surface(1).cutout);
-  expectNothingDone(scene);
-
-  // Neither another mask nor a movement makes another surface.
-  const std::uint64_t topology = scene.occluders().topologyVersion;
-  const std::uint64_t surface = scene.surface(0).topologyVersion;
-  actor->SetTexture(makeTexture({ 255, 0, 0 }));
-  actor->SetPosition(1.0, 0.0, 0.0);
-  const SnapshotChange change = scene.collect();
-  EXPECT_EQ(change.extracted, 0);
-  EXPECT_EQ(change.retransformed, 1);
-  EXPECT_GT(scene.occluders().topologyVersion, topology);
-  EXPECT_EQ(scene.surface(0).topologyVersion, surface);
-  EXPECT_EQ(scene.surface(0).cutout->texels, (std::vector<std::uint8_t>{ 255, 0, 0 }));
-  EXPECT_EQ(scene.surface(0).textureCoordinates.size(), 4u);
-  actor->SetTexture(nullptr);
-  scene.collect();
-  expectNone();
 }

@@ -11,7 +11,6 @@
 #include "vtkActor2D.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
-#include "vtkImageData.h"
 #include "vtkLookupTable.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPlane.h"
@@ -46,15 +45,14 @@ namespace
 struct PlainScene
 {
   vtkSmartPointer<vtkPolyData> otherSquare =
-    makePolyData({ { 0, 0, 0 }, { 3, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } });
+    meshOf({ { 0, 0, 0 }, { 3, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } });
   vtkSmartPointer<vtkActor> otherActor = makeActor(otherSquare);
   vtkNew<vtkProperty> glass;
   vtkNew<vtkLookupTable> clearColours;
-  vtkNew<vtkFloatArray> otherScalars;
   vtkNew<vtkTransform> transform;
   vtkNew<vtkTexture> perforated;
   vtkSmartPointer<vtkPoints> otherPoints =
-    makePoints({ { 0, 0, 0 }, { 1, 0, 2 }, { 1, 1, 0 }, { 0, 1, 0 } });
+    meshOf({ { 0, 0, 0 }, { 1, 0, 2 }, { 1, 1, 0 }, { 0, 1, 0 } }, {})->GetPoints();
   vtkSmartPointer<vtkCellArray> otherCells = makeCells({ { 0, 1, 2 } });
   vtkNew<vtkPlane> plane;
   vtkNew<vtkPlaneCollection> planes;
@@ -85,12 +83,7 @@ struct PlainScene
     }
     this->clearColours->SetTableValue(1, 1.0, 1.0, 1.0, 0.5);
     this->transform->Translate(0.0, 0.0, 4.0);
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(2, 1, 1);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-    image->SetScalarComponentFromDouble(0, 0, 0, 3, 255.0);
-    image->SetScalarComponentFromDouble(1, 0, 0, 3, 0.0);
-    this->perforated->SetInputData(image);
+    this->perforated->SetInputData(makeVeil(2, 1, [](int x, int) { return x == 0 ? 255 : 0; }));
     this->plane->SetNormal(1.0, 0.0, 0.0);
     this->plane->SetOrigin(0.5, 0.0, 0.0);
 

@@ -54,10 +54,11 @@ vtkSmartPointer<vtkPolyData> copyOf(vtkAlgorithm* source)
   return copy;
 }
 
-vtkSmartPointer<vtkPolyData> meshOf(
-  const std::vector<glm::dvec3>& points, const std::vector<std::vector<vtkIdType>>& polygons)
+vtkSmartPointer<vtkPolyData> meshOf(const std::vector<glm::dvec3>& points,
+  const std::vector<std::vector<vtkIdType>>& polygons, int dataType)
 {
   vtkNew<vtkPoints> corners;
+  corners->SetDataType(dataType);
   for (const glm::dvec3& point : points)
   {
     corners->InsertNextPoint(point.x, point.y, point.z);

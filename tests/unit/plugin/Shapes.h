@@ -40,8 +40,8 @@ vtkSmartPointer<vtkPolyData> outputOf(vtkAlgorithm* source);
 /// Return a copy of a source's data, which a test may change.
 vtkSmartPointer<vtkPolyData> copyOf(vtkAlgorithm* source);
 /// Return a mesh; polygons name their corners by number.
-vtkSmartPointer<vtkPolyData> meshOf(
-  const std::vector<glm::dvec3>& points, const std::vector<std::vector<vtkIdType>>& polygons);
+vtkSmartPointer<vtkPolyData> meshOf(const std::vector<glm::dvec3>& points,
+  const std::vector<std::vector<vtkIdType>>& polygons, int dataType = VTK_FLOAT);
 /// Return composite data of these blocks.
 vtkSmartPointer<vtkMultiBlockDataSet> blocksOf(const std::vector<vtkDataObject*>& blocks);
 /// Replace each point of a mesh, and tell of it.
