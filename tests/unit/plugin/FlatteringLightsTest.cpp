@@ -1,53 +1,22 @@
 // Key and fill lights that are placed by a look at the scene. Shares are counted once more by VTK's
 // own cell locator, on other rays.
 
-#include "VtkMessages.h"
+#include "PassScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonFlatteringLights.h"
-#include "plugin/vtkGnomonPropKeys.h"
 
-#include <vtkActor.h>
 #include <vtkAppendPolyData.h>
-#include <vtkCamera.h>
 #include <vtkConeSource.h>
 #include <vtkContourFilter.h>
-#include <vtkCubeSource.h>
 #include <vtkGenericCell.h>
-#include <vtkImageData.h>
-#include <vtkLight.h>
 #include <vtkMolecule.h>
 #include <vtkMoleculeMapper.h>
-#include <vtkNew.h>
-#include <vtkOBJReader.h>
 #include <vtkPeriodicTable.h>
-#include <vtkPlaneSource.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkPolygon.h>
-#include <vtkProperty.h>
 #include <vtkRTAnalyticSource.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
-#include <vtkSphereSource.h>
 #include <vtkStaticCellLocator.h>
-#include <vtkTransform.h>
 
-#include <glm/glm.hpp>
-#include <glm/gtc/type_ptr.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-#include <limits>
 #include <optional>
-#include <ostream>
-#include <string>
-#include <vector>
 
 namespace gnomon::test
 {
@@ -63,19 +32,10 @@ struct Subject
   vtkSmartPointer<vtkActor> actor;
 };
 
-vtkSmartPointer<vtkActor> actorOf(vtkPolyData* surface)
+Subject subjectOf(vtkAlgorithm* source)
 {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(surface);
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  return actor;
-}
-
-Subject subjectOf(vtkPolyDataAlgorithm* source)
-{
-  source->Update();
-  return { source->GetOutput(), actorOf(source->GetOutput()) };
+  const vtkSmartPointer<vtkPolyData> surface = copyOf(source);
+  return { surface, actorOf(mapperOf(surface)) };
 }
 
 Subject cone()
@@ -88,29 +48,7 @@ Subject cone()
 
 Subject sphere()
 {
-  vtkNew<vtkSphereSource> source;
-  source->SetThetaResolution(48);
-  source->SetPhiResolution(48);
-  return subjectOf(source);
-}
-
-Subject bunny()
-{
-  const char* const file = "/usr/share/glmark2/models/bunny.obj";
-  if (!std::filesystem::exists(file))
-  {
-    return {};
-  }
-  vtkNew<vtkOBJReader> reader;
-  reader->SetFileName(file);
-  reader->Update();
-  const vtkSmartPointer<vtkPolyData> surface = reader->GetOutput();
-  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i) // y is up in the file
-  {
-    const glm::dvec3 point = glm::make_vec3(surface->GetPoint(i));
-    surface->GetPoints()->SetPoint(i, point.x, -point.z, point.y);
-  }
-  return { surface, actorOf(surface) };
+  return subjectOf(ballOf(glm::dvec3(0.0), 0.5, 48, 48));
 }
 
 /// Balls in a helix, which a molecule mapper shows as impostors.
@@ -124,11 +62,7 @@ Subject molecule()
     const glm::dvec3 centre(3.0 * std::cos(0.6 * i), 3.0 * std::sin(0.6 * i), 0.5 * i);
     const unsigned short element = i % 3 == 0 ? 8 : 6;
     molecule->AppendAtom(element, centre.x, centre.y, centre.z);
-    vtkNew<vtkSphereSource> ball;
-    ball->SetCenter(centre.x, centre.y, centre.z);
-    ball->SetRadius(table->GetVDWRadius(element));
-    ball->SetThetaResolution(24);
-    ball->SetPhiResolution(24);
+    const auto ball = ballOf(centre, table->GetVDWRadius(element), 24, 24);
     balls->AddInputConnection(ball->GetOutputPort());
   }
   balls->Update();
@@ -142,18 +76,15 @@ Subject molecule()
 
 Subject terrain()
 {
-  vtkNew<vtkPlaneSource> source;
-  source->SetResolution(120, 120);
-  source->Update();
-  const vtkSmartPointer<vtkPolyData> surface = source->GetOutput();
-  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
-  {
-    glm::dvec3 point = glm::make_vec3(surface->GetPoint(i));
-    point.z = 0.07 * std::sin(9.0 * point.x + 1.0) * std::cos(7.0 * point.y) +
-      0.03 * std::sin(23.0 * point.x) * std::sin(19.0 * point.y + 2.0);
-    surface->GetPoints()->SetPoint(i, glm::value_ptr(point));
-  }
-  return { surface, actorOf(surface) };
+  Subject subject = subjectOf(squareOf(0.5, 0.0, 120));
+  movePoints(subject.surface,
+    [](const glm::dvec3& at)
+    {
+      return glm::dvec3(at.x, at.y,
+        0.07 * std::sin(9.0 * at.x + 1.0) * std::cos(7.0 * at.y) +
+          0.03 * std::sin(23.0 * at.x) * std::sin(19.0 * at.y + 2.0));
+    });
+  return subject;
 }
 
 /// The surface of a value of VTK's test image, with pits and detached parts as of a scan.
@@ -185,10 +116,6 @@ struct LitScene
   explicit LitScene(const Case& of)
     : subject(of.make())
   {
-    if (!this->subject.surface)
-    {
-      return;
-    }
     this->renderer->AddActor(this->subject.actor);
     this->look(of.from);
     if (of.hasGround)
@@ -213,11 +140,8 @@ struct LitScene
     const double* const box = this->subject.surface->GetBounds();
     const double side = 1.5 * std::max(box[1] - box[0], box[3] - box[2]);
     const double z = box[4] - 1e-3 * side;
-    vtkNew<vtkPlaneSource> source;
-    source->SetOrigin(box[0] - side, box[2] - side, z);
-    source->SetPoint1(box[1] + side, box[2] - side, z);
-    source->SetPoint2(box[0] - side, box[3] + side, z);
-    this->ground = subjectOf(source);
+    this->ground = subjectOf(planeOf({ box[0] - side, box[2] - side, z },
+      { box[1] + side, box[2] - side, z }, { box[0] - side, box[3] + side, z }));
     this->renderer->AddActor(this->ground.actor);
     this->renderer->ResetCameraClippingRange();
   }
@@ -246,47 +170,51 @@ struct LitScene
   vtkNew<vtkGnomonFlatteringLights> lights;
 };
 
-/// Finds hits of rays by VTK.
-class Locator
+/// The subject and the ground, of which VTK finds the hits of rays.
+class Surfaces
 {
 public:
-  explicit Locator(vtkPolyData* surface)
-    : surface_(surface)
+  explicit Surfaces(const LitScene& scene)
+    : subjectCells_(scene.subject.surface->GetNumberOfCells())
   {
-    if (surface)
+    vtkNew<vtkAppendPolyData> both;
+    both->AddInputData(scene.subject.surface);
+    if (scene.ground.surface)
     {
-      this->locator_->SetDataSet(surface);
-      this->locator_->BuildLocator();
+      both->AddInputData(scene.ground.surface);
     }
+    this->locator_->SetDataSet(outputOf(both));
+    this->locator_->BuildLocator();
   }
 
   struct Hit
   {
-    double at;
     glm::dvec3 position;
     glm::dvec3 normal;
+    bool isSubject;
   };
-  /// Return the first hit between two points; `at` counts in their distance.
-  std::optional<Hit> hit(glm::dvec3 from, glm::dvec3 to) const
+  /// Return the first hit between two points.
+  std::optional<Hit> hit(const glm::dvec3& from, const glm::dvec3& to) const
   {
     Hit hit{};
+    double along = 0.0;
     double across[3];
     int part = 0;
     vtkIdType cell = -1;
     vtkNew<vtkGenericCell> scratch;
-    if (!this->surface_ ||
-      !this->locator_->IntersectWithLine(
-        &from.x, &to.x, 0.0, hit.at, &hit.position.x, across, part, cell, scratch))
+    if (!this->locator_->IntersectWithLine(
+          &from.x, &to.x, 0.0, along, &hit.position.x, across, part, cell, scratch))
     {
       return std::nullopt;
     }
     vtkPolygon::ComputeNormal(scratch->GetPoints(), &hit.normal.x);
     hit.normal *= glm::dot(hit.normal, to - from) > 0.0 ? -1.0 : 1.0;
+    hit.isSubject = cell < this->subjectCells_;
     return hit;
   }
 
 private:
-  vtkPolyData* surface_;
+  vtkIdType subjectCells_;
   vtkNew<vtkStaticCellLocator> locator_;
 };
 
@@ -300,8 +228,7 @@ struct Shares
 Shares count(const LitScene& scene)
 {
   constexpr int across = 71;
-  const Locator subject(scene.subject.surface);
-  const Locator ground(scene.ground.surface);
+  const Surfaces surfaces(scene);
   vtkCamera* const camera = scene.renderer->GetActiveCamera();
   const glm::dvec3 eye = glm::make_vec3(camera->GetPosition());
   const glm::dvec3 forward = glm::make_vec3(camera->GetDirectionOfProjection());
@@ -309,8 +236,8 @@ Shares count(const LitScene& scene)
   const glm::dvec3 up = glm::cross(right, forward);
   const double half = std::tan(glm::radians(0.5 * camera->GetViewAngle()));
   const double reach = 10.0 * camera->GetDistance();
-  std::vector<Locator::Hit> onSubject;
-  std::vector<Locator::Hit> onGround;
+  std::vector<Surfaces::Hit> onSubject;
+  std::vector<Surfaces::Hit> onGround;
   glm::dvec3 lower(std::numeric_limits<double>::infinity());
   glm::dvec3 upper(-lower);
   for (int i = 0; i < across * across; ++i)
@@ -318,34 +245,27 @@ Shares count(const LitScene& scene)
     const double x = (2.0 * (i % across) + 1.0) / across - 1.0;
     const double y = (2.0 * (i / across) + 1.0) / across - 1.0;
     const glm::dvec3 end = eye + reach * (forward + half * (x * right + y * up));
-    const auto first = subject.hit(eye, end);
-    const auto second = ground.hit(eye, end);
-    if (first && (!second || first->at < second->at))
+    if (const auto first = surfaces.hit(eye, end))
     {
-      onSubject.push_back(*first);
-      lower = glm::min(lower, first->position);
-      upper = glm::max(upper, first->position);
-    }
-    else if (second)
-    {
-      onGround.push_back(*second);
+      (first->isSubject ? onSubject : onGround).push_back(*first);
+      lower = first->isSubject ? glm::min(lower, first->position) : lower;
+      upper = first->isSubject ? glm::max(upper, first->position) : upper;
     }
   }
   const glm::dvec3 towards = LitScene::towards(scene.key);
-  const auto isBlocked = [&](const Locator::Hit& point)
+  const auto isBlocked = [&](const Surfaces::Hit& point)
   {
     const glm::dvec3 start = point.position + 1e-4 * camera->GetDistance() * point.normal;
-    return subject.hit(start, start + reach * towards) ||
-      ground.hit(start, start + reach * towards);
+    return surfaces.hit(start, start + reach * towards).has_value();
   };
   double lit = 0.0;
-  for (const Locator::Hit& point : onSubject)
+  for (const Surfaces::Hit& point : onSubject)
   {
     lit += glm::dot(point.normal, towards) > 0.0 && !isBlocked(point) ? 1.0 : 0.0;
   }
   double near = 0.0;
   double dark = 0.0;
-  for (const Locator::Hit& point : onGround)
+  for (const Surfaces::Hit& point : onGround)
   {
     if (glm::distance(point.position, 0.5 * (lower + upper)) < 0.75 * glm::distance(lower, upper))
     {
@@ -364,10 +284,6 @@ class FlatteringLightsOf : public testing::TestWithParam<Case>
 TEST_P(FlatteringLightsOf, sceneShowItAndItsShadow)
 {
   LitScene scene(GetParam());
-  if (!scene.subject.surface)
-  {
-    GTEST_SKIP() << "there is no model";
-  }
   ASSERT_TRUE(scene.make());
   const Shares shares = count(scene);
   RecordProperty("lit", std::to_string(shares.lit));
@@ -395,8 +311,6 @@ INSTANTIATE_TEST_SUITE_P(Table, FlatteringLightsOf,
     Case{ "Sphere", sphere, { 0.0, -1.0, 0.0 }, false },
     Case{ "SphereOnGround", sphere, { 0.0, -1.0, 0.5 }, true },
     Case{ "SphereFromAbove", sphere, { 0.0, 0.0, 1.0 }, true },
-    Case{ "Bunny", bunny, { 0.3, -1.0, 0.2 }, false },
-    Case{ "BunnyOnGround", bunny, { 0.3, -1.0, 0.5 }, true },
     Case{ "Molecule", molecule, { 0.5, -1.0, 0.3 }, false },
     Case{ "MoleculeOnGround", molecule, { 0.5, -1.0, 0.5 }, true },
     Case{ "Terrain", terrain, { 0.3, -1.0, 0.9 }, false },
@@ -472,8 +386,8 @@ TEST(FlatteringLights, seeWallsAsGround)
   LitScene scene(ballOnGround());
   for (const double x : { 0.0, -2.05 }) // a wall behind, and a narrow one beside
   {
-    vtkNew<vtkCubeSource> wall;
-    wall->SetBounds(x - 2.0, x < 0.0 ? x : 2.0, x < 0.0 ? -2.0 : 2.0, 2.1, -0.5, 3.0);
+    const auto wall =
+      boxOf({ x - 2.0, x < 0.0 ? -2.0 : 2.0, -0.5 }, { x < 0.0 ? x : 2.0, 2.1, 3.0 });
     scene.renderer->AddActor(subjectOf(wall).actor);
   }
   scene.look({ 0.2, -1.0, 0.4 });
@@ -487,11 +401,7 @@ TEST(FlatteringLights, seeWallsAsGround)
 TEST(FlatteringLights, sayWhereNoDirectionDoesBoth)
 {
   LitScene scene(ballOnGround());
-  vtkNew<vtkCubeSource> room;
-  room->SetXLength(100.0);
-  room->SetYLength(100.0);
-  room->SetZLength(100.0);
-  scene.renderer->AddActor(subjectOf(room).actor);
+  scene.renderer->AddActor(subjectOf(boxOf(glm::dvec3(-50.0), glm::dvec3(50.0))).actor);
   ASSERT_TRUE(scene.make());
   EXPECT_THAT(scene.lights->GetNote(), HasSubstr("No direction"));
   EXPECT_EQ(scene.lights->GetLitShare(), 0.0);

@@ -8,11 +8,9 @@
 #include <vtkCylinderSource.h>
 #include <vtkLineSource.h>
 #include <vtkPolyDataNormals.h>
-#include <vtkTransformPolyDataFilter.h>
+#include <vtkStaticCellLocator.h>
 #include <vtkTriangleFilter.h>
 #include <vtkTubeFilter.h>
-
-#include <optional>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -22,61 +20,37 @@ namespace
 
 using Mesh = vtkSmartPointer<vtkPolyData>;
 
-/// A caster.
-struct Shape
+Mesh ball(const glm::dvec3& centre, double radius)
 {
-  enum Kind
-  {
-    Ball,
-    Box,
-    Stick ///< a cylinder along z
-  };
-  Kind kind;
-  glm::dvec3 centre;
-  glm::dvec3 half; ///< of a ball and of a stick's x and y: the radius
+  return outputOf(ballOf(centre, radius, 60, 40));
+}
 
-  Mesh mesh() const
-  {
-    vtkNew<vtkTransform> placed;
-    placed->Translate(this->centre.x, this->centre.y, this->centre.z);
-    placed->Scale(this->half.x, this->half.y, this->half.z);
-    vtkNew<vtkTransformPolyDataFilter> place;
-    place->SetTransform(placed);
-    const auto ball = ballOf(glm::dvec3(0.0), 1.0, 60, 40);
-    const auto box = boxOf(glm::dvec3(-1.0), glm::dvec3(1.0));
-    vtkNew<vtkCylinderSource> stick;
-    stick->SetRadius(1.0);
-    stick->SetHeight(2.0);
-    stick->SetResolution(60);
-    if (this->kind == Stick)
-    {
-      placed->RotateX(90.0);
-    }
-    vtkAlgorithm* const sources[] = { ball, box, stick };
-    place->SetInputConnection(sources[this->kind]->GetOutputPort());
-    return outputOf(place);
-  }
-};
-
-Shape ball(const glm::dvec3& centre, double radius)
+Mesh cube(const glm::dvec3& lower, const glm::dvec3& upper)
 {
-  return { Shape::Ball, centre, glm::dvec3(radius) };
+  return outputOf(boxOf(lower, upper));
+}
+
+/// A cylinder along z.
+Mesh stick(const glm::dvec3& centre, double radius, double halfHeight)
+{
+  vtkNew<vtkCylinderSource> along; // y
+  along->SetRadius(radius);
+  along->SetHeight(2.0 * halfHeight);
+  along->SetResolution(60);
+  const Mesh mesh = outputOf(along);
+  movePoints(mesh, [&](const glm::dvec3& at) { return centre + glm::dvec3(at.x, -at.z, at.y); });
+  return mesh;
 }
 
 /// A receiver, and its casters.
 struct Scene
 {
   Mesh ground;
-  std::vector<Shape> casters;
+  std::vector<Mesh> casters;
   bool isAppended; ///< the casters are in the ground's polydata
   glm::dvec3 eye, target;
   glm::dvec3 towardsSun;
 };
-
-Mesh cube(const glm::dvec3& lower, const glm::dvec3& upper)
-{
-  return Shape{ Shape::Box, 0.5 * (lower + upper), 0.5 * (upper - lower) }.mesh();
-}
 
 /// Return a square sheet with posts `step` apart.
 template <typename Height>
@@ -94,34 +68,22 @@ Mesh sheet(double half, double step, const Height& height)
 /// Return the height of a sheet's triangles at a place.
 double heightOf(vtkPolyData* mesh, double x, double y)
 {
-  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
-  {
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    mesh->GetCellPoints(i, count, ids);
-    std::array<glm::dvec3, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      mesh->GetPoint(ids[k], &corners[k].x);
-    }
-    const glm::dvec2 first(corners[0]), a = glm::dvec2(corners[1]) - first,
-                                        b = glm::dvec2(corners[2]) - first,
-                                        at = glm::dvec2(x, y) - first;
-    const double area = a.x * b.y - a.y * b.x;
-    const double u = (at.x * b.y - at.y * b.x) / area, v = (a.x * at.y - a.y * at.x) / area;
-    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0)
-    {
-      return corners[0].z + u * (corners[1].z - corners[0].z) + v * (corners[2].z - corners[0].z);
-    }
-  }
-  return 0.0;
+  vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(mesh);
+  locator->BuildLocator();
+  const glm::dvec3 above(x, y, 10.0), below(x, y, -10.0);
+  double along = 0.0;
+  glm::dvec3 at(0.0), inCell(0.0);
+  int part = 0;
+  locator->IntersectWithLine(&above.x, &below.x, 0.0, along, &at.x, &inCell.x, part);
+  return at.z;
 }
 
 Scene slab()
 {
   return { cube({ -4.0, -4.0, -0.5 }, { 4.0, 4.0, 0.0 }),
-    { ball({ 0.0, 0.0, 0.4 }, 0.4), { Shape::Box, { -1.5, 0.5, 0.15 }, { 0.2, 0.3, 0.15 } },
-      { Shape::Stick, { 1.3, 0.3, 0.5 }, { 0.06, 0.06, 0.5 } } },
+    { ball({ 0.0, 0.0, 0.4 }, 0.4), cube({ -1.7, 0.2, 0.0 }, { -1.3, 0.8, 0.3 }),
+      stick({ 1.3, 0.3, 0.5 }, 0.06, 0.5) },
     false, { 0.0, -6.0, 5.0 }, { 0.0, 0.0, 0.0 }, { 1.0, -0.6, 0.9 } };
 }
 
@@ -137,8 +99,9 @@ Scene terrain()
   {
     const double half = 0.5 * sizes[i % 5];
     const double x = 0.5 + 0.21 * (i / 5), y = 0.55 + 0.21 * (i % 5);
-    const double z = heightOf(scene.ground, x, y) + half;
-    scene.casters.push_back({ static_cast<Shape::Kind>(i % 3), { x, y, z }, glm::dvec3(half) });
+    const glm::dvec3 at(x, y, heightOf(scene.ground, x, y) + half);
+    const Mesh stones[] = { ball(at, half), cube(at - half, at + half), stick(at, half, half) };
+    scene.casters.push_back(stones[i % 3]);
   }
   return scene;
 }
@@ -157,11 +120,10 @@ Scene spheresOnSpheres()
   return scene;
 }
 
-using MakeScene = Scene (*)();
 struct NamedScene
 {
   const char* name;
-  MakeScene make;
+  Scene (*make)();
 };
 
 /// True: the normals are averaged; false: each facet has its own.
@@ -185,19 +147,19 @@ void addTo(PassScene& view, const Scene& scene, bool averaged)
 {
   vtkNew<vtkAppendPolyData> ground;
   ground->AddInputData(withNormals(scene.ground, averaged));
-  for (const Shape& caster : scene.casters)
+  for (const Mesh& caster : scene.casters)
   {
     if (scene.isAppended)
     {
-      ground->AddInputData(withNormals(caster.mesh(), false));
+      ground->AddInputData(withNormals(caster, false));
     }
   }
   view.add(outputOf(ground));
-  for (const Shape& caster : scene.casters)
+  for (const Mesh& caster : scene.casters)
   {
     if (!scene.isAppended)
     {
-      view.add(caster.mesh());
+      view.add(caster.Get());
     }
   }
   view.lookFrom(scene.eye, scene.target);

@@ -263,32 +263,6 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
   EXPECT_GE(differing, 10);
 }
 
-// A square whose normals lean to one side, lit from below. The map's only layer is the receivers'
-// own, and still blocks their light.
-TEST_F(SmoothTerminatorsTest, exactTechniquesAgreeOnASheetSeenFromItsBack)
-{
-  PassScene scene(400, 400);
-  scene.pass->SetMapSize(16); // some receivers are then off their triangle by little of a texel
-  const auto square = copyOf(squareOf(0.5, 0.0, 12));
-  for (vtkIdType i = 0; i < square->GetNumberOfPoints(); ++i)
-  {
-    square->GetPointData()->GetNormals()->SetTuple3(i, 0.8, 0.0, 0.6);
-  }
-  scene.add(square.Get());
-  scene.lookFrom({ 0.6, -1.0, 1.4 });
-  vtkLight* sun = scene.addSun({ 1.0, 0.0, 0.0 });
-  scene.pass->SmoothTerminatorsOn();
-  for (int i = 0; i < 10; ++i)
-  {
-    sun->SetPosition(100.0, 10.0, -10.0 * i);
-    const Picture truth = scene.render("raytraced");
-    for (const char* technique : { "crsm", "crsma", "silhouette" })
-    {
-      EXPECT_EQ(differingPixels(scene.render(technique), truth), 0u) << i << ", " << technique;
-    }
-  }
-}
-
 // VTK's shader looks maps up above the facets that are turned away.
 TEST_F(SmoothTerminatorsTest, mapsInShadersCutOffATenthAsMuch)
 {
