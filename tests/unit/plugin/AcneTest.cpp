@@ -267,27 +267,6 @@ TEST_BY_VARIANTS(LitScenes, ConvexSphere, hasPlainKernel)
   }
 }
 
-TEST_BY_VARIANTS(LitScenes, SingleTriangle, isForAll)
-{
-  PassScene scene(200, 150);
-  scene.add(
-    meshOf({ { -1.0, -1.0, 0.0 }, { 1.0, -1.0, 0.0 }, { 0.0, 1.0, 0.0 } }, { { 0, 1, 2 } }).Get());
-  vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
-  this->choose(scene);
-  scene.lookFrom({ 0.0, -4.0, 4.0 });
-  for (const int mapSize : GetParam().mapSizes({ 16, 1024 }))
-  {
-    GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
-    for (const glm::dvec3& toLight :
-      { glm::dvec3(0.0, 0.0, 1.0), { -1.0, -0.4, 1.5 }, { -1.0, 0.0, 0.02 } })
-    {
-      placeSun(sun, toLight);
-      this->expectLit(scene, towardsSun(toLight), 1000, { 0.999, 0.9 },
-        textOf(toLight) + ", map " + std::to_string(mapSize));
-    }
-  }
-}
-
 /// From the box's middle, the borders of the cube's faces run along the box's edges.
 TEST_BY_VARIANTS(LitScenes, InsideOfABox, isForRooms)
 {

@@ -15,20 +15,6 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-/// Have each second prop but the ground be a translucent caster.
-void turnToGlass(const BuiltinPass& scene)
-{
-  vtkActorCollection* const actors = scene.renderer->GetActors();
-  for (int i = 1; i < actors->GetNumberOfItems(); i += 2)
-  {
-    vtkProp* const actor = vtkProp::SafeDownCast(actors->GetItemAsObject(i));
-    vtkActor::SafeDownCast(actor)->GetProperty()->SetOpacity(0.3 + 0.1 * (i % 5));
-    vtkGnomonPropKeys::SetTransmits(
-      actor, i % 4 == 1 ? vtkGnomonPropKeys::TRANSMITS_GREY : vtkGnomonPropKeys::TRANSMITS_COLORED);
-  }
-  scene.pass->TranslucentCastersOn();
-}
-
 /// A built-in scene, drawn at any size.
 class SampledScene
 {
@@ -43,7 +29,18 @@ public:
   static constexpr int perSide = 16; // samples of the truth
 
   /// Have each second prop but the ground let light through.
-  void makeGlass() { turnToGlass(this->scene_); }
+  void makeGlass()
+  {
+    vtkActorCollection* const actors = this->scene_.renderer->GetActors();
+    for (int i = 1; i < actors->GetNumberOfItems(); i += 2)
+    {
+      vtkProp* const actor = vtkProp::SafeDownCast(actors->GetItemAsObject(i));
+      vtkActor::SafeDownCast(actor)->GetProperty()->SetOpacity(0.3 + 0.1 * (i % 5));
+      vtkGnomonPropKeys::SetTransmits(actor,
+        i % 4 == 1 ? vtkGnomonPropKeys::TRANSMITS_GREY : vtkGnomonPropKeys::TRANSMITS_COLORED);
+    }
+    this->scene_.pass->TranslucentCastersOn();
+  }
 
   VisibilityImages draw(const char* samples, int sizePixels = side)
   {
@@ -289,13 +286,6 @@ TEST_P(GlassEdgesOf, areCloserToTheTruth)
   EXPECT_LT(errorOf(scene.draw("64"), truth).rms, ofSixteen);
 }
 
-TEST_P(GlassEdgesOf, areOfPicturesAtRestAlone)
-{
-  const BuiltinPass scene(this->scene(), 301, 203);
-  turnToGlass(scene);
-  expectSmoothAtRestAlone(scene);
-}
-
 /// A lit plate over ground wholly in its shadow, and lit ground before a dark wall.
 TEST_F(EdgeSamples, haveNoFringesAtOutlines)
 {
@@ -339,30 +329,6 @@ TEST_F(EdgeSamples, areThereForAllLightsCamerasAndShapes)
   {
     this->scene.pass->SetTechnique(technique);
     EXPECT_GT(this->countMixed(), 60u) << technique;
-  }
-}
-
-/// Of more lights than one texel of their table holds, each with edges of its own.
-TEST_F(EdgeSamples, smoothPicturesOfManyLights)
-{
-  this->sun->SetIntensity(0.1);
-  for (int i = 1; i < 10; ++i)
-  {
-    const double turn = glm::two_pi<double>() * i / 10.0;
-    this->scene.addSun({ std::cos(turn), std::sin(turn), -1.5 })->SetIntensity(0.1);
-  }
-  const Picture smooth = this->scene.render();
-  const Picture hard = this->scene.render("edge_samples=1");
-  EXPECT_EQ(differingPixels(smooth, this->scene.render("edge_samples=auto"), 1), 0u);
-  EXPECT_GT(differingPixels(smooth, hard, 4), 300u);
-  vtkCollectionSimpleIterator iterator;
-  vtkLightCollection* const lights = this->scene.renderer->GetLights();
-  lights->InitTraversal(iterator);
-  while (vtkLight* const light = lights->GetNextLight(iterator))
-  {
-    light->SetPosition(0.9 * light->GetPosition()[0], light->GetPosition()[1], 7.0);
-    const Picture one = this->scene.render();
-    EXPECT_EQ(differingPixels(one, freshPicture(this->scene)), 0u) << "one light has moved";
   }
 }
 

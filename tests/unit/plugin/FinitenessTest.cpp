@@ -48,12 +48,6 @@ protected:
   bool isSmall_ = false;
 };
 
-bool isSoft(const Variant& variant)
-{
-  return variant.isDefault() &&
-    (has(variant.info(), "light_samples") || has(variant.info(), "pcss_samples"));
-}
-
 } // namespace
 
 /// Along the axes, in the floor's plane and nearly in it.
@@ -88,58 +82,6 @@ TEST_BY_VARIANTS(DegenerateScenes, UnderAnyLamp, isForAll)
       this->drawByTurns(scene);
     }
   }
-}
-
-/// Areas from that of a point to far larger than the scene.
-TEST_BY_VARIANTS(DegenerateScenes, UnderLightsOfAnySize, isSoft)
-{
-  PassScene scene(64, 48);
-  this->fill(scene);
-  GetParam().choose(scene);
-  GetParam().set(scene.pass, "map_size", "64");
-  GetParam().set(scene.pass, "light_samples", "8");
-  const auto drawSizes = [&](const std::vector<const char*>& sizes)
-  {
-    for (const char* size : sizes)
-    {
-      scene.pass->SetSetting("light_radius", size);
-      draw(scene);
-    }
-  };
-  vtkLight* const lamp = scene.addSpot(glm::dvec3(0.0), { 0.1, 0.2, -3.0 }, 45.0);
-  for (const glm::dvec3& place : { glm::dvec3(0.0, 0.0, 1.5), { 0.7, 0.0, 1.5 }, { 0.0, 0.0, 0.0 },
-         { 3.0, 0.0, 1e-6 }, { 0.0, 0.0, -1.0 }, { 1e5, 0.0, 1e5 } })
-  {
-    lamp->SetPosition(place.x, place.y, place.z);
-    for (const double cone : { 45.0, this->cones().back() })
-    {
-      lamp->SetConeAngle(cone);
-      drawSizes({ "1e-6", "0.3", "1000" });
-    }
-  }
-  scene.renderer->RemoveAllLights();
-  scene.addSun({ 1.0, 0.4, -0.1 });
-  drawSizes({ "1e-6", "20", "170" });
-}
-
-/// As the least float marks it in rasters.
-TEST_BY_VARIANTS(DegenerateScenes, WithMissingData, isForAll)
-{
-  PassScene scene(64, 48);
-  this->fill(scene);
-  GetParam().choose(scene);
-  if (isSoft(GetParam()))
-  {
-    GetParam().set(scene.pass, "light_samples", "8");
-    scene.pass->SetSetting("light_radius", "0.5");
-  }
-  const auto holed = copyOf(ballOf({ 1.0, -1.0, 1.5 }, 0.5, 48, 24));
-  holed->GetPoints()->SetPoint(7, 0.1, 0.2, -3.4028235e38);
-  scene.add(holed.Get());
-  scene.addSpot({ 1.0, -2.0, 5.0 }, glm::dvec3(0.0), 45.0);
-  drawKept(scene);
-  EXPECT_GT(scene.report().droppedNonFinite, 0u);
-  EXPECT_THAT(scene.report().notes, testing::Contains(testing::HasSubstr("missing data")));
 }
 
 /// Cameras that see nothing at all, away from everything, inside a caster, and in the floor's

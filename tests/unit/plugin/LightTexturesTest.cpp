@@ -7,7 +7,6 @@
 #include "lights/LightManager.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 
-#include <vtkCollectionRange.h>
 #include <vtkDataArray.h>
 
 using namespace gnomon::test;
@@ -66,13 +65,6 @@ protected:
   {
     this->floor = this->scene.addFloor(6.0);
     vtkGnomonPropKeys::SetCasts(this->floor, false);
-  }
-
-  /// A box and a sphere over a floor that casts, under a large lamp.
-  void buildScene()
-  {
-    this->scene.addThings();
-    this->lamp->SetPosition(-2.0, -2.5, 6.0);
   }
 
   const VisibilityImages& draw(const std::string& technique)
@@ -231,21 +223,6 @@ TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
   }
 }
 
-TEST_F(LightTextures, areFilteredAsLightIsWithout)
-{
-  this->buildScene();
-  this->scene.choose("mc_rays=3 mc_filter=5");
-  const VisibilityImages plain = this->draw("montecarlo");
-  this->lamp->SetTexture(makeImage(1, 1, [](int, int) { return Colour{ 0.2, 0.6, 0.0 }; }));
-  const VisibilityImages& kept = this->draw("montecarlo");
-  for (std::size_t i = 0; i < plain.coverage.size(); ++i)
-  {
-    ASSERT_NEAR(kept.visibility[0][i], 0.2 * plain.visibility[0][i], 1e-5);
-    ASSERT_NEAR(kept.visibility[1][i], 0.6 * plain.visibility[0][i], 1e-5);
-    ASSERT_EQ(kept.visibility[2][i], 0.0f);
-  }
-}
-
 /// A light with a texture and no size is hard, coloured by the texture's mean.
 TEST_F(LightTextures, ofPointsStandBesideOtherHardLights)
 {
@@ -264,34 +241,6 @@ TEST_F(LightTextures, ofPointsStandBesideOtherHardLights)
   EXPECT_THAT(kept.visibility[0], testing::Contains(0.0f)) << "the plate's shadow";
   EXPECT_THAT(kept.visibility[0], testing::Contains(0.5f)) << "the mean of red";
   EXPECT_THAT(kept.visibility[1], testing::Each(0.0f)) << "of green";
-}
-
-TEST_F(LightTextures, ofWhiteAreNone)
-{
-  this->buildScene();
-  this->scene.set("light_samples", "16");
-  for (const bool disk : { false, true })
-  {
-    disk ? this->lamp->SetShapeToDisk() : this->lamp->SetShapeToRectangle();
-    for (const gnomon::TechniqueEntry& technique : gnomon::registry())
-    {
-      for (const bool keeps : { false, true })
-      {
-        this->scene.pass->SetTechnique(technique.name.c_str());
-        this->scene.pass->SetKeepVisibility(keeps);
-        this->lamp->SetTexture(nullptr);
-        const Picture plain = this->scene.render();
-        const VisibilityImages kept = this->scene.pass->GetVisibility();
-        this->lamp->SetTexture(makeImage(3, 2, [](int, int) { return white; }));
-        EXPECT_TRUE(this->scene.render() == plain) << technique.name;
-        for (std::size_t channel = 0; keeps && channel < 3; ++channel)
-        {
-          EXPECT_EQ(this->scene.pass->GetVisibility().visibility.at(channel), kept.visibility.at(0))
-            << technique.name;
-        }
-      }
-    }
-  }
 }
 
 TEST_F(LightTextures, colourThePicture)
@@ -348,63 +297,6 @@ TEST_F(LightTextures, colourTranslucentSurfaces)
     EXPECT_NEAR(pixel.g, 0.6 * pixel.r, 2.0) << technique;
     EXPECT_NEAR(pixel.b, 0.2 * pixel.r, 2.0) << technique;
     EXPECT_GT(pixel.r, 200) << technique;
-  }
-}
-
-TEST_F(LightTextures, takeTheirOwnLayersOnly)
-{
-  this->buildScene();
-  this->lamp->SetTexture(makeRedAndBlue());
-  for (const char* technique : seeing)
-  {
-    const VisibilityImages alone = this->draw(technique);
-    vtkLight* const first = this->scene.addSun({ 0.3, 0.2, -1.0 });
-    this->scene.renderer->RemoveLight(this->lamp);
-    const VisibilityImages sun = this->draw(technique);
-    this->scene.renderer->AddLight(this->lamp);
-    vtkLight* const last = this->scene.addSun({ 0.3, 0.2, -1.0 });
-    const VisibilityImages& all = this->draw(technique);
-    EXPECT_THAT(all.sceneIndices, ElementsAre(0, 1, 1, 1, 2));
-    ASSERT_EQ(all.classes.size(), 5u);
-    EXPECT_EQ(all.visibility[0], sun.visibility[0]) << technique;
-    EXPECT_EQ(all.visibility[4], sun.visibility[0]) << technique;
-    for (std::size_t channel = 0; channel < 3; ++channel)
-    {
-      EXPECT_EQ(all.visibility[1 + channel], alone.visibility[channel]) << technique;
-    }
-    this->scene.renderer->RemoveLight(first);
-    this->scene.renderer->RemoveLight(last);
-  }
-}
-
-TEST_F(LightTextures, areSeenToChange)
-{
-  this->buildScene();
-  const auto texture = makeChecker(4);
-  this->lamp->SetTexture(texture);
-  for (const char* technique : seeing)
-  {
-    const VisibilityImages before = this->draw(technique);
-    EXPECT_EQ(this->draw(technique).visibility, before.visibility) << technique;
-    texture->SetScalarComponentFromDouble(1, 2, 0, 0, 90.0);
-    texture->GetPointData()->GetScalars()->Modified();
-    EXPECT_NE(this->draw(technique).visibility[0], before.visibility[0]) << technique;
-    EXPECT_EQ(this->draw(technique).visibility[1], before.visibility[1]) << technique;
-    texture->SetScalarComponentFromDouble(1, 2, 0, 0, 0.0);
-    texture->GetPointData()->GetScalars()->Modified();
-    EXPECT_EQ(this->draw(technique).visibility, before.visibility) << technique;
-    this->lamp->SetTexture(nullptr);
-    EXPECT_EQ(this->draw(technique).visibility.size(), 1u) << technique;
-    this->lamp->SetTexture(texture);
-    EXPECT_EQ(this->draw(technique).visibility, before.visibility) << technique;
-    // The darkest grey: its points count like those of no texture.
-    this->lamp->SetTexture(nullptr);
-    this->draw(technique);
-    const double grey = 1.0 / 255.0;
-    this->lamp->SetTexture(makeImage(1, 1, [&](int, int) { return Colour{ grey, grey, grey }; }));
-    const VisibilityImages& dark = this->draw(technique);
-    EXPECT_EQ(dark.visibility[2], dark.visibility[0]) << technique;
-    this->lamp->SetTexture(texture);
   }
 }
 

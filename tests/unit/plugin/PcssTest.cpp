@@ -70,16 +70,6 @@ std::ostream& operator<<(std::ostream& stream, const SearchedScene& scene)
   return stream << scene.name;
 }
 
-/// A floor that casts nothing under a large lamp, and a screen close beside the lamp. The cube's
-/// face that sees most of the floor holds no casters. Other faces are cut to the screen, which lies
-/// elsewhere on them.
-void addScreenBesideTheLamp(PassScene& scene)
-{
-  vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), false);
-  scene.addBox({ 0.6, -0.8, 1.6 }, { 0.7, 0.8, 2.4 });
-  lookFromBelow(scene, 2.5, 1.5, 1.5);
-}
-
 const SearchedScene searchedScenes[] = {
   // A large lamp and a high caster. Faces of the lamp's cube that see the floor below do not see
   // the caster.
@@ -92,20 +82,6 @@ const SearchedScene searchedScenes[] = {
       lookFromBelow(scene, 0.4, -0.4, 1.5);
     },
     1.0, 2000 },
-  { "facesWithoutCastersOfABall",
-    [](PassScene& scene)
-    {
-      addScreenBesideTheLamp(scene);
-      addBall(scene, { 0.0, 0.0, 2.0 }, "0.5");
-    },
-    0.035, 2000 },
-  { "facesWithoutCastersOfADisk",
-    [](PassScene& scene)
-    {
-      addScreenBesideTheLamp(scene);
-      addDisk(scene, { 0.0, 0.0, 2.0 }, glm::dvec3(0.0), 0.5, 90.0);
-    },
-    0.035, 2000 },
   // A ball close to the lamp hides a part of the lamp from the contact of a box.
   { "contactsInWidePenumbrae",
     [](PassScene& scene)
@@ -230,30 +206,6 @@ TEST_F(Pcss, searchesLeaveNoSpecks)
   }
 }
 
-/// A ball light beside a screen, whose shadow crosses from one face of the lamp's cube to the next
-/// at x = 1. Visibility has the same error on both sides.
-TEST_F(Pcss, hasNoSeamsWhereFacesOfTheCubeMeet)
-{
-  PassScene scene(100, 100);
-  scene.addFloor(4.0);
-  scene.addBox({ 0.4, -3.0, 0.62 }, { 0.45, 3.0, 1.4 });
-  soften(scene, scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), allDirections), "0.3");
-  scene.lookDown(0.4, 1.0);
-  const std::vector<double> truth = columnMeans(drawKept(scene, "raytraced light_samples=256"));
-  const std::vector<double> softly = columnMeans(drawKept(scene, "pcss"));
-  constexpr std::size_t strip = 5; // columns, 0.008 wide each
-  double off[2] = {};
-  double seen = 0.0;
-  for (std::size_t column = 50 - strip; column < 50 + strip; ++column)
-  {
-    off[column < 50 ? 0 : 1] += (softly[column] - truth[column]) / strip;
-    seen += truth[column] / (2 * strip);
-  }
-  EXPECT_GT(seen, 0.2);
-  EXPECT_LT(seen, 0.8);
-  EXPECT_LT(std::abs(off[1] - off[0]), 0.01);
-}
-
 /// Each pixel has one class. Pixels decided by bounds are neither searched nor filtered, and a
 /// larger light has more filtered pixels.
 TEST_F(Pcss, tellsWhatTheEarlyOutDecides)
@@ -298,47 +250,6 @@ TEST_F(Pcss, tellsWhatTheEarlyOutDecides)
     EXPECT_GT(exact["by the map's texels"], filtered) << radius;
     filtered = exact["by the map's texels"];
   }
-}
-
-/// The map's depths begin at the face of a box around the scene, else at the nearest caster.
-TEST_F(Pcss, isTheSameInABoxAroundTheScene)
-{
-  PassScene scene(140, 100);
-  scene.addThings();
-  vtkLight* const sun = addSoftSun(scene, { 0.4, 0.5, -1.0 }, "8");
-  sun->SetPosition(-4.0, -5.0, 10.0);
-  const std::vector<float> hard = scene.visibilityBy("nsm");
-  const std::vector<float> plain = scene.visibilityBy("pcss");
-  const double up[3] = { 0.0, 1.0, 0.0 };
-  vtkGnomonLightKeys::SetBox(sun, 30.0, 30.0, 30.0, up);
-  EXPECT_LT(meanDifference(scene.visibilityBy("pcss"), plain), 0.25 * meanDifference(plain, hard));
-}
-
-/// Where the light is fully hidden, `pcss` shows a little of it in some pixels.
-TEST_F(Pcss, fewLightLeaksGrowWithTheLight)
-{
-  PassScene scene(200, 150);
-  scene.addThings();
-  vtkLight* const lamp = addLamp(scene);
-  struct Case
-  {
-    const char* radius;
-    int mostLit; ///< pixels
-  };
-  int litOfSmall = 0;
-  int litOfLarge = 0;
-  for (const auto& [radius, mostLit] :
-    { Case{ "0.1", 3 }, { "0.4", 3 }, { "1.2", 12 }, { "2", 16 } })
-  {
-    soften(scene, lamp, radius);
-    const std::vector<float> truth = truthOf(scene);
-    EXPECT_GT(std::count(truth.begin(), truth.end(), 0.0f), 300) << radius;
-    const int lit = countBoth(
-      truth, scene.visibilityBy("pcss"), [](float t, float s) { return t == 0.0f && s > 0.05f; });
-    EXPECT_LE(lit, mostLit) << radius;
-    (mostLit > 3 ? litOfLarge : litOfSmall) += lit;
-  }
-  EXPECT_GT(litOfLarge, litOfSmall); // although fewer pixels are dark
 }
 
 TEST_F(Pcss, asPublishedNeedsABiasThatGrowsWithTheLight)

@@ -110,36 +110,6 @@ TEST_P(SoftLights, showTheSameInBatchesOfAnySize)
   }
 }
 
-/// A pass with earlier frames shows the same as a new one.
-TEST_P(SoftLights, showEachChange)
-{
-  vtkActor* caster = this->scene.addBox({ -2.5, 1.0, 0.5 }, { -1.5, 2.0, 1.5 });
-  this->scene.window->SetSize(80, 60);
-  this->scene.choose("map_size=128 light_samples=16");
-  const std::pair<const char*, std::function<void()>> changes[] = {
-    { "at first", [] {} },
-    { "a caster", [&] { caster->AddPosition(0.7, -0.6, 0.0); } },
-    { "the light", [&] { this->light->SetPosition(-1.3, -2.5, 5.0); } },
-    { "its size", [&] { scaleArea(this->light, 1.7); } },
-    { "the camera",
-      [&] {
-        this->scene.lookFrom({ -3.0, -7.0, 6.0 });
-      } },
-    { "the samples", [&] { this->scene.set("light_samples", 25); } },
-  };
-  for (const auto& [what, change] : changes)
-  {
-    change();
-    for (const char* technique : softTechniques)
-    {
-      const std::vector<float> seen = this->scene.visibilityBy(technique);
-      EXPECT_EQ(this->scene.visibilityBy(technique), seen) << "at rest";
-      EXPECT_EQ(this->scene.report().mapBakes, 0) << "at rest";
-      EXPECT_TRUE(this->scene.drawAnew().visibility[0] == seen) << what << ", " << technique;
-    }
-  }
-}
-
 /// Techniques without samples of lights show the centre's shadow.
 TEST(HardTechniques, showAreaLightsAsTheirCentre)
 {

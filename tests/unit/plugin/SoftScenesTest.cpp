@@ -14,9 +14,6 @@ struct SoftScene
   const char* name;
   const char* sunDegrees = nullptr; ///< null: the scene has a lamp
   double sampledRms = 0.0;          ///< the largest of `sampled` with 256 points
-  double traced = 0.0;              ///< the largest share that `coherence` traces
-  double wrong = 0.0;               ///< and of its pixels that maps decide wrongly
-  const char* ground = "plane";     ///< a model
 };
 std::ostream& operator<<(std::ostream& stream, const SoftScene& scene)
 {
@@ -92,57 +89,6 @@ TEST_P(SoftScenes, areNearTheTruth)
   const double sampled = this->expectNearTheTruth("sampled", 0.005);
   EXPECT_LE(sampled, GetParam().sampledRms);
   EXPECT_LT(sampled, this->errorOf("pcss").rootMeanSquare);
-}
-
-namespace
-{
-
-/// Scenes in which maps hint at light and shadow.
-using HintedScenes = SoftSceneTest;
-INSTANTIATE_TEST_SUITE_P(Builtin, HintedScenes,
-  testing::Values(SoftScene{ "soft-stack", nullptr, 0.0, 0.09, 0.0006 },
-    SoftScene{ "soft-panels", nullptr, 0.0, 0.125, 0.00025 },
-    SoftScene{ "soft-plates", nullptr, 0.0, 0.021, 0.00005 },
-    SoftScene{ "soft-long-cube", nullptr, 0.0, 0.072, 0.0007 },
-    SoftScene{ "bunny", "3", 0.0, 0.043, 0.0005 }, SoftScene{ "cups", "3", 0.0, 0.06, 0.0001 },
-    SoftScene{ "posts", "3", 0.0, 0.072, 0.0001 }, SoftScene{ "terrain", "3", 0.0, 0.09, 0.0025 }),
-  nameOfScene);
-
-} // namespace
-
-TEST_P(HintedScenes, areTracedWhereMapsDisagree)
-{
-  const BuiltinPass scene(GetParam().name, 256);
-  scene.choose(radius().c_str());
-  const std::vector<float> truth = scene.draw("raytraced light_samples=64").visibility.at(0);
-  const Hints hints = hintsOf(scene.draw("coherence"), truth);
-  EXPECT_LE(hints.traced, GetParam().traced);
-  EXPECT_LE(hints.wrong, GetParam().wrong);
-}
-
-namespace
-{
-
-/// Scenes whose ground is one model.
-using SoftScenesOnGrounds = SoftSceneTest;
-INSTANTIATE_TEST_SUITE_P(Builtin, SoftScenesOnGrounds,
-  testing::Values(SoftScene{ "soft-stack" },
-    SoftScene{ "soft-panels", nullptr, 0.0, 0.0, 0.0, "bottom" }, SoftScene{ "soft-plates" },
-    SoftScene{ "soft-long-cube" }),
-  nameOfScene);
-
-} // namespace
-
-TEST_P(SoftScenesOnGrounds, areNearTheTruthByTwoLayersIfTheGroundCastsNothing)
-{
-  tool::Scene scene = tool::loadScene(GetParam().name);
-  const auto ground = std::find_if(scene.models.begin(), scene.models.end(),
-    [](const tool::SceneModel& model) { return model.name == GetParam().ground; });
-  ASSERT_NE(ground, scene.models.end());
-  ground->casts = false;
-  this->show(scene);
-  this->shown->choose("mc_layers=near_far");
-  this->expectNearTheTruth("montecarlo", 0.02);
 }
 
 namespace
