@@ -4,53 +4,16 @@
 
 #include "plugin/plan/CostModel.h"
 
-#include <vtkRenderWindowInteractor.h>
 #include <vtkShaderProperty.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 using namespace gnomon::test;
 using testing::HasSubstr;
 
 namespace
 {
-
-/// An interactor whose timers run when a test calls run().
-class PatientInteractor : public vtkRenderWindowInteractor
-{
-public:
-  static PatientInteractor* New();
-  vtkTypeMacro(PatientInteractor, vtkRenderWindowInteractor);
-
-  int timer = 0;              ///< the timer started last; 0 after it has fired or is destroyed
-  unsigned long patience = 0; ///< milliseconds
-
-  void run()
-  {
-    std::this_thread::sleep_for(std::chrono::milliseconds(this->patience));
-    int number = this->GetVTKTimerId(std::exchange(this->timer, 0));
-    this->InvokeEvent(vtkCommand::TimerEvent, &number);
-  }
-
-protected:
-  int InternalCreateTimer(int, int, unsigned long duration) override
-  {
-    this->patience = duration;
-    return this->timer = ++this->created_;
-  }
-  int InternalDestroyTimer(int) override
-  {
-    this->timer = 0;
-    return 1;
-  }
-
-private:
-  int created_ = 0;
-};
-vtkStandardNewMacro(PatientInteractor);
 
 /// A box over a floor under a sun that uses the pass's technique.
 class Auto
@@ -141,25 +104,6 @@ TEST_F(Auto, movingPicturesHaveMapsThatAreNotDrawnAgain)
   EXPECT_LE(probes, 3);
 }
 
-// A moving light bakes its map in each frame, which costs as much time as rays.
-TEST_F(Auto, lightsThatMoveTakeRaysAndGoBackToMapsLater)
-{
-  this->rest();
-  this->move();
-  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
-  this->sun->SetPosition(-1.0, 0.1, 1.0);
-  this->move();
-  EXPECT_EQ(this->technique(), "silhouette");
-  EXPECT_THAT(this->report().choice, HasSubstr("nearly as little time"));
-  for (int i = 0; i < 29; ++i)
-  {
-    this->move();
-    EXPECT_EQ(this->technique(), "silhouette") << i;
-  }
-  this->move();
-  EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
-}
-
 // From the second change on, everything needed is cached.
 TEST_F(Auto, changesCompileAndDrawNothingAnew)
 {
@@ -178,24 +122,6 @@ TEST_F(Auto, changesCompileAndDrawNothingAnew)
       EXPECT_TRUE(change == 0 || this->report().mapBakes == 0) << change << ", " << frame;
     }
   }
-}
-
-// A far caster makes the texels of every map half a unit wide.
-TEST_F(Auto, raysAreTakenWhereNoMapKeepsTheError)
-{
-  this->addBox({ 3000.0, 0.0, 0.0 }, { 3001.0, 1.0, 1.0 });
-  this->rest();
-  this->move();
-  EXPECT_EQ(this->technique(), "silhouette");
-  EXPECT_THAT(this->report().choice, HasSubstr("are wrong with a map of"));
-  this->move();
-  EXPECT_THAT(this->report().choice, HasSubstr("are wrong with a map of")) << "a frame ago";
-  EXPECT_EQ(this->report().probes, 0);
-  for (int i = 0; i < 29; ++i)
-  {
-    this->move();
-  }
-  EXPECT_GT(this->report().probes, 0) << "tried again";
 }
 
 TEST_F(Auto, numbersOutOfRangeAreErrorsAndChangeNothing)
@@ -218,28 +144,6 @@ TEST_F(Auto, numbersOutOfRangeAreErrorsAndChangeNothing)
   const vtkMTimeType time = this->pass->GetMTime();
   this->pass->SetTimeBudget(vtkGnomonShadowPass::TIME_BUDGET_OF_WINDOW);
   EXPECT_EQ(this->pass->GetMTime(), time);
-}
-
-// A close view makes the map larger; the next motion has a small one again.
-TEST_F(Auto, mapsShrinkWhereSmallerOnesWillDo)
-{
-  this->pass->SetMapSize(16);
-  this->rest();
-  this->move();
-  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
-  const int large = this->report().lights[0].mapSizeTexels;
-  this->pass->SetMaximumError(0.2);
-  this->move();
-  EXPECT_EQ(this->report().lights[0].mapSizeTexels, 16) << "another error is asked for";
-  this->pass->SetMaximumError(0.005);
-  this->move();
-  EXPECT_EQ(this->report().lights[0].mapSizeTexels, large);
-  this->lookFrom({ -12.0, -9.0, 7.0 }, { -12.0, 0.0, 0.0 }); // looks far from the shadow
-  this->move();
-  EXPECT_EQ(this->report().lights[0].mapSizeTexels, large) << "in the same motion";
-  this->rest();
-  this->move();
-  EXPECT_EQ(this->report().lights[0].mapSizeTexels, 16);
 }
 
 // Windows with several samples draw a headlight's shadows by the image route, with any technique.
@@ -335,15 +239,6 @@ TEST_F(Auto, surfacesThatShaderCodeMovesTakeRays)
   EXPECT_THAT(this->report().choice, HasSubstr("shader code moves it"));
 }
 
-TEST_F(Auto, withoutAnErrorAllFramesAreExact)
-{
-  this->pass->SetMaximumError(0.0);
-  this->rest();
-  const Picture moving = this->move();
-  EXPECT_EQ(this->technique(), "silhouette");
-  EXPECT_TRUE(moving == this->by("raytraced"));
-}
-
 // The first frame may be one in motion, too.
 TEST_F(Auto, needsNoPictureAtRestBefore)
 {
@@ -388,27 +283,6 @@ TEST_F(Auto, restingPicturesDoNotDependOnTheMachine)
   EXPECT_TRUE(expected == this->rest());
 }
 
-TEST_F(Auto, areaLightsTakeFewerSamplesWhileTheyMove)
-{
-  this->set("light_radius", "3");
-  const Picture first = this->rest();
-  EXPECT_EQ(this->technique(), "penumbra");
-  EXPECT_EQ(this->report().lights[0].lightSamples, 64);
-  this->move();
-  EXPECT_EQ(this->technique(), "penumbra");
-  EXPECT_LT(this->report().lights[0].lightSamples, 64) << this->report().choice;
-  this->renderer->GetActiveCamera()->Azimuth(-1.0);
-  EXPECT_TRUE(first == this->rest());
-  EXPECT_EQ(this->report().lights[0].lightSamples, 64);
-
-  this->set("light_samples", "1024");
-  this->pass->SetMaximumSoftError(0.0015);
-  this->rest();
-  this->move();
-  EXPECT_GT(this->report().lights[0].lightSamples, 64) << this->report().choice;
-  EXPECT_LT(this->report().lights[0].lightSamples, 1024);
-}
-
 // Where penumbrae are thin, hard shadows keep the error. At rest they are soft again.
 TEST_F(Auto, areaLightsHaveHardShadowsInMotionWherePenumbraeAreThin)
 {
@@ -427,28 +301,6 @@ TEST_F(Auto, areaLightsHaveHardShadowsInMotionWherePenumbraeAreThin)
   this->set("light_radius", "3");
   this->move();
   EXPECT_EQ(this->technique(), "penumbra");
-}
-
-// If nothing keeps the budget, the allowed error counts; if there is time, rays are traced.
-TEST_F(Auto, aTimeBudgetChoosesWhatIsMostAccurateInIt)
-{
-  this->pass->SetTimeBudget(1e6);
-  this->rest();
-  this->move();
-  EXPECT_EQ(this->technique(), "silhouette");
-  EXPECT_THAT(this->report().choice, HasSubstr("budget"));
-  this->pass->SetTimeBudget(1e-6);
-  this->move();
-  EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
-  EXPECT_THAT(this->report().choice, HasSubstr("not kept"));
-  this->pass->SetTimeBudget(1e6);
-  int frames = 0;
-  while (frames < 100 && this->technique() == "nsm")
-  {
-    this->move();
-    ++frames;
-  }
-  EXPECT_EQ(frames, 30);
 }
 
 // A map is proved before it is shown. Later its probes are spread over frames.
@@ -471,48 +323,6 @@ TEST_F(Auto, laterProbesTakeOneLookAFrame)
   }
   EXPECT_GT(probed, 1);
   EXPECT_LE(probed, 14) << "eight looks every 16 frames at most";
-}
-
-// After a motion, the window first shows some samples, and a timer draws the rest.
-TEST_F(Auto, areaLightsRefineOnceTheyRest)
-{
-  this->set("light_radius", "3");
-  const Picture expected = this->rest();
-  vtkNew<PatientInteractor> interactor;
-  interactor->SetRenderWindow(this->window);
-  interactor->Initialize();
-  const auto samples = [&] { return this->report().lights[0].lightSamples; };
-  const auto drag = [&](double degrees)
-  {
-    this->window->SetDesiredUpdateRate(interactor->GetDesiredUpdateRate());
-    this->renderer->GetActiveCamera()->Azimuth(degrees);
-    this->render();
-    this->window->SetDesiredUpdateRate(interactor->GetStillUpdateRate());
-  };
-  drag(1.0);
-  drag(-1.0);
-  EXPECT_TRUE(expected == this->render()) << "an off-screen picture is complete";
-  EXPECT_EQ(this->pass->GetProgress(), 1.0);
-  interactor->run();
-
-  this->window->SetOffScreenRendering(0);
-  drag(1.0);
-  drag(-1.0);
-  const int whileMoving = samples();
-  EXPECT_LT(whileMoving, 64);
-  this->render();
-  EXPECT_LE(samples(), whileMoving);
-  EXPECT_LT(this->pass->GetProgress(), 1.0);
-  for (int before = samples(); interactor->timer != 0; before = samples())
-  {
-    interactor->run();
-    ASSERT_EQ(samples(), 4 * before);
-  }
-  EXPECT_EQ(interactor->patience, 1u);
-  EXPECT_EQ(this->pass->GetProgress(), 1.0);
-  EXPECT_TRUE(expected == this->render());
-  EXPECT_EQ(this->report().visibilityComputed, 0);
-  this->window->SetInteractor(nullptr);
 }
 
 // The report names the choice. Lights set to that choice show the same picture.
@@ -541,4 +351,45 @@ TEST_F(Auto, lightsThatNameATechniqueKeepIt)
   this->move();
   EXPECT_EQ(this->report().lights[0].technique, "silhouette");
   EXPECT_THAT(this->report().choice, HasSubstr("whole screen"));
+}
+
+// A moving light bakes its map in each frame, which costs as much time as rays.
+TEST_F(Auto, lightsThatMoveTakeRaysAndGoBackToMapsLater)
+{
+  this->rest();
+  this->move();
+  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
+  this->sun->SetPosition(-1.0, 0.1, 1.0);
+  this->move();
+  EXPECT_EQ(this->technique(), "silhouette");
+  EXPECT_THAT(this->report().choice, HasSubstr("nearly as little time"));
+  for (int i = 0; i < 29; ++i)
+  {
+    this->move();
+    EXPECT_EQ(this->technique(), "silhouette") << i;
+  }
+  this->move();
+  EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
+}
+
+// A close view makes the map larger; the next motion has a small one again.
+TEST_F(Auto, mapsShrinkWhereSmallerOnesWillDo)
+{
+  this->pass->SetMapSize(16);
+  this->rest();
+  this->move();
+  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
+  const int large = this->report().lights[0].mapSizeTexels;
+  this->pass->SetMaximumError(0.2);
+  this->move();
+  EXPECT_EQ(this->report().lights[0].mapSizeTexels, 16) << "another error is asked for";
+  this->pass->SetMaximumError(0.005);
+  this->move();
+  EXPECT_EQ(this->report().lights[0].mapSizeTexels, large);
+  this->lookFrom({ -12.0, -9.0, 7.0 }, { -12.0, 0.0, 0.0 }); // looks far from the shadow
+  this->move();
+  EXPECT_EQ(this->report().lights[0].mapSizeTexels, large) << "in the same motion";
+  this->rest();
+  this->move();
+  EXPECT_EQ(this->report().lights[0].mapSizeTexels, 16);
 }

@@ -4,8 +4,6 @@
 #include "BuiltinPass.h"
 #include "PassScene.h"
 
-#include "shadowtech/base/Gl.h"
-
 #include <vtkAnnotatedCubeActor.h>
 #include <vtkAxesActor.h>
 #include <vtkAxisActor.h>
@@ -14,15 +12,12 @@
 #include <vtkImageSlice.h>
 #include <vtkImageSliceMapper.h>
 #include <vtkImageStack.h>
-#include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLPolyDataMapper.h>
-#include <vtkOpenGLRenderWindow.h>
 #include <vtkPropAssembly.h>
 #include <vtkRenderStepsPass.h>
 #include <vtkShaderProperty.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
-#include <vtkToneMappingPass.h>
 
 using namespace gnomon::test;
 using testing::HasSubstr;
@@ -141,93 +136,6 @@ TEST_F(Deferred, OtherPropsThanOpaqueOnesComeAfterwards)
   this->expectTheSame("smoothed");
 }
 
-TEST_F(Deferred, WhereverThePictureIs)
-{
-  this->scene.renderer->SetViewport(0.3, 0.2, 0.9, 0.8);
-  this->expectTheSame("in a part of the window");
-  this->scene.renderer->SetViewport(0.35, 0.2, 0.95, 0.8); // the same size, elsewhere
-  this->expectTheSame("in another part");
-  const Picture there = this->draw(vtkGnomonShadowPass::ROUTE_AUTO);
-  this->scene.renderer->SetViewport(0.3, 0.2, 0.9, 0.8);
-  const Picture back = this->scene.render();
-  EXPECT_GT(differingPixels(there, back), 100u);
-  this->scene.pass->SetSetting("light_seed", "7"); // rays start from the same receivers again
-  EXPECT_EQ(differingPixels(this->scene.render(), back), 0u);
-  EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), back), 0u);
-  vtkNew<vtkRenderer> below;
-  below->SetBackground(0.5, 0.0, 0.0);
-  this->scene.window->AddRenderer(below);
-  this->scene.window->SetNumberOfLayers(2);
-  this->scene.renderer->SetLayer(1);
-  this->expectTheSame("in front of another renderer");
-  this->scene.window->SetSize(120, 300);
-  this->expectTheSame("in a window of another size");
-}
-
-TEST_F(Deferred, IntoColoursOfFloats)
-{
-  vtkNew<vtkToneMappingPass> toneMapping;
-  toneMapping->SetToneMappingType(vtkToneMappingPass::Reinhard);
-  toneMapping->SetDelegatePass(this->scene.pass);
-  this->scene.renderer->SetPass(toneMapping);
-  this->sun->SetIntensity(3.0); // above what eight bits hold
-  this->expectTheSame("tone mapping");
-}
-
-TEST_F(Deferred, DrawsOnceAndComputesWhatChanged)
-{
-  EXPECT_EQ(this->autoRoute(), "deferred");
-  const auto counts = [&]
-  {
-    this->scene.render();
-    const gnomon::FrameReport& report = this->scene.report();
-    return std::tuple(report.receiversDrawn, report.visibilityComputed, report.programCompiles);
-  };
-  EXPECT_EQ(counts(), std::tuple(0, 0, 0)) << "a second frame";
-  this->scene.renderer->GetActiveCamera()->Azimuth(5.0);
-  counts();
-  EXPECT_EQ(counts(), std::tuple(0, 0, 0)) << "nothing changed";
-  this->sun->SetPosition(-1.0, -0.6, 1.5);
-  EXPECT_EQ(counts(), std::tuple(0, 1, 0)) << "the light moved";
-  this->scene.renderer->GetActiveCamera()->Azimuth(5.0);
-  EXPECT_EQ(counts(), std::tuple(1, 1, 0)) << "the camera moved";
-  this->sphere->SetPosition(0.3, 0.0, 0.0);
-  EXPECT_EQ(counts(), std::tuple(1, 1, 0)) << "a prop moved";
-  this->sphere->GetProperty()->SetColor(1.0, 0.0, 0.0);
-  counts();
-  EXPECT_EQ(counts(), std::tuple(0, 0, 0));
-}
-
-/// VTK rebuilds shaders after the picture has rested for a while, and when it moves again.
-TEST_F(Deferred, ShowsTheSameAtRest)
-{
-  this->scene.add(ballOf({ 2.0, 0.0, 0.8 }, 0.5, 60, 60));
-  this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
-  const Picture first = this->scene.render();
-  int compiles = 0;
-  for (int frame = 0; frame < 12; ++frame)
-  {
-    EXPECT_EQ(differingPixels(first, this->scene.render()), 0u) << "frame " << frame;
-    compiles += this->scene.report().programCompiles;
-  }
-  EXPECT_EQ(compiles, 3) << "of three props, once";
-  const auto expectImageRoute = [&](const Picture& deferred)
-  {
-    EXPECT_EQ(this->scene.report().route, "deferred");
-    EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), deferred), 0u);
-    this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
-  };
-  this->sun->SetPosition(-1.0, -0.6, 1.5);
-  expectImageRoute(this->scene.render());
-  for (int frame = 0; frame < 12; ++frame)
-  {
-    this->scene.render();
-  }
-  EXPECT_EQ(this->scene.report().programCompiles, 0);
-  this->scene.renderer->GetActiveCamera()->Azimuth(5.0);
-  expectImageRoute(this->scene.render());
-}
-
 TEST_F(Deferred, OtherFramesTakeTheImageRouteAndSayWhy)
 {
   const auto expectReason = [&](const std::string& reason)
@@ -268,52 +176,6 @@ TEST_F(Deferred, OtherFramesTakeTheImageRouteAndSayWhy)
   this->draw(vtkGnomonShadowPass::ROUTE_DEFERRED);
   EXPECT_THAT(this->takeErrors(), HasSubstr("between light and shadow"));
   EXPECT_EQ(this->autoRoute(), "inline");
-}
-
-TEST_F(Deferred, AllOfVtksShadingIsLitTwice)
-{
-  vtkProperty* property = this->sphere->GetProperty();
-  this->expectTheSame("matt");
-  property->SetSpecular(0.8);
-  property->SetSpecularPower(20.0);
-  property->SetAmbient(0.2);
-  this->expectTheSame("with a highlight");
-  property->SetInterpolationToPBR();
-  property->SetMetallic(0.4);
-  property->SetRoughness(0.3);
-  this->expectTheSame("physically based");
-  property->SetInterpolationToFlat();
-  this->expectTheSame("flat");
-  property->EdgeVisibilityOn();
-  this->expectTheSame("with edges");
-  property->EdgeVisibilityOff();
-  property->LightingOff();
-  this->expectTheSame("unlit");
-  property->LightingOn();
-
-  // VTK multiplies by the texture after lighting.
-  vtkActor* textured = this->scene.addFloor(1.5, 0.5);
-  textured->SetTexture(textureOf(
-    makeImage(8, 8, [](int x, int y) { return glm::dvec3(0.1 * x, 0.1 * y, (x + y) % 2); })));
-  textured->GetProperty()->SetAmbient(0.4);
-  this->expectTheSame("with a texture");
-}
-
-TEST_F(Deferred, LightsOfAllKindsAndStrengths)
-{
-  this->sun->SetShadowAttenuation(0.3f);
-  this->expectTheSame("a shadow that is not black");
-  this->sun->SetShadowAttenuation(1.0f);
-  vtkLight* fill = this->scene.addSun({ -1.0, 1.0, -1.0 });
-  fill->SetIntensity(0.4);
-  fill->SetShadowAttenuation(0.0f);
-  this->expectTheSame("beside one that casts nothing");
-  this->sun->SetPositional(true);
-  this->sun->SetConeAngle(allDirections);
-  this->sun->SetPosition(-2.0, -0.8, 3.0);
-  this->expectTheSame("a lamp");
-  this->sun->SetIntensity(40.0);
-  this->expectTheSame("far too bright");
 }
 
 /// Annotations' parts have their own shaders, without shadows. In front of a shadow they are as
@@ -383,37 +245,4 @@ TEST_F(Deferred, OpaquePropsThatBlendAreOverBoth)
   this->scene.floor()->VisibilityOff(); // the background is then behind the shadow
   this->scene.window->SetSize(200, 200);
   this->expectTheSame("a veil");
-}
-
-/// Receivers are cached while only a light moves.
-TEST_F(Deferred, ShowsTheSameWhileALightMoves)
-{
-  this->autoRoute();
-  const std::size_t before = this->scene.report().bytesImages;
-  for (int frame = 1; frame <= 6; ++frame)
-  {
-    this->sun->SetPosition(-1.0, -0.1 * frame, 1.5);
-    this->scene.render();
-  }
-  EXPECT_GT(this->scene.report().bytesImages, before);
-  const Picture moved = this->scene.render();
-  EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), moved), 0u);
-}
-
-TEST_F(Deferred, LeavesTheFramebufferAsItWas)
-{
-  EXPECT_EQ(this->autoRoute(), "deferred");
-  this->scene.window->GetRenderFramebuffer()->Bind();
-  GLint buffer = 0;
-  glGetIntegerv(GL_DRAW_BUFFER0, &buffer);
-  EXPECT_EQ(buffer, GL_COLOR_ATTACHMENT0);
-  glGetIntegerv(GL_DRAW_BUFFER1, &buffer);
-  EXPECT_EQ(buffer, GL_NONE);
-  for (const GLenum attachment : { GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2 })
-  {
-    GLint kind = 0;
-    glGetFramebufferAttachmentParameteriv(
-      GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &kind);
-    EXPECT_EQ(kind, GL_NONE);
-  }
 }

@@ -337,15 +337,6 @@ private:
   std::function<void()> called_;
 };
 
-TEST_F(PictureTimer, drawsARestingPictureAfterAProgramsMotion)
-{
-  this->move();
-  EXPECT_EQ(this->technique(), "nsm");
-  wait(*this, 600.0);
-  EXPECT_EQ(this->technique(), "silhouette");
-  EXPECT_FALSE(this->hasTimers());
-}
-
 /// The first picture at rest comes at once, with one sample a pixel; the next has smooth edges.
 TEST_F(PictureTimer, edgesAreSmoothInTheSecondPictureAtRest)
 {

@@ -84,7 +84,7 @@ LeftBehind repeat(vtkRenderWindow* window, int times, const std::function<void(i
 
 void expectNothingLeftBehind(const LeftBehind& left)
 {
-  EXPECT_GT(left.before.textures, 0);
+  EXPECT_GT(left.before.at("textures"), 0);
   EXPECT_EQ(left.after, left.before);
   EXPECT_LT(left.growthMegabytes, mostGrowthMegabytes);
 }
@@ -209,7 +209,7 @@ TEST_P(LifeCycle, lightSamplingReleasesEverything)
   set(lightOf(this->scene_.renderer, 1), "light_radius", "0.5");
   this->scene_.usePlain();
   this->draw();
-  const LiveObjects plain = countLiveObjects(this->scene_.window);
+  const LiveObjects plain = withoutPrograms(countLiveObjects(this->scene_.window));
   Picture picture;
   {
     vtkNew<vtkGnomonLightSamplingPass> sampling;
@@ -217,16 +217,14 @@ TEST_P(LifeCycle, lightSamplingReleasesEverything)
     sampling->SetSamples(4);
     this->scene_.renderer->SetPass(sampling);
     picture = this->scene_.render();
-    EXPECT_FALSE(countLiveObjects(this->scene_.window).sameButPrograms(plain));
+    EXPECT_NE(withoutPrograms(countLiveObjects(this->scene_.window)), plain);
     sampling->ReleaseGraphicsResources(this->scene_.window);
-    const LiveObjects released = countLiveObjects(this->scene_.window);
-    EXPECT_TRUE(released.sameButPrograms(plain)) << released << "; plain: " << plain;
+    EXPECT_EQ(withoutPrograms(countLiveObjects(this->scene_.window)), plain) << "after the release";
     EXPECT_EQ(picture, this->scene_.render()) << "drawn again after the release";
     this->scene_.usePlain();
   }
   // The pass may be deleted before its window, and may move to another window.
-  const LiveObjects after = countLiveObjects(this->scene_.window);
-  EXPECT_TRUE(after.sameButPrograms(plain)) << after << "; plain: " << plain;
+  EXPECT_EQ(withoutPrograms(countLiveObjects(this->scene_.window)), plain);
   vtkNew<vtkGnomonLightSamplingPass> sampling;
   sampling->SetSamples(4);
   for (int time = 0; time < 3; ++time)

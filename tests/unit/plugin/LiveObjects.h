@@ -5,40 +5,19 @@
 #include <vtkTextureUnitManager.h>
 
 #include <cstddef>
-#include <ostream>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace gnomon::test
 {
 
-/// Live OpenGL objects of a context.
-struct LiveObjects
-{
-  int textures = 0;
-  int buffers = 0;
-  int framebuffers = 0;
-  int renderbuffers = 0;
-  int vertexArrays = 0;
-  int programs = 0;
-  int shaders = 0;
-
-  bool operator==(const LiveObjects& other) const
-  {
-    return this->sameButPrograms(other) && this->programs == other.programs &&
-      this->shaders == other.shaders;
-  }
-  bool sameButPrograms(const LiveObjects& other) const
-  {
-    return this->textures == other.textures && this->buffers == other.buffers &&
-      this->framebuffers == other.framebuffers && this->renderbuffers == other.renderbuffers &&
-      this->vertexArrays == other.vertexArrays;
-  }
-};
-
-std::ostream& operator<<(std::ostream& stream, const LiveObjects& live);
+/// The numbers of live OpenGL objects of a context, by kind.
+using LiveObjects = std::map<std::string, int>;
 
 /// Count the live objects of a window's context, which is current afterwards.
 LiveObjects countLiveObjects(vtkRenderWindow* window);
+LiveObjects withoutPrograms(LiveObjects live);
 
 /// Takes all texture units that VTK's manager can still give, and gives them back.
 struct TakenUnits

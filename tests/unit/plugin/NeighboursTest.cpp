@@ -1,26 +1,9 @@
-// Other parts of a VTK application must not be affected by the pass: picking, translucent,
-// volumetric and overlay props, and the renderer's own settings.
+// Other parts of a VTK application must not be affected by the pass: picking, translucent
+// and overlay props, and the renderer's own settings.
 
 #include "PassScene.h"
 
-#include "shadowtech/base/Kernel.h"
-
-#include <vtkColorTransferFunction.h>
-#include <vtkDataObject.h>
-#include <vtkFixedPointVolumeRayCastMapper.h>
-#include <vtkHardwareSelector.h>
-#include <vtkIdTypeArray.h>
-#include <vtkInformation.h>
-#include <vtkOpenGLGPUVolumeRayCastMapper.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkSelection.h>
-#include <vtkSelectionNode.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
 #include <vtkWorldPointPicker.h>
-
-#include <set>
 
 using namespace gnomon::test;
 
@@ -38,69 +21,6 @@ protected:
     this->sun = this->scene.addSun({ 1.0, 0.3, -1.5 });
   }
 
-  /// Draw with casting and with idle light. Outside the shadows, which must exist, and inside
-  /// `kept`, both pictures must be equal.
-  template <typename IsKept>
-  void expectKept(IsKept kept)
-  {
-    this->scene.useGnomon();
-    const Picture shadowed = this->scene.render();
-    EXPECT_NE(this->scene.report().route, "none");
-    this->sun->SetShadowAttenuation(0.0f);
-    const Picture idle = this->scene.render();
-    EXPECT_EQ(this->scene.report().route, "none");
-    this->sun->SetShadowAttenuation(1.0f);
-    const auto changed = [&](int x, int y) { return shadowed.at(x, y) != idle.at(x, y); };
-    const auto isKept = [&](int x, int y) { return kept(idle, x, y); };
-    const std::size_t keptPixels = countPixels(idle, isKept);
-    const std::size_t changedInside =
-      countPixels(idle, [&](int x, int y) { return isKept(x, y) && changed(x, y); });
-    const std::size_t changedOutside =
-      countPixels(idle, [&](int x, int y) { return !isKept(x, y) && changed(x, y); });
-    EXPECT_GT(keptPixels, 100u);
-    EXPECT_EQ(changedInside, 0u);
-    EXPECT_GT(changedOutside, 100u) << "no shadow";
-  }
-
-  /// Add an opaque blue volume in the shadows' way. It must look as it does without shadows. If no
-  /// light casts, the whole picture must look as it does without the pass.
-  void expectVolumeKept(vtkVolumeMapper* mapper)
-  {
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(16, 16, 16);
-    image->SetSpacing(0.1, 0.1, 0.1);
-    image->SetOrigin(-3.0, -2.0, 0.5);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-    auto* values = static_cast<unsigned char*>(image->GetScalarPointer());
-    for (int i = 0; i < 16 * 16 * 16; ++i)
-    {
-      values[i] = static_cast<unsigned char>(120 + 5 * (i % 16)); // a gradient, for shading
-    }
-    mapper->SetInputDataObject(image);
-    vtkNew<vtkPiecewiseFunction> opacity;
-    opacity->AddPoint(0.0, 0.0);
-    opacity->AddPoint(255.0, 1.0);
-    vtkNew<vtkColorTransferFunction> colour;
-    colour->AddRGBPoint(0.0, 0.0, 0.0, 1.0);
-    colour->AddRGBPoint(255.0, 0.0, 0.0, 1.0);
-    vtkNew<vtkVolume> volume;
-    volume->SetMapper(mapper);
-    volume->GetProperty()->SetScalarOpacity(opacity);
-    volume->GetProperty()->SetColor(colour);
-    volume->GetProperty()->SetScalarOpacityUnitDistance(0.02); // opaque
-    volume->GetProperty()->ShadeOn();
-    volume->GetProperty()->SetAmbient(0.4);
-    this->scene.renderer->AddViewProp(volume);
-    this->expectKept([](const Picture& picture, int x, int y)
-      { return picture.at(x, y).b > 60 && picture.at(x, y).g < 10; });
-    this->scene.render();
-    EXPECT_THAT(this->scene.report().notes,
-      testing::AllOf(testing::Contains(testing::HasSubstr("SetVolumeCasters()")),
-        testing::Each(testing::HasSubstr("olume"))));
-
-    this->expectPlainWhereNothingCasts();
-  }
-
   void expectPlainWhereNothingCasts()
   {
     this->sun->SetShadowAttenuation(0.0f);
@@ -115,54 +35,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Ways, Neighbours, allWays, nameOf);
 
-/// Return the props and ids that a rectangle selects, a line for each prop.
-std::set<std::string> selectedIds(
-  vtkRenderer* renderer, int association, const std::array<unsigned, 4>& box)
-{
-  vtkNew<vtkHardwareSelector> selector;
-  selector->SetRenderer(renderer);
-  selector->SetArea(box[0], box[1], box[2], box[3]);
-  selector->SetFieldAssociation(association);
-  const auto selection = vtkSmartPointer<vtkSelection>::Take(selector->Select());
-  std::set<std::string> lines;
-  for (unsigned int i = 0; selection && i < selection->GetNumberOfNodes(); ++i)
-  {
-    vtkSelectionNode* node = selection->GetNode(i);
-    std::string line =
-      "prop " + std::to_string(node->GetProperties()->Get(vtkSelectionNode::PROP_ID()));
-    auto* ids = vtkIdTypeArray::SafeDownCast(node->GetSelectionList());
-    for (vtkIdType id = 0; ids && id < ids->GetNumberOfValues(); ++id)
-    {
-      line += " " + std::to_string(ids->GetValue(id));
-    }
-    lines.insert(line);
-  }
-  return lines;
-}
-
 } // namespace
-
-TEST_P(Neighbours, hardwareSelectionGivesTheSameAnswers)
-{
-  const std::array<std::array<unsigned, 4>, 4> boxes = { { { { 100, 100, 100, 100 } },
-    { { 0, 0, 199, 149 } }, { { 90, 90, 120, 110 } }, { { 2, 147, 3, 148 } } } };
-  for (const int association :
-    { vtkDataObject::FIELD_ASSOCIATION_CELLS, vtkDataObject::FIELD_ASSOCIATION_POINTS })
-  {
-    for (const std::array<unsigned, 4>& box : boxes)
-    {
-      this->scene.usePlain();
-      this->scene.render();
-      const std::set<std::string> plain = selectedIds(this->scene.renderer, association, box);
-      this->scene.useGnomon();
-      const Picture before = this->scene.render();
-      EXPECT_EQ(selectedIds(this->scene.renderer, association, box), plain);
-      EXPECT_EQ(this->scene.report().lights.size(), 1u) << "of the picture before";
-      EXPECT_EQ(differingPixels(before, this->scene.render()), 0u) << "the frame after";
-      EXPECT_EQ(plain.empty(), &box == &boxes[3]);
-    }
-  }
-}
 
 TEST_P(Neighbours, worldPointPickerGivesTheSamePoints)
 {
@@ -283,21 +156,6 @@ TEST_P(Neighbours, translucentFacetsAreDarkOnlyWhereTheLightIsHidden)
   const Picture hidden = this->scene.render();
   this->sun->SetIntensity(0.0);
   EXPECT_EQ(differingPixels(this->scene.render(), hidden, 2), 0u);
-}
-
-TEST_P(Neighbours, volumesAreDrawnAsVtkDrawsThem)
-{
-  vtkNew<vtkFixedPointVolumeRayCastMapper> mapper;
-  mapper->AutoAdjustSampleDistancesOff(); // a busy machine then draws the same picture
-  this->expectVolumeKept(mapper);
-}
-
-TEST_P(Neighbours, volumesOnTheGpuAreDrawnAsVtkDrawsThem)
-{
-  vtkNew<vtkOpenGLGPUVolumeRayCastMapper> mapper;
-  mapper->AutoAdjustSampleDistancesOff();
-  this->scene.pass->VolumesReceiveOff();
-  this->expectVolumeKept(mapper);
 }
 
 TEST_P(Neighbours, fxaaIsHonoured)

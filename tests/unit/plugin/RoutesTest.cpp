@@ -222,29 +222,3 @@ TEST_F(PassTest, hardShadowsOfManyLightsAreThoseOfEach)
     lights[0]->SwitchOff(); // the others then have other bits
   }
 }
-
-/// The image route reuses its pixels while nothing moves. Windows with several samples per pixel
-/// keep the inline route, which shades samples.
-TEST_F(PassTest, slowTechniquesTakeTheImageRoute)
-{
-  for (const int samples : { 0, 4 })
-  {
-    PassScene scene(80, 60);
-    scene.window->SetMultiSamples(samples);
-    scene.addFloor(4.0);
-    scene.addSphere({ 0.0, 0.0, 1.2 }, 0.7);
-    scene.addSun({ 1.0, 0.3, -1.5 });
-    scene.lookFrom({ 0.0, -9.0, 7.0 });
-    for (const auto& [technique, route] : { std::pair("nsm", "inline"), { "pcf", "inline" },
-           { "pcss", samples > 0 ? "inline" : "image" } })
-    {
-      scene.render(technique);
-      EXPECT_EQ(scene.report().route, route) << technique << ": " << scene.report().routeReason;
-    }
-    scene.render();
-    EXPECT_EQ(scene.report().visibilityComputed, 0) << "at rest";
-    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-    scene.render();
-    EXPECT_EQ(scene.report().route, "inline") << "asked for";
-  }
-}

@@ -156,20 +156,6 @@ TEST_P(MapsWithoutRoom, areAnErrorThatOffersSmallerOnesAndLeaveNothingBehind)
   EXPECT_EQ(countLiveObjects(scene.window), live);
 }
 
-TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
-{
-  PassScene scene(100, 80);
-  scene.addSun({ 1.0, 0.3, -1.5 });
-  fillRoundLamp(scene);
-  vtkGnomonLightKeys::SetMapSize(lightOf(scene.renderer, 1), hugeMap);
-  scene.render();
-  if (isOnGpu())
-  {
-    GTEST_SKIP() << "a GPU may have room for the map";
-  }
-  EXPECT_THAT(this->takeErrors(), HasSubstr("light 1: a map"));
-}
-
 /// The centre's map has room, those of the light's other points have none when the picture is
 /// drawn.
 TEST_F(TextureMemory, mapsThatAreDrawnWithThePictureNameTheirLight)
