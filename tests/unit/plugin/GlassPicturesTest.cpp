@@ -3,8 +3,8 @@
 #include "PassScene.h"
 
 #include <tbb/parallel_for.h>
-
 #include <vtkCellArrayIterator.h>
+#include <vtkCellData.h>
 #include <vtkDepthPeelingPass.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkRenderStepsPass.h>
@@ -67,11 +67,12 @@ public:
     const std::function<double(const glm::dvec2&)>* alphaAt = nullptr)
   {
     vtkProperty* const property = actor->GetProperty();
-    auto* const colours = vtkUnsignedCharArray::SafeDownCast(data->GetPointData()->GetScalars());
+    vtkDataArray* const ofCells = data->GetCellData()->GetScalars();
+    vtkDataArray* const colours = ofCells ? ofCells : data->GetPointData()->GetScalars();
     vtkDataArray* const normals = data->GetPointData()->GetNormals();
     vtkDataArray* const textures = data->GetPointData()->GetTCoords();
     const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(worldFromModel)));
-    const auto cornerOf = [&](vtkIdType point)
+    const auto cornerOf = [&](vtkIdType point, vtkIdType cell)
     {
       TracedCorner corner;
       corner.place =
@@ -80,7 +81,7 @@ public:
       corner.colour = glm::dvec4(glm::make_vec3(property->GetDiffuseColor()), 1.0);
       if (colours)
       {
-        corner.colour = glm::make_vec4(colours->GetTuple(point)) / 255.0;
+        corner.colour = glm::make_vec4(colours->GetTuple(ofCells ? cell : point)) / 255.0;
       }
       const bool isGlyph = actor->GetMapper()->IsA("vtkGlyph3DMapper"); // takes it twice
       corner.colour.a *= std::pow(property->GetOpacity(), isGlyph ? 2 : 1);
@@ -88,10 +89,10 @@ public:
       return corner;
     };
     const auto cells = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
-    const auto addFace = [&](vtkIdType a, vtkIdType b, vtkIdType c)
+    const auto addFace = [&](vtkIdType a, vtkIdType b, vtkIdType c, vtkIdType cell = 0)
     {
       TracedFace face;
-      face.corners = { cornerOf(a), cornerOf(b), cornerOf(c) };
+      face.corners = { cornerOf(a, cell), cornerOf(b, cell), cornerOf(c, cell) };
       face.isGlass = alphaAt || face.corners[0].colour.a < 1.0 || face.corners[1].colour.a < 1.0 ||
         face.corners[2].colour.a < 1.0;
       face.isColoured =
@@ -107,7 +108,7 @@ public:
       cells->GetCurrentCell(count, points);
       for (vtkIdType i = 2; i < count; ++i)
       {
-        addFace(points[0], points[i - 1], points[i]);
+        addFace(points[0], points[i - 1], points[i], cells->GetCurrentCellId());
       }
     }
     const vtkIdType* strip = nullptr;
@@ -391,6 +392,21 @@ const GlassPicture glassPictures[] = {
       data->GetPointData()->SetScalars(colours);
       scene.add(data);
       scene.pane({ 0.3, 0.2, 0.5 }, 0.5);
+      sun(scene);
+    } },
+  { "alpha_of_cells",
+    [](GlassScene& scene)
+    {
+      scene.ground();
+      const vtkSmartPointer<vtkPolyData> data = copyOf(squareOf(1.2, 1.0, 3));
+      vtkNew<vtkUnsignedCharArray> colours;
+      colours->SetNumberOfComponents(4);
+      for (int cell = 0; cell < 9; ++cell)
+      {
+        colours->InsertNextTuple4(255, 90 + 20 * cell, 120, 20 + 25 * cell);
+      }
+      data->GetCellData()->SetScalars(colours);
+      scene.add(data);
       sun(scene);
     } },
   { "alpha_of_a_texture",

@@ -2,9 +2,6 @@
 
 #include "PassScene.h"
 
-#include <vtkCellData.h>
-#include <vtkLookupTable.h>
-
 namespace gnomon::test
 {
 namespace
@@ -25,10 +22,7 @@ protected:
 
   vtkActor* addPane(double z, double opacity, double extent = 4.0)
   {
-    return this->asGlass(this->scene.addFloor(extent, z), opacity);
-  }
-  vtkActor* asGlass(vtkActor* actor, double opacity)
-  {
+    vtkActor* const actor = this->scene.addFloor(extent, z);
     actor->GetProperty()->SetOpacity(opacity);
     actor->GetProperty()->SetDiffuse(0.0);
     vtkGnomonPropKeys::SetReceives(actor, false);
@@ -39,14 +33,6 @@ protected:
   {
     const VisibilityImages& kept = drawKept(this->scene, text);
     return kept.visibility[0][24 * 48 + 24];
-  }
-  /// Return the picture's shadow at a place, by the floor's light there: the pane's own colour is
-  /// taken away by what VTK draws without shadows.
-  void expectShadowLikeDrawing(double x, double y)
-  {
-    const double plain = this->scene.redAt(this->scene.renderPlain(), x, y) / 255.0;
-    EXPECT_NEAR(this->scene.redAt(this->scene.render(), x, y), 255.0 * plain * plain, 2.0)
-      << "at " << x << ", " << y << " with " << plain;
   }
   std::string notes() { return testing::PrintToString(this->scene.report().notes); }
 
@@ -88,25 +74,6 @@ INSTANTIATE_TEST_SUITE_P(, TracedGlass,
       name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
     return name;
   });
-
-TEST_F(Glass, ClosedBoxesCountTwoWalls)
-{
-  this->asGlass(this->scene.addBox({ -1.0, -1.0, 1.0 }, { 1.0, 1.0, 1.001 }), 0.4);
-  EXPECT_NEAR(this->middle("raytraced"), 0.36, 1e-6);
-}
-
-TEST_F(Glass, OtherTechniquesTakeRaysAndSayWhy)
-{
-  this->addPane(1.0, 0.25);
-  for (const char* const technique : { "nsm", "pcf", "vsm", "planar" })
-  {
-    EXPECT_NEAR(this->middle(technique), 0.75, 1e-6) << technique;
-    EXPECT_THAT(this->notes(),
-      testing::HasSubstr(
-        std::string("'") + technique + "' cannot show how much light translucent casters let"));
-    EXPECT_EQ(this->scene.report().lights[0].technique, "raytraced");
-  }
-}
 
 TEST_F(Glass, AreaLightsLoseLightSampleBySample)
 {
@@ -155,36 +122,6 @@ TEST_F(Glass, CastsOnlyIfAskedAndAsItsKeysSay)
     testing::HasSubstr("casts nothing unless its key asks, or SetTranslucentCasters()"));
   vtkGnomonPropKeys::SetTransmits(pane, 7);
   EXPECT_THAT(this->takeErrors(), testing::HasSubstr("TRANSMITS was to be 7"));
-}
-
-TEST_F(Glass, StainedPanesColourTheLight)
-{
-  const auto stain = [](vtkActor* pane, double red, double green, double blue)
-  {
-    pane->GetProperty()->SetDiffuseColor(red, green, blue);
-    vtkGnomonPropKeys::SetTransmits(pane, vtkGnomonPropKeys::TRANSMITS_COLORED);
-  };
-  stain(this->addPane(1.0, 0.5), 1.0, 0.25, 0.0);
-  stain(this->addPane(1.5, 0.8), 0.5, 0.5, 1.0);
-  const glm::dvec3 expected(1.0 * 0.6, 0.625 * 0.6, 0.5 * 1.0);
-  const auto expectColours = [&](double tolerance)
-  {
-    const VisibilityImages& kept = drawKept(this->scene);
-    ASSERT_EQ(kept.visibility.size(), 3u);
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      EXPECT_NEAR(kept.visibility[static_cast<std::size_t>(channel)][24 * 48 + 24],
-        expected[channel], tolerance);
-    }
-  };
-  for (const char* const technique : { "raytraced", "crsm", "nsm" })
-  {
-    this->scene.choose(technique);
-    expectColours(1e-6);
-  }
-  this->scene.choose("penumbra");
-  this->scene.set("light_radius", "0.05");
-  expectColours(1e-5);
 }
 
 TEST_F(Glass, FollowsChangesOfOpacityAndPlace)
@@ -247,77 +184,6 @@ TEST_F(Glass, ReceiversFollowItsChanges)
   this->scene.set("map_size", 512);
   this->scene.render();
   EXPECT_LT(this->scene.report().bytesMaps, map / 2);
-}
-
-TEST_F(Glass, OpacityOfScalarsAndTexturesIsThatOfTheDrawing)
-{
-  vtkActor* const pane = this->addPane(1.0, 0.8, 2.5);
-  auto* const data = vtkPolyData::SafeDownCast(pane->GetMapper()->GetInputAsDataSet());
-  pane->GetMapper()->Update();
-  // Alpha of the corners, by a table of colours.
-  vtkNew<vtkFloatArray> heights;
-  for (const float height : { 0.0f, 0.3f, 0.6f, 1.0f })
-  {
-    heights->InsertNextValue(height);
-  }
-  data->GetPointData()->SetScalars(heights);
-  vtkNew<vtkLookupTable> table;
-  table->SetTableRange(0.0, 1.0);
-  table->SetAlphaRange(0.2, 0.9);
-  table->SetValueRange(0.0, 0.0); // black
-  pane->GetMapper()->SetLookupTable(table);
-  pane->GetMapper()->SetScalarRange(0.0, 1.0);
-  for (const auto& [x, y] : { std::pair(0.0, 0.0), std::pair(1.2, 0.9), std::pair(-1.4, 0.3) })
-  {
-    this->expectShadowLikeDrawing(x, y);
-  }
-  // Alpha of cells.
-  data->GetPointData()->SetScalars(nullptr);
-  vtkNew<vtkFloatArray> ofCells;
-  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
-  {
-    ofCells->InsertNextValue(0.5f);
-  }
-  data->GetCellData()->SetScalars(ofCells);
-  data->Modified();
-  this->expectShadowLikeDrawing(0.3, 0.4);
-  EXPECT_LT(this->middle("raytraced"), 0.8f);
-  // Alpha of a texture.
-  data->GetCellData()->SetScalars(nullptr);
-  data->Modified();
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(2, 2, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  for (int i = 0; i < 4; ++i)
-  {
-    auto* const texel = static_cast<unsigned char*>(image->GetScalarPointer(i % 2, i / 2, 0));
-    std::fill_n(texel, 3, static_cast<unsigned char>(0));
-    texel[3] = static_cast<unsigned char>(40 + 60 * i);
-  }
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(image);
-  for (const bool interpolates : { false, true })
-  {
-    texture->SetInterpolate(interpolates);
-    pane->SetTexture(texture);
-    for (const auto& [x, y] : { std::pair(0.2, 0.3), std::pair(1.2, 0.9), std::pair(-1.4, -0.3) })
-    {
-      this->expectShadowLikeDrawing(x, y);
-    }
-  }
-  EXPECT_EQ(this->scene.report().notes.size(), 0u) << this->notes();
-}
-
-TEST_F(Glass, LooksAlikeByAllWaysToBlend)
-{
-  this->addPane(1.0, 0.3);
-  this->addPane(1.5, 0.4, 1.0);
-  const float expected = this->middle("raytraced");
-  for (const bool peels : { true, false })
-  {
-    this->scene.renderer->SetUseDepthPeeling(peels);
-    EXPECT_EQ(this->middle(), expected);
-  }
 }
 
 TEST_F(Glass, TakesItsShareOfTheSky)

@@ -6,7 +6,6 @@
 
 #include <vtkPropCollection.h>
 
-using gnomon::FrameReport;
 using namespace gnomon::test;
 
 namespace
@@ -104,28 +103,6 @@ TEST_P(KindsOfProps, castOrAreListed)
       const bool isListed = without.leftOut != all.leftOut;
       EXPECT_EQ(casts, !isListed && !isAnnotation(name) && !isGlass(name) && name != "volume");
     });
-}
-
-TEST_P(KindsOfProps, letLightThroughIfAsked)
-{
-  const std::vector<gnomon::tool::SceneProp> props = gnomon::tool::loadScene("props").props;
-  vtkPropCollection* const all = this->scene.renderer->GetViewProps();
-  for (const bool asks : { false, true })
-  {
-    this->scene.pass->SetTranslucentCasters(asks);
-    const Picture picture = this->scene.render();
-    for (std::size_t i = 0; i < props.size(); ++i)
-    {
-      if (isGlass(props[i].name))
-      {
-        auto* const prop = vtkProp::SafeDownCast(all->GetItemAsObject(static_cast<int>(i) + 1));
-        vtkGnomonPropKeys::SetCasts(prop, false);
-        const std::size_t changed = differingPixels(this->scene.render(), picture, 4);
-        EXPECT_EQ(changed > 100, asks) << props[i].name << ": " << changed;
-        prop->GetPropertyKeys()->Remove(vtkGnomonPropKeys::CASTS());
-      }
-    }
-  }
 }
 
 /// A plate hides the sun from everything and nothing from the camera.

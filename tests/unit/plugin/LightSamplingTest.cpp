@@ -54,22 +54,11 @@ public:
 vtkStandardNewMacro(CountingPass);
 
 /// A picture's channels, unrounded.
-using Channels = std::vector<double>;
+using Channels = std::vector<float>;
 
 Channels channelsOf(const Picture& picture)
 {
   return Channels(picture.rgb.begin(), picture.rgb.end());
-}
-
-double largestDifference(const Channels& a, const Channels& b)
-{
-  EXPECT_EQ(a.size(), b.size());
-  double largest = 0.0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-  {
-    largest = std::max(largest, std::abs(a[i] - b[i]));
-  }
-  return largest;
 }
 
 double meanOf(const Channels& channels)
@@ -185,16 +174,16 @@ protected:
     this->forEachPoint(pass,
       [&](const Picture& picture)
       {
-        sum.resize(picture.rgb.size(), 0.0);
+        sum.resize(picture.rgb.size(), 0.0f);
         for (std::size_t i = 0; i < sum.size(); ++i)
         {
-          sum[i] += std::pow(picture.rgb[i] / 255.0, gamma);
+          sum[i] += static_cast<float>(std::pow(picture.rgb[i] / 255.0, gamma));
         }
         ++pictures;
       });
-    for (double& value : sum)
+    for (float& value : sum)
     {
-      value = 255.0 * std::pow(value / pictures, 1.0 / gamma);
+      value = static_cast<float>(255.0 * std::pow(value / pictures, 1.0 / gamma));
     }
     return sum;
   }
@@ -457,14 +446,14 @@ TEST_F(LightSampling, alphaIsThatOfThePlainPicture)
     this->pictureOf(pass);
     vtkNew<vtkUnsignedCharArray> rgba;
     this->scene.window->GetRGBACharPixelData(0, 0, 139, 99, 0, rgba);
-    std::vector<double> alphas;
+    Channels alphas;
     for (vtkIdType i = 0; i < rgba->GetNumberOfTuples(); ++i)
     {
       alphas.push_back(rgba->GetTypedComponent(i, 3));
     }
     return alphas;
   };
-  const std::vector<double> plain = alphasOf(this->scene.pass);
+  const Channels plain = alphasOf(this->scene.pass);
   EXPECT_GT(std::count(plain.begin(), plain.end(), 0), 100);
   EXPECT_GT(std::count(plain.begin(), plain.end(), 255), 100);
   EXPECT_LE(largestDifference(alphasOf(this->sampling), plain), 1.0);

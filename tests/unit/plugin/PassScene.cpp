@@ -291,10 +291,9 @@ FloorCheck checkFloor(
       const glm::dvec2 floor = scene.floorAt(x, y);
       const double value = exact(floor);
       bool nearEdge = value < 0.0;
-      for (const glm::dvec2& step : { glm::dvec2(band, 0.0), glm::dvec2(-band, 0.0),
-             glm::dvec2(0.0, band), glm::dvec2(0.0, -band) })
+      for (int i = 0; i < 81 && !nearEdge; ++i)
       {
-        nearEdge = nearEdge || exact(floor + step) != value;
+        nearEdge = exact(floor + 0.25 * band * glm::dvec2(i % 9 - 4, i / 9 - 4)) != value;
       }
       if (nearEdge)
       {
@@ -408,12 +407,6 @@ Acne countAcne(const VisibilityImages& kept,
   }
   acne.mean /= std::max<double>(static_cast<double>(acne.facing), 1.0);
   return acne;
-}
-
-Acne countAcneOfSun(const VisibilityImages& kept, const glm::dvec3& toLight, double leastCosine)
-{
-  return countAcne(
-    kept, [&](const glm::dvec3&) { return toLight; }, leastCosine);
 }
 
 Acne countAcneOfLamp(const VisibilityImages& kept, const glm::dvec3& lightWorld, double leastCosine)

@@ -228,7 +228,7 @@ struct SunAndSpotScene : PassScene
 ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& directions);
 
 /// Compare each pixel with the exact answer, with a tolerance of a quarter of white. Pixels with
-/// an edge of the exact answer nearer than `band` (floor units) are left out.
+/// an edge of the exact answer in the square of half side `band` (floor units) are left out.
 FloorCheck checkFloor(
   const PassScene& scene, const Picture& picture, const ExactFloor& exact, double band);
 
@@ -270,8 +270,6 @@ struct Acne
 /// @param toLight maps a receiver's position to a vector towards the light, of any length
 Acne countAcne(const VisibilityImages& kept,
   const std::function<glm::dvec3(const glm::dvec3&)>& toLight, double leastCosine = 0.0);
-Acne countAcneOfSun(
-  const VisibilityImages& kept, const glm::dvec3& toLight, double leastCosine = 0.0);
 Acne countAcneOfLamp(
   const VisibilityImages& kept, const glm::dvec3& lightWorld, double leastCosine = 0.0);
 

@@ -60,8 +60,14 @@ void changeAll(int half, const std::function<void(ChangingScene&)>& begin,
   }
 }
 
+/// With the number of a half of the kinds.
+using PropChanges = PassTestOf<int>;
+INSTANTIATE_TEST_SUITE_P(Halves, PropChanges, testing::Range(0, 2));
+
+} // namespace
+
 /// Compare the picture after each change with that of a new pass, which goes on.
-void showChanges(int half)
+TEST_P(PropChanges, showInTheNextFrame)
 {
   std::size_t changed = 0;
   Picture before;
@@ -81,12 +87,12 @@ void showChanges(int half)
     scene.render();
     EXPECT_EQ(scene.fresh->GetReport().receiversDrawn, 0) << "nothing changes";
   };
-  changeAll(half, begin, check);
+  changeAll(GetParam(), begin, check);
   EXPECT_GT(changed, 100u);
 }
 
 /// Samples of lights restart after each change, and then come to an end.
-void sampleChanges(int half)
+TEST_P(PropChanges, restartSamples)
 {
   vtkSmartPointer<vtkGnomonLightSamplingPass> sampling;
   const auto finish = [&](ChangingScene& scene)
@@ -111,36 +117,10 @@ void sampleChanges(int half)
     EXPECT_EQ(sampling->GetProgress(), 0.0);
     finish(scene);
   };
-  changeAll(half, begin, check);
+  changeAll(GetParam(), begin, check);
 }
 
-struct PropChanges : PassTest
-{
-};
-
-} // namespace
-
-TEST_F(PropChanges, showInTheNextFrame)
-{
-  showChanges(0);
-}
-
-TEST_F(PropChanges, ofMoreKindsShowInTheNextFrame)
-{
-  showChanges(1);
-}
-
-TEST_F(PropChanges, restartSamples)
-{
-  sampleChanges(0);
-}
-
-TEST_F(PropChanges, ofMoreKindsRestartSamples)
-{
-  sampleChanges(1);
-}
-
-TEST_F(PropChanges, ofUnknownKindsAreSaidToBeUncertain)
+TEST_F(PassTest, changesOfUnknownKindsAreSaidToBeUncertain)
 {
   const auto hint = testing::HasSubstr("only VTK's redraw time tells of changes of ");
   for (const PropKind& kind : changingProps())

@@ -428,24 +428,6 @@ TEST_P(Props, levelsOfDetailCastAsDrawn)
   EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
 }
 
-/// VTK culls the prop, so the selected level was never chosen by drawing.
-TEST_P(Props, selectedLevelsOfDetailCastThoughTheyWereNeverInView)
-{
-  vtkNew<vtkLODProp3D> prop;
-  prop->AutomaticLODSelectionOff();
-  const auto addLevelAt = [&](double height)
-  {
-    const auto box = boxOf({ -0.5, -0.5, height - 0.5 }, { 0.5, 0.5, height + 0.5 });
-    return prop->AddLOD(mapperOf(box), 0.0);
-  };
-  addLevelAt(6.0);
-  prop->SetSelectedLODID(addLevelAt(10.0));
-  prop->SetPosition(-10.0, 0.0, 0.0);
-  this->scene.renderer->AddViewProp(prop);
-  EXPECT_TRUE(this->dark(0.0, 0.0));
-  EXPECT_FALSE(this->dark(-4.0, 0.0));
-}
-
 TEST_P(Props, quadricLevelsOfDetailCastAsDrawn)
 {
   vtkNew<QuietInteractor> interactor;
@@ -461,27 +443,6 @@ TEST_P(Props, quadricLevelsOfDetailCastAsDrawn)
   EXPECT_TRUE(this->dark(2.0, 0.0));
   EXPECT_LT(this->scene.report().triangles, full - 1000u);
   EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
-}
-
-TEST_P(Props, translucentOnesCastIfAsked)
-{
-  vtkActor* square = this->addSquare(true);
-  square->GetProperty()->SetOpacity(0.5);
-  EXPECT_FALSE(this->dark(2.5, 0.0));
-  vtkGnomonPropKeys::SetTransmits(square, vtkGnomonPropKeys::TRANSMITS_NOTHING);
-  vtkGnomonPropKeys::SetCasts(square, true);
-  EXPECT_TRUE(this->dark(2.5, 0.0));
-  EXPECT_FALSE(this->dark(3.5, 0.0));
-  vtkGnomonPropKeys::SetCasts(square, false);
-  EXPECT_FALSE(this->dark(2.5, 0.0));
-
-  // Once opaque, it receives like all opaque surfaces.
-  vtkGnomonPropKeys::SetCasts(square, true);
-  this->scene.addBox({ -1.5, -0.2, 3.0 }, { -0.5, 0.2, 3.2 }); // shades the square at x = 0
-  EXPECT_TRUE(this->dark(2.5, 0.5));
-  square->GetProperty()->SetOpacity(1.0);
-  EXPECT_TRUE(this->dark(0.0, 0.0));
-  EXPECT_FALSE(this->dark(0.0, 0.5));
 }
 
 /// A square of side 2 at height 2, of which half the light passes, in the opaque pass. The floor is

@@ -125,50 +125,41 @@ TEST_F(SkyTest, WallsDarkenTheGroundBesideThem)
 /// Unlit surfaces, highlights and metals have the same bytes with a sky.
 TEST_F(SkyTest, OnlyDiffuseAndAmbientTermsChange)
 {
-  struct Kind
-  {
-    const char* name;
-    std::function<void(vtkActor*)> make;
-  };
-  const std::vector<Kind> kinds = { { "unlit",
-                                      [](vtkActor* actor)
-                                      {
-                                        actor->GetProperty()->LightingOff();
-                                        actor->GetProperty()->SetColor(0.5, 0.4, 0.3);
-                                      } },
+  const std::pair<const char*, std::function<void(vtkProperty*)>> kinds[] = {
+    { "unlit", [](vtkProperty* look) { look->LightingOff(); } },
     { "unlit tubes",
-      [](vtkActor* actor)
+      [](vtkProperty* look)
       {
-        actor->GetProperty()->LightingOff();
-        actor->GetProperty()->SetColor(0.5, 0.4, 0.3);
-        actor->GetProperty()->SetRepresentationToWireframe();
-        actor->GetProperty()->RenderLinesAsTubesOn();
-        actor->GetProperty()->SetLineWidth(3.0);
+        look->LightingOff();
+        look->SetRepresentationToWireframe();
+        look->RenderLinesAsTubesOn();
+        look->SetLineWidth(3.0);
       } },
     { "highlights alone",
-      [](vtkActor* actor)
+      [](vtkProperty* look)
       {
-        actor->GetProperty()->SetDiffuseColor(0.0, 0.0, 0.0);
-        actor->GetProperty()->SetSpecular(0.8);
-        actor->GetProperty()->SetSpecularPower(5.0);
+        look->SetDiffuseColor(0.0, 0.0, 0.0);
+        look->SetSpecular(0.8);
+        look->SetSpecularPower(5.0);
       } },
     { "a metal",
-      [](vtkActor* actor)
+      [](vtkProperty* look)
       {
-        actor->GetProperty()->SetInterpolationToPBR();
-        actor->GetProperty()->SetMetallic(1.0);
-        actor->GetProperty()->SetRoughness(0.4);
-      } } };
-  for (const Kind& kind : kinds)
+        look->SetInterpolationToPBR();
+        look->SetMetallic(1.0);
+        look->SetRoughness(0.4);
+      } },
+  };
+  for (const auto& [name, make] : kinds)
   {
     PassScene of(40, 40);
-    kind.make(of.addSphere({ 0.0, 0.0, 0.0 }, 1.0));
+    make(of.addSphere({ 0.0, 0.0, 0.0 }, 1.0)->GetProperty());
     of.addSun({ -1.0, -0.5, -2.0 });
     of.lookFrom({ 2.0, 1.0, 4.0 });
     of.choose(tracedWay);
     const Picture before = of.render();
     of.pass->SetSkyIntensity(0.5);
-    EXPECT_EQ(of.render().rgb, before.rgb) << kind.name;
+    EXPECT_EQ(of.render().rgb, before.rgb) << name;
   }
 }
 

@@ -276,23 +276,6 @@ TEST_F(VolumeCasters, MultiplyWithGlassAndEndAtOpaqueProps)
   EXPECT_EQ(this->seen(), 0.0f);
 }
 
-TEST_F(VolumeCasters, AreaLightsLoseLightSampleBySample)
-{
-  this->scene.renderer->RemoveAllLights();
-  vtkNew<vtkGnomonAreaLight> lamp;
-  lamp->SetPosition(0.0, 0.0, 30.0);
-  lamp->SetFocalPoint(0.0, 0.0, 0.0);
-  lamp->SetPositional(true);
-  lamp->SetRadius(0.5);
-  this->scene.renderer->AddLight(lamp);
-  Smoke smoke;
-  this->add(smoke);
-  for (const char* const technique : { "raytraced", "penumbra" })
-  {
-    EXPECT_NEAR(this->seen(technique), 0.36, 0.01) << technique;
-  }
-}
-
 /// Rays that march are the truth of those that read the stacks of the lamp's points.
 TEST_F(VolumeCasters, StacksOfAnAreaAreNearTheMarch)
 {
