@@ -178,6 +178,29 @@ std::size_t countLit(TrueFile& image)
   return static_cast<std::size_t>(std::count(plane.begin(), plane.end(), 1.0f));
 }
 
+/// Light the covered points that a light reaches and no shadow hides.
+/// @return the number of points that it reaches
+template <typename Reaches, typename Hides>
+std::size_t shine(TrueFile& image, const Reaches& reaches, const Hides& hides)
+{
+  std::size_t reached = 0;
+  for (int i = 0; i < sidePixels * sidePixels; ++i)
+  {
+    const int x = i % sidePixels, y = i / sidePixels;
+    const Vec3 p = image.position(x, y);
+    const bool isReached = image.at("coverage", x, y) > 0.0f && reaches(p);
+    image.at("visibility.0", x, y) = isReached && !(p.y < 1.0 && hides(p)) ? 1.0f : 0.0f;
+    reached += isReached ? 1 : 0;
+  }
+  return reached;
+}
+
+/// True in the plate's shadow of a light at (3, 10, 0).
+bool isBesideLight(const Vec3& p)
+{
+  return p.x > -2.0 && p.x < 0.5 && std::abs(p.z) < 1.25;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -394,27 +417,14 @@ TEST(Check, HolesAreNeitherSeenNorCast)
 TEST(Check, SpotLightsShineInTheirConeOnly)
 {
   // Beside the camera at (3, 10, 0), straight down, 45 degrees: the cone is a circle of radius 10
-  // on the ground. The plate's shadow spans x = -2 to 0.5 and z = -1.25 to 1.25.
+  // on the ground.
   nlohmann::json scene = makeScene();
   scene["lights"] = { { { "type", "spot" }, { "position", { 3, 10, 0 } }, { "target", { 3, 0, 0 } },
     { "cone_angle", 45 } } };
   TrueFile image;
-  std::size_t inCone = 0;
-  for (int y = 0; y < sidePixels; ++y)
-  {
-    for (int x = 0; x < sidePixels; ++x)
-    {
-      if (image.at("coverage", x, y) == 0.0f)
-      {
-        continue;
-      }
-      const Vec3 p = image.position(x, y);
-      const bool lit = std::hypot(p.x - 3.0, p.z) < cameraHeight - p.y;
-      const bool shadowed = p.y < 1.0 && p.x > -2.0 && p.x < 0.5 && std::abs(p.z) < 1.25;
-      image.at("visibility.0", x, y) = lit && !shadowed ? 1.0f : 0.0f;
-      inCone += lit;
-    }
-  }
+  const std::size_t inCone = shine(
+    image, [](const Vec3& p) { return std::hypot(p.x - 3.0, p.z) < cameraHeight - p.y; },
+    isBesideLight);
   Result result = check(scene, image.file);
   EXPECT_EQ(result.failures(), std::vector<std::string>());
   EXPECT_EQ(result.lights[0].counted, inCone);
@@ -431,15 +441,8 @@ TEST(Check, PointLightsShineEverywhere)
   nlohmann::json scene = makeScene();
   scene["lights"] = { { { "type", "point" }, { "position", { 3, 10, 0 } } } };
   TrueFile image;
-  for (int y = 0; y < sidePixels; ++y)
-  {
-    for (int x = 0; x < sidePixels; ++x)
-    {
-      const Vec3 p = image.position(x, y);
-      const bool shadowed = p.y < 1.0 && p.x > -2.0 && p.x < 0.5 && std::abs(p.z) < 1.25;
-      image.at("visibility.0", x, y) = shadowed ? 0.0f : 1.0f;
-    }
-  }
+  shine(
+    image, [](const Vec3&) { return true; }, isBesideLight);
   const Result result = check(scene, image.file);
   EXPECT_EQ(result.failures(), std::vector<std::string>());
   EXPECT_EQ(result.lights[0].counted, 8100u);
@@ -462,18 +465,9 @@ TEST(Check, ABoxEndsTheLightAndBeginsIt)
   scene["lights"] = { { { "type", "directional" }, { "direction", { 0, -1, 0 } },
     { "box", boxFrom(5.0) } } };
   TrueFile image;
-  std::size_t inBox = 0;
-  for (int y = 0; y < sidePixels; ++y)
-  {
-    for (int x = 0; x < sidePixels; ++x)
-    {
-      const Vec3 p = image.position(x, y);
-      const bool reached = std::abs(p.x - 1.0) <= 4.0 && std::abs(p.z - 1.0) <= 3.0;
-      const bool shadowed = p.y < 1.0 && std::abs(p.x) < 1.0 && std::abs(p.z) < 1.0;
-      image.at("visibility.0", x, y) = reached && !shadowed ? 1.0f : 0.0f;
-      inBox += reached && image.at("coverage", x, y) > 0.0f ? 1 : 0;
-    }
-  }
+  const std::size_t inBox = shine(
+    image, [](const Vec3& p) { return std::abs(p.x - 1.0) <= 4.0 && std::abs(p.z - 1.0) <= 3.0; },
+    [](const Vec3& p) { return std::abs(p.x) < 1.0 && std::abs(p.z) < 1.0; });
   Result result = check(scene, image.file);
   EXPECT_EQ(result.failures(), std::vector<std::string>());
   EXPECT_EQ(result.lights[0].counted, inBox);

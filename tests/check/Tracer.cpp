@@ -1,10 +1,7 @@
 #include "Tracer.h"
 
-#include "shadowtech/tracing/Embree.h"
-
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 namespace gnomon::check
@@ -13,32 +10,47 @@ namespace gnomon::check
 namespace
 {
 
-/// Frees an Embree object.
-struct Release
-{
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>;
-using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// A surface as Embree's callbacks see it.
-struct Geometry
-{
-  const Surface* surface = nullptr;
-  std::size_t index = 0;
-  Vec3 centre{ 0.0 };   ///< Embree's floats are relative to it
-  double padding = 0.0; ///< of the boxes; above the float errors of ray and box together
-};
+/// The most triangles of a leaf.
+constexpr std::size_t leafSize = 4;
 
-/// A ray with its result so far, which Embree passes to the callbacks.
-struct Query
+/// A triangle by its numbers, with its middle.
+struct Leaf
 {
-  EmbreeContext context; ///< first: its address is that of the query
-  const Ray* ray;
-  double distance; ///< to the nearest hit so far
   std::size_t surface;
   std::size_t triangle;
+  Vec3 middle;
+};
+
+struct Extent
+{
+  Vec3 low{ infinite };
+  Vec3 high{ -infinite };
+
+  void add(const Vec3& point)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->low[axis] = std::min(this->low[axis], point[axis]);
+      this->high[axis] = std::max(this->high[axis], point[axis]);
+    }
+  }
+
+  /// True if a ray passes the box before `end`.
+  bool meets(const Ray& ray, double end) const
+  {
+    double from = 0.0, to = end;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double a = (this->low[axis] - ray.origin[axis]) / ray.direction[axis];
+      const double b = (this->high[axis] - ray.origin[axis]) / ray.direction[axis];
+      // NaN, of a ray that lies in the box's side, limits nothing.
+      from = std::max(from, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+    }
+    return from <= to * (1.0 + 1e-12); // more than their rounding
+  }
 };
 
 Vec3 pointAt(const Ray& ray, double distance)
@@ -46,90 +58,11 @@ Vec3 pointAt(const Ray& ray, double distance)
   return ray.origin + distance * ray.direction;
 }
 
-void computeBounds(const RTCBoundsFunctionArguments* arguments)
-{
-  const auto& geometry = *static_cast<const Geometry*>(arguments->geometryUserPtr);
-  const Triangle& triangle = geometry.surface->triangles[arguments->primID];
-  RTCBounds& bounds = *arguments->bounds_o;
-  float* const lower = &bounds.lower_x;
-  float* const upper = &bounds.upper_x;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const auto [low, high] =
-      std::minmax({ triangle[0][axis], triangle[1][axis], triangle[2][axis] });
-    lower[axis] = static_cast<float>(low - geometry.centre[axis] - geometry.padding);
-    upper[axis] = static_cast<float>(high - geometry.centre[axis] + geometry.padding);
-  }
-}
-
-void intersectNearest(const RTCIntersectFunctionNArguments* arguments)
-{
-  const auto& geometry = *static_cast<const Geometry*>(arguments->geometryUserPtr);
-  auto& query = *reinterpret_cast<Query*>(arguments->context);
-  const auto distance = intersect(*query.ray, geometry.surface->triangles[arguments->primID]);
-  if (distance && *distance < query.distance &&
-    isDrawn(*geometry.surface, arguments->primID, pointAt(*query.ray, *distance)))
-  {
-    query.distance = *distance;
-    query.surface = geometry.index;
-    query.triangle = arguments->primID;
-    auto& ray = *reinterpret_cast<RTCRayHit*>(arguments->rayhit); // N is 1
-    ray.ray.tfar = static_cast<float>(*distance + geometry.padding);
-    ray.hit.geomID = arguments->geomID;
-    ray.hit.primID = arguments->primID;
-  }
-}
-
-void intersectAny(const RTCOccludedFunctionNArguments* arguments)
-{
-  const auto& geometry = *static_cast<const Geometry*>(arguments->geometryUserPtr);
-  const auto& query = *reinterpret_cast<const Query*>(arguments->context);
-  const Triangle& triangle = geometry.surface->triangles[arguments->primID];
-  if (geometry.surface->oneSided)
-  {
-    const Vec3 front = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-    if (front.dot(query.ray->direction) <= 0.0)
-    {
-      return;
-    }
-  }
-  const auto distance = intersect(*query.ray, triangle);
-  if (distance && isDrawn(*geometry.surface, arguments->primID, pointAt(*query.ray, *distance)))
-  {
-    reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
-  }
-}
-
 Vec3 nearestPointOfEdge(const Vec3& point, const Vec3& a, const Vec3& b)
 {
   const Vec3 edge = b - a;
   const double along = std::clamp((point - a).dot(edge) / edge.dot(edge), 0.0, 1.0);
   return a + along * edge;
-}
-
-/// A search for the triangle nearest to a point, which Embree passes to the callback.
-struct NearbySearch
-{
-  const std::vector<Geometry>& geometries;
-  const Vec3& point;
-  double distance; ///< to the nearest accepted so far
-  const std::function<bool(const Triangle&)>& accepts;
-  std::optional<Hit> found;
-};
-
-bool testNearby(RTCPointQueryFunctionArguments* arguments)
-{
-  auto& search = *static_cast<NearbySearch*>(arguments->userPtr);
-  const Geometry& geometry = search.geometries[arguments->geomID];
-  const Triangle& triangle = geometry.surface->triangles[arguments->primID];
-  const Vec3 nearest = nearestPoint(search.point, triangle);
-  const double distance = (search.point - nearest).length();
-  if (distance <= search.distance && search.accepts(triangle))
-  {
-    search.distance = distance;
-    search.found = Hit{ nearest, distance, geometry.index, arguments->primID };
-  }
-  return false; // the radius stays as it is
 }
 
 } // namespace
@@ -183,100 +116,80 @@ Vec3 nearestPoint(const Vec3& point, const Triangle& triangle)
 //------------------------------------------------------------------------------
 struct Tracer::Impl
 {
-  DeviceHandle device;
-  std::vector<Geometry> geometries; ///< complete before Embree is told their addresses
-  SceneHandle all;
-  SceneHandle casting;
-  Vec3 centre{ 0.0 };
+  const Scene& scene;
+  std::vector<Leaf> leaves;
+  std::vector<Extent> boxes; ///< of a binary tree, as in a heap; each child has half of the leaves
 
-  explicit Impl(const Scene& scene)
-    : device(rtcNewDevice(nullptr))
-    , all(rtcNewScene(this->device.get()))
-    , casting(rtcNewScene(this->device.get()))
+  explicit Impl(const Scene& of)
+    : scene(of)
   {
-    this->describe(scene);
-    for (SceneHandle* handle : { &this->all, &this->casting })
+    for (std::size_t surface = 0; surface < of.surfaces.size(); ++surface)
     {
-      rtcSetSceneFlags(handle->get(), RTC_SCENE_FLAG_ROBUST);
-    }
-    for (Geometry& geometry : this->geometries)
-    {
-      this->attach(geometry);
-    }
-    for (SceneHandle* handle : { &this->all, &this->casting })
-    {
-      rtcCommitScene(handle->get());
-    }
-    if (rtcGetDeviceError(this->device.get()) != RTC_ERROR_NONE)
-    {
-      throw std::runtime_error("Embree cannot build the scene");
-    }
-  }
-
-  /// Fill the geometries.
-  void describe(const Scene& scene)
-  {
-    Vec3 low(std::numeric_limits<double>::infinity());
-    Vec3 high = -low;
-    const auto extend = [&](const Vec3& point)
-    {
-      for (int axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < of.surfaces[surface].triangles.size(); ++i)
       {
-        low[axis] = std::min(low[axis], point[axis]);
-        high[axis] = std::max(high[axis], point[axis]);
-      }
-    };
-    extend(scene.camera.position);
-    for (const Surface& surface : scene.surfaces)
-    {
-      for (const Triangle& triangle : surface.triangles)
-      {
-        std::for_each(triangle.begin(), triangle.end(), extend);
+        const auto& [a, b, c] = of.surfaces[surface].triangles[i];
+        this->leaves.push_back({ surface, i, (a + b + c) / 3.0 });
       }
     }
-    this->centre = 0.5 * (low + high);
-    for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
+    this->split(0, 0, this->leaves.size());
+  }
+
+  const Triangle& triangleOf(const Leaf& leaf) const
+  {
+    return this->scene.surfaces[leaf.surface].triangles[leaf.triangle];
+  }
+
+  /// Halve leaves along the longest side of their middles' box, down to a few.
+  void split(std::size_t node, std::size_t first, std::size_t end)
+  {
+    Extent box, middles;
+    for (std::size_t i = first; i < end; ++i)
     {
-      // A ray within the scene's box errs by at most 2^-22 of the box's size.
-      this->geometries.push_back(
-        { &scene.surfaces[i], i, this->centre, 1e-6 * (high - low).length() });
+      const Triangle& triangle = this->triangleOf(this->leaves[i]);
+      std::for_each(triangle.begin(), triangle.end(), [&](const Vec3& corner) { box.add(corner); });
+      middles.add(this->leaves[i].middle);
+    }
+    this->boxes.resize(std::max(this->boxes.size(), node + 1));
+    this->boxes[node] = box;
+    if (end - first > leafSize)
+    {
+      const Vec3 size = middles.high - middles.low;
+      const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+      const std::size_t half = (first + end) / 2;
+      Leaf* const all = this->leaves.data();
+      std::nth_element(all + first, all + half, all + end,
+        [axis](const Leaf& a, const Leaf& b) { return a.middle[axis] < b.middle[axis]; });
+      this->split(2 * node + 1, first, half);
+      this->split(2 * node + 2, half, end);
     }
   }
 
-  void attach(Geometry& geometry)
+  /// Visit the leaves of all boxes that are met, until a visit returns true.
+  template <typename Meets, typename Visit>
+  bool visit(const Meets& meets, const Visit& visitLeaf) const
   {
-    RTCGeometry handle = rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(
-      handle, static_cast<unsigned>(geometry.surface->triangles.size()));
-    rtcSetGeometryUserData(handle, &geometry);
-    rtcSetGeometryBoundsFunction(
-      handle, [](const RTCBoundsFunctionArguments* arguments) { computeBounds(arguments); },
-      nullptr);
-    rtcSetGeometryIntersectFunction(handle, intersectNearest);
-    rtcSetGeometryOccludedFunction(handle, intersectAny);
-    rtcCommitGeometry(handle);
-    rtcAttachGeometryByID(this->all.get(), handle, static_cast<unsigned>(geometry.index));
-    if (geometry.surface->casts)
-    {
-      rtcAttachGeometry(this->casting.get(), handle);
-    }
-    rtcReleaseGeometry(handle);
+    return this->visit(meets, visitLeaf, 0, 0, this->leaves.size());
+  }
+  template <typename Meets, typename Visit>
+  bool visit(const Meets& meets, const Visit& visitLeaf, std::size_t node, std::size_t first,
+    std::size_t end) const
+  {
+    const std::size_t half = (first + end) / 2;
+    const Leaf* const all = this->leaves.data();
+    return meets(this->boxes[node]) &&
+      (end - first <= leafSize ? std::any_of(all + first, all + end, visitLeaf)
+                               : this->visit(meets, visitLeaf, 2 * node + 1, first, half) ||
+            this->visit(meets, visitLeaf, 2 * node + 2, half, end));
   }
 
-  RTCRay toEmbree(const Ray& ray) const
+  /// Return the distance at which a leaf stops a ray, if it has no hole there.
+  std::optional<double> hit(const Ray& ray, const Leaf& leaf) const
   {
-    const Vec3 origin = ray.origin - this->centre;
-    RTCRay result{};
-    result.org_x = static_cast<float>(origin.x);
-    result.org_y = static_cast<float>(origin.y);
-    result.org_z = static_cast<float>(origin.z);
-    result.dir_x = static_cast<float>(ray.direction.x);
-    result.dir_y = static_cast<float>(ray.direction.y);
-    result.dir_z = static_cast<float>(ray.direction.z);
-    result.tnear = 0.0f;
-    result.tfar = std::numeric_limits<float>::infinity(); // the callbacks keep to the length
-    result.mask = ~0u;
-    return result;
+    const std::optional<double> distance = intersect(ray, this->triangleOf(leaf));
+    return distance &&
+        isDrawn(this->scene.surfaces[leaf.surface], leaf.triangle, pointAt(ray, *distance))
+      ? distance
+      : std::nullopt;
   }
 };
 
@@ -291,42 +204,64 @@ Tracer::~Tracer() = default;
 //------------------------------------------------------------------------------
 std::optional<Hit> Tracer::nearest(const Ray& ray) const
 {
-  Query query{ EmbreeContext(), &ray, std::numeric_limits<double>::infinity(), 0, 0 };
-  RTCRayHit embreeRay{ this->impl_->toEmbree(ray), {} };
-  embreeRay.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  gnomon::intersect(this->impl_->all.get(), query.context, embreeRay);
-  if (!std::isfinite(query.distance))
-  {
-    return std::nullopt;
-  }
-  return Hit{ ray.origin + query.distance * ray.direction, query.distance, query.surface,
-    query.triangle };
+  std::optional<Hit> found;
+  double end = infinite;
+  this->impl_->visit([&](const Extent& box) { return box.meets(ray, end); },
+    [&](const Leaf& leaf)
+    {
+      const std::optional<double> distance = this->impl_->hit(ray, leaf);
+      if (distance && *distance < end)
+      {
+        end = *distance;
+        found = Hit{ pointAt(ray, end), end, leaf.surface, leaf.triangle };
+      }
+      return false;
+    });
+  return found;
 }
 
 //------------------------------------------------------------------------------
 bool Tracer::blocked(const Ray& ray) const
 {
-  Query query{ EmbreeContext(), &ray, 0.0, 0, 0 };
-  RTCRay embreeRay = this->impl_->toEmbree(ray);
-  occlude(this->impl_->casting.get(), query.context, embreeRay);
-  return embreeRay.tfar < 0.0f;
+  return this->impl_->visit([&](const Extent& box) { return box.meets(ray, ray.length); },
+    [&](const Leaf& leaf)
+    {
+      const Surface& surface = this->impl_->scene.surfaces[leaf.surface];
+      const auto& [a, b, c] = surface.triangles[leaf.triangle];
+      const bool isFront = (b - a).cross(c - a).dot(ray.direction) > 0.0;
+      return surface.casts && (isFront || !surface.oneSided) && this->impl_->hit(ray, leaf);
+    });
 }
 
 //------------------------------------------------------------------------------
 std::optional<Hit> Tracer::nearestTo(
   const Vec3& point, double distance, const std::function<bool(const Triangle&)>& accepts) const
 {
-  const Vec3 centred = point - this->impl_->centre;
-  RTCPointQuery query{};
-  query.x = static_cast<float>(centred.x);
-  query.y = static_cast<float>(centred.y);
-  query.z = static_cast<float>(centred.z);
-  query.radius = static_cast<float>(distance); // the boxes are padded
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  NearbySearch search{ this->impl_->geometries, point, distance, accepts, std::nullopt };
-  rtcPointQuery(this->impl_->all.get(), &query, &context, testNearby, &search);
-  return search.found;
+  std::optional<Hit> found;
+  double least = distance;
+  this->impl_->visit(
+    [&](const Extent& box)
+    {
+      Vec3 inside = point;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        inside[axis] = std::clamp(point[axis], box.low[axis], box.high[axis]);
+      }
+      return (point - inside).length() <= distance;
+    },
+    [&](const Leaf& leaf)
+    {
+      const Triangle& triangle = this->impl_->triangleOf(leaf);
+      const Vec3 nearest = nearestPoint(point, triangle);
+      const double from = (point - nearest).length();
+      if (from <= least && accepts(triangle))
+      {
+        least = from;
+        found = Hit{ nearest, from, leaf.surface, leaf.triangle };
+      }
+      return false;
+    });
+  return found;
 }
 
 } // namespace gnomon::check

@@ -36,8 +36,7 @@ std::optional<double> intersect(const Ray& ray, const Triangle& triangle);
 /// Return the point of a triangle that is nearest to a point.
 Vec3 nearestPoint(const Vec3& point, const Triangle& triangle);
 
-/// Traces rays against a scene. Embree finds the triangles whose boxes a ray passes. Hits are
-/// computed in double precision, so only the input is rounded to float.
+/// Traces rays against a scene, in double precision, by a tree of boxes.
 class Tracer
 {
 public:
