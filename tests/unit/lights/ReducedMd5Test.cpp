@@ -3,31 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace gnomon::test
 {
 namespace
 {
-
-constexpr int width = 1024;
-constexpr int height = 768;
-
-int bitsOf(const glm::uvec4& words)
-{
-  int bits = 0;
-  for (int word = 0; word < 4; ++word)
-  {
-    for (std::uint32_t rest = words[word]; rest != 0u; rest &= rest - 1u)
-    {
-      ++bits;
-    }
-  }
-  return bits;
-}
 
 /// Computed by a separate implementation.
 TEST(ReducedMd5, givesThePublishedNumbers)
@@ -51,115 +32,6 @@ TEST(ReducedMd5, givesThePublishedNumbers)
   for (const Case& each : cases)
   {
     EXPECT_EQ(reducedMd5(each.seed, each.key), each.words) << each.seed.x << " " << each.key;
-  }
-}
-
-/// The hash depends only on the place, so its statistics over a picture are fixed numbers. The
-/// bounds are those that the separate implementation above gave for seeds (x, y, 0, 0), rounded as
-/// there.
-TEST(ReducedMd5, flipsHalfOfTheBitsWhateverBitOfThePlaceIsFlipped)
-{
-  constexpr int rows = height / 8; // every eighth
-  double sum = 0.0;
-  for (int word = 0; word < 2; ++word)
-  {
-    for (std::uint32_t bit = 0; bit < 32; ++bit)
-    {
-      std::int64_t flipped = 0;
-      for (int row = 0; row < rows; ++row)
-      {
-        for (int column = 0; column < width; ++column)
-        {
-          glm::uvec4 seed(column, 8 * row, 0, 0);
-          const glm::uvec4 before = reducedMd5(seed, 0u);
-          seed[word] ^= 1u << bit;
-          flipped += bitsOf(before ^ reducedMd5(seed, 0u));
-        }
-      }
-      const double share = static_cast<double>(flipped) / (128.0 * rows * width);
-      EXPECT_GT(share, 0.4965) << "word " << word << ", bit " << bit;
-      EXPECT_LT(share, 0.5025) << "word " << word << ", bit " << bit;
-      sum += share;
-    }
-  }
-  EXPECT_NEAR(sum / 64.0, 0.5, 0.0005);
-}
-
-/// Return the hashes of a picture, row by row.
-std::vector<glm::uvec4> ofPicture()
-{
-  std::vector<glm::uvec4> hashes;
-  for (int row = 0; row < height; ++row)
-  {
-    for (int column = 0; column < width; ++column)
-    {
-      hashes.push_back(reducedMd5({ column, row, 0, 0 }, 0u));
-    }
-  }
-  return hashes;
-}
-
-/// Return the unevenness of 256 bins, with 255 degrees of freedom.
-double chiSquared(const std::array<int, 256>& bins)
-{
-  constexpr double expected = double(width) * height / 256.0;
-  double sum = 0.0;
-  for (const int count : bins)
-  {
-    sum += (count - expected) * (count - expected) / expected;
-  }
-  return sum;
-}
-
-TEST(ReducedMd5, isEvenInEachWordAndInPairsOfThem)
-{
-  const std::vector<glm::uvec4> hashes = ofPicture();
-  for (int word = 0; word < 4; ++word)
-  {
-    std::array<int, 256> bytes{};
-    for (const glm::uvec4& hash : hashes)
-    {
-      ++bytes[hash[word] >> 24];
-    }
-    EXPECT_GT(chiSquared(bytes), 263.5) << "word " << word;
-    EXPECT_LT(chiSquared(bytes), 292.5) << "word " << word;
-    for (int other = word + 1; other < 4; ++other)
-    {
-      std::array<int, 256> pairs{};
-      for (const glm::uvec4& hash : hashes)
-      {
-        ++pairs[16u * (hash[word] >> 28) + (hash[other] >> 28)];
-      }
-      EXPECT_GT(chiSquared(pairs), 241.5) << "words " << word << ", " << other;
-      EXPECT_LT(chiSquared(pairs), 279.5) << "words " << word << ", " << other;
-    }
-  }
-}
-
-TEST(ReducedMd5, hasNothingToDoWithItsNeighbours)
-{
-  const std::vector<glm::uvec4> hashes = ofPicture();
-  const auto fraction = [](std::uint32_t word) { return word / 4294967296.0 - 0.5; };
-  for (const bool above : { false, true })
-  {
-    const std::size_t step = above ? width : 1;
-    for (int word = 0; word < 4; ++word)
-    {
-      double product = 0.0;
-      double count = 0.0;
-      for (std::size_t i = step; i < hashes.size(); ++i)
-      {
-        if (!above && i % width == 0)
-        {
-          continue;
-        }
-        product += fraction(hashes[i][word]) * fraction(hashes[i - step][word]);
-        count += 1.0;
-      }
-      // The variance of a uniform fraction is 1/12.
-      EXPECT_LT(std::abs(12.0 * product / count), 0.001)
-        << "word " << word << (above ? " of rows" : " of columns");
-    }
   }
 }
 
