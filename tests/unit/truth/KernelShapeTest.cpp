@@ -4,6 +4,7 @@
 
 #include "lights/KernelShape.h"
 #include "shadowtech/base/Kernel.h"
+#include "shadowtech/depth_map/KernelPoints.h"
 #include "shadowtech/depth_map/Pcf.h"
 
 #include <algorithm>
@@ -99,6 +100,8 @@ TEST(KernelShape, evenShapeIsTheJacobianOfTheSameAreaUpToTheLimit)
     }
   }
   EXPECT_GT(limited, 100);
+  EXPECT_EQ(largestStretch(3), 2.0);
+  EXPECT_EQ(largestStretch(30), 4.0);
   // Degenerate: all points across the light lie on one line of the map.
   const glm::dmat2 flat = evenShape(glm::dmat2(1.0, 0.0, 0.0, 0.0), 3.0);
   EXPECT_NEAR(singularValues(flat).x, 3.0, 1e-9);
@@ -137,105 +140,43 @@ TEST_F(KernelShapeGlsl, weighsTexelsInTheKernelsShape)
   }
 }
 
-/// The visible profile of an edge across the light, as a mean over its places among the texels.
-struct EdgeProfile
+/// Turning keeps radii: a lit disk, in the kernel's shape, around a place holds as many points as
+/// the table has within its radius, but for those that share a texel with its rim.
+TEST_F(KernelShapeGlsl, poissonReadsATurnedDiscInTheKernelsShape)
 {
-  double step;
-  std::vector<double> lit;
-
-  /// Return the width from 10 % to 90 % lit.
-  double width() const
+  const glm::dvec2 middle(32.1, 31.8);
+  for (const bool warped : { false, true })
   {
-    const auto reaches = [&](double value)
-    {
-      const auto found = std::lower_bound(this->lit.begin(), this->lit.end(), value);
-      return this->step * static_cast<double>(found - this->lit.begin());
-    };
-    return reaches(0.9) - reaches(0.1);
-  }
-  /// Return the width of a box that spreads an edge as much; it applies where taps make stairs.
-  double spread() const
-  {
-    double mean = 0.0;
-    double square = 0.0;
-    for (std::size_t i = 1; i < this->lit.size(); ++i)
-    {
-      const double rise = this->lit[i] - this->lit[i - 1];
-      const double place = this->step * static_cast<double>(i);
-      mean += rise * place;
-      square += rise * place * place;
-    }
-    return std::sqrt(12.0 * (square - mean * mean));
-  }
-};
-
-/// @param axis the axis that the edge stands across, 0 or 1
-/// @param range evaluated around the edge
-EdgeProfile edgeAt(const ShadowLight& light, const LightViews& views, const glm::dvec2& across,
-  int axis, double range = 0.5)
-{
-  const glm::dmat3 texels = texelFromAcross(views.views.front(), mapSize);
-  const glm::dmat3 acrossFromTexel = glm::inverse(texels);
-  constexpr int steps = 400;
-  constexpr int phases = 24;
-  std::vector<double> profile(steps, 0.0);
-  for (int phase = 0; phase < phases; ++phase)
-  {
-    const double texel = 1.0 / singularValues(texelJacobian(texels, across)).y;
-    const double edge = across[axis] + texel * (phase + 0.5) / phases;
-    const Map map = [&](const glm::ivec2& place)
-    { return mapped(acrossFromTexel, glm::dvec2(place) + 0.5)[axis] < edge; };
+    const int texels = warped ? 16 : 32;
+    const ShadowLight light =
+      warped ? warpedSun("poisson", texels) : filteredSun("poisson", texels);
+    const LightViews views = warped ? warpedViews(light, 0.6) : sunViews(light);
+    const glm::dmat3 map = texelFromAcross(views.views.front(), mapSize);
+    const glm::dmat2 shape =
+      evenShape(texelJacobian(map, mapped(glm::inverse(map), middle)), largestStretch(texels));
+    EXPECT_TRUE(!warped || singularValues(shape).x > 1.1) << "the test says nothing";
+    // Places in cells of their own around the middle.
     std::vector<glm::dvec2> places;
-    for (int i = 0; i < steps; ++i)
+    for (int i = 0; i < 64; ++i)
     {
-      glm::dvec2 at = across;
-      at[axis] = edge + range * ((i + 0.5) / steps - 0.5);
-      at[1 - axis] += 0.37 * texel * phase / phases;
-      places.push_back(mapped(texels, at));
+      places.push_back(middle + glm::dvec2(i % 8 - 4, i / 8 - 4) / 40.0);
     }
-    const std::vector<float> values = runGlsl(Pcf(), light, views, map, places);
-    for (int i = 0; i < steps; ++i)
+    for (const double radius : { 0.125 * texels, 0.25 * texels, 0.375 * texels, 0.47 * texels })
     {
-      profile[static_cast<std::size_t>(i)] += values[static_cast<std::size_t>(i)] / phases;
-    }
-  }
-  return { range / steps, profile };
-}
-
-/// Near and far places of a map whose texels are 1.6 to 3.5 times as high as wide, or as wide as
-/// high.
-TEST_F(KernelShapeGlsl, warpedMapsBlurAsEvenlyAsPlainOnesAndAsWidelyAsIsAskedFor)
-{
-  const ShadowLight square = filteredSun("bilinear", 5);
-  EXPECT_NEAR(edgeAt(square, sunViews(square), { 0.0, 0.0 }, 0).width() /
-      edgeAt(square, sunViews(square), { 0.0, 0.0 }, 1).width(),
-    1.0, 0.03);
-  constexpr double width = 0.6;
-  for (const char* kernel : { "bilinear", "castano", "box", "poisson" })
-  {
-    ShadowLight plain = filteredSun(kernel, 5);
-    plain.kernel.widthAcross = width;
-    const double expected = edgeAt(plain, sunViews(plain), { 0.0, 0.0 }, 0, 0.9).spread();
-    EXPECT_GT(expected, 0.3 * width);
-    EXPECT_LT(expected, 1.1 * width);
-    const ShadowLight light = warpedSun(kernel, 5);
-    ShadowLight wide = light;
-    wide.kernel.widthAcross = width;
-    const LightViews views = warpedViews(light, 0.6);
-    for (const double y : { -0.7, 0.3 })
-    {
-      const glm::dvec2 at(0.0, y);
-      const glm::dmat2 jacobian = texelJacobian(texelFromAcross(views.views.front(), mapSize), at);
-      const double aspect = jacobian[0].x / jacobian[1].y;
-      EXPECT_GT(std::max(aspect, 1.0 / aspect), 1.25) << "the test says nothing at " << y;
-      EXPECT_NEAR(
-        edgeAt(light, views, at, 0).width() / edgeAt(light, views, at, 1).width(), 1.0, 0.15)
-        << kernel << " at " << y << ", texels of " << aspect;
-      for (const int axis : { 0, 1 })
+      const Map outside = [&](const glm::ivec2& texel)
+      { return glm::length(glm::inverse(shape) * (glm::dvec2(texel) + 0.5 - middle)) > radius; };
+      const auto within = [&](double most)
       {
-        const glm::dvec2 inside(0.0, std::max(y, -0.5)); // all of the kernel is then on the map
-        EXPECT_NEAR(edgeAt(wide, views, inside, axis, 0.9).spread() / expected, 1.0, 0.15)
-          << kernel << " at " << inside.y << ", axis " << axis;
+        return std::count_if(poissonDisc().begin(), poissonDisc().end(),
+          [&](const glm::dvec2& point) { return 0.5 * texels * glm::length(point) < most; });
+      };
+      const double rim = 0.9 * singularValues(shape).x;
+      for (const float value : runGlsl(Pcf(), light, views, outside, places))
+      {
+        const double lit = value * poissonPoints;
+        EXPECT_NEAR(lit, std::round(lit), 1e-4);
+        EXPECT_GE(lit + 1e-3, within(radius - rim)) << radius;
+        EXPECT_LE(lit - 1e-3, within(radius + rim)) << radius;
       }
     }
   }

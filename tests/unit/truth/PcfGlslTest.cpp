@@ -2,7 +2,6 @@
 
 #include "EstimatorGlsl.h"
 
-#include "shadowtech/depth_map/KernelPoints.h"
 #include "shadowtech/depth_map/Pcf.h"
 
 #include <gtest/gtest.h>
@@ -120,37 +119,6 @@ TEST_F(PcfGlsl, castanoIsHisSumOfBilinearLookups)
   }
 }
 
-/// Turning keeps radii: a lit disk around a place holds as many points as the table has within its
-/// radius, but for those that share a texel with its rim.
-TEST_F(PcfGlsl, poissonReadsATurnedDisc)
-{
-  constexpr int texels = 32;
-  const glm::dvec2 middle(32.1, 31.8);
-  for (const double radius : { 4.0, 8.0, 12.0, 15.0 })
-  {
-    const Map outside = [&](const glm::ivec2& texel)
-    { return glm::distance(glm::dvec2(texel) + 0.5, middle) > radius; };
-    const auto within = [&](double most)
-    {
-      return std::count_if(poissonDisc().begin(), poissonDisc().end(),
-        [&](const glm::dvec2& point) { return 0.5 * texels * glm::length(point) < most; });
-    };
-    // Places in cells of their own around the middle.
-    std::vector<glm::dvec2> places;
-    for (int i = 0; i < 64; ++i)
-    {
-      places.push_back(middle + glm::dvec2(i % 8 - 4, i / 8 - 4) / 40.0);
-    }
-    for (const float value : runPcf(filteredSun("poisson", texels), outside, places))
-    {
-      const double lit = value * poissonPoints;
-      EXPECT_NEAR(lit, std::round(lit), 1e-4);
-      EXPECT_GE(lit + 1e-3, within(radius - 0.9)) << radius;
-      EXPECT_LE(lit - 1e-3, within(radius + 0.9)) << radius;
-    }
-  }
-}
-
 TEST_F(PcfGlsl, theMapsEndIsReadAgainWhereAKernelIsWider)
 {
   // The whole border is covered, unlike in any real view.
@@ -163,27 +131,6 @@ TEST_F(PcfGlsl, theMapsEndIsReadAgainWhereAKernelIsWider)
     EXPECT_EQ(runPcf(light, everywhere, places), std::vector<float>(3, 0.0f)) << kernel;
     EXPECT_EQ(runPcf(light, nowhere, places), std::vector<float>(3, 1.0f)) << kernel;
   }
-}
-
-TEST_F(PcfGlsl, turningTheDiscKeepsTheMean)
-{
-  // Half of the plane is dark: the mean along the edge is one half, for any angles.
-  const Map halfPlane = [](const glm::ivec2& texel) { return texel.x >= mapSize / 2; };
-  std::vector<glm::dvec2> places;
-  for (int y = 0; y < 4 * 40; ++y)
-  {
-    for (int x = 0; x < 4 * 12; ++x)
-    {
-      places.emplace_back(mapSize / 2 - 6 + (x + 0.5) / 4.0, 12.0 + (y + 0.5) / 4.0);
-    }
-  }
-  const std::vector<float> values = runPcf(filteredSun("poisson", 8), halfPlane, places);
-  double mean = 0.0;
-  for (const float value : values)
-  {
-    mean += value / static_cast<double>(values.size());
-  }
-  EXPECT_NEAR(mean, 0.5, 0.01);
 }
 
 } // namespace

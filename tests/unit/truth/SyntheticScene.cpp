@@ -190,7 +190,7 @@ Bounds boundsOf(const Occluders& occluders, const Surface& surface)
 } // namespace
 
 //------------------------------------------------------------------------------
-Occluders makeOccluders(const std::vector<Prop>& props)
+Occluders makeOccluders(const std::vector<Prop>& props, const std::optional<glm::dvec3>& centre)
 {
   static std::uint64_t version = 0;
   std::vector<glm::dvec3> world;
@@ -220,10 +220,9 @@ Occluders makeOccluders(const std::vector<Prop>& props)
     }
     occluders.surfaces.push_back(surface);
   }
-  if (!bounds.empty())
-  {
-    occluders.frame.centre = bounds.centre();
-  }
+  occluders.frame.centre = centre ? *centre
+    : bounds.empty()              ? occluders.frame.centre
+                                  : bounds.centre();
   occluders.positionsCentred.reserve(world.size() + 1);
   for (const glm::dvec3& point : world)
   {

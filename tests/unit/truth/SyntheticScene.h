@@ -55,8 +55,9 @@ struct Prop
 Prop makePerforatedPlane(double side, int cells, const glm::dmat4& worldFromMesh = glm::dmat4(1.0));
 
 /// Return the snapshot of these props as the collector makes it: doubles less the centre, then
-/// floats. The centre is the middle of their box, so all coordinates are rounded.
-Occluders makeOccluders(const std::vector<Prop>& props);
+/// floats. By default the centre is the middle of their box, so all coordinates are rounded.
+Occluders makeOccluders(
+  const std::vector<Prop>& props, const std::optional<glm::dvec3>& centre = std::nullopt);
 
 /// Move one surface of a snapshot, like a moved prop, and mark the changes. The boxes around all
 /// surfaces stay.

@@ -124,6 +124,8 @@ struct Line
 {
   glm::dvec2 normal;
   double c;
+
+  double distance(const glm::dvec2& point) const { return glm::dot(this->normal, point) - this->c; }
 };
 
 inline glm::dvec2 crossing(const Line& a, const Line& b)
@@ -132,34 +134,13 @@ inline glm::dvec2 crossing(const Line& a, const Line& b)
     perp(a.normal, b.normal);
 }
 
-/// Return the line from one point to another, moved to the inside of a triangle.
+/// Return the line from one point to another.
 /// @param inwards 1 or -1: which side of the line, left or right, is inside
-inline Line movedLine(const glm::dvec2& from, const glm::dvec2& to, double inwards, double by)
+inline Line lineBetween(const glm::dvec2& from, const glm::dvec2& to, double inwards)
 {
   const glm::dvec2 along = glm::normalize(to - from);
   const glm::dvec2 normal = inwards * glm::dvec2(-along.y, along.x);
-  return { normal, glm::dot(normal, from) + by };
-}
-
-/// Return where the sides of a triangle cross after they were moved inwards.
-/// @param by called with a side's unit normal
-template <typename By>
-Corners withMovedSides(const Corners& corners, const By& by)
-{
-  const double inwards = doubleAreaOf(corners) > 0.0 ? 1.0 : -1.0;
-  std::array<Line, 3> lines;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const glm::dvec2 from(corners[k]), to(corners[(k + 1) % 3]);
-    lines[k] = movedLine(from, to, inwards, 0.0);
-    lines[k].c += by(lines[k].normal);
-  }
-  Corners moved;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    moved[k] = glm::dvec3(crossing(lines[(k + 2) % 3], lines[k]), 0.0);
-  }
-  return moved;
+  return { normal, glm::dot(normal, from) };
 }
 
 } // namespace gnomon::test

@@ -260,9 +260,4 @@ TEST(TileVerdicts, DoNotTrustWallsWithHolesOrOneSide)
   EXPECT_FALSE(Judged(occluders, view).judge(lampOverWall).areAllDark());
 }
 
-namespace
-{
-
-} // namespace
-
 } // namespace gnomon::test

@@ -2,6 +2,8 @@
 
 #include "shadowtech/transmittance/VolumeStack.h"
 
+#include "SyntheticScene.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -342,23 +344,6 @@ StackErrors errorsOf(const Volumes& casters, const ShadowLight& light, int resol
   return { sum / static_cast<double>(errors.size()), *most };
 }
 
-ShadowLight sunFrom(const glm::dvec3& place)
-{
-  ShadowLight light;
-  light.kind = LightKind::Directional;
-  light.directionWorld = -place;
-  return light;
-}
-
-ShadowLight lampAt(const glm::dvec3& place)
-{
-  ShadowLight light;
-  light.kind = LightKind::Point;
-  light.positionWorld = place;
-  light.directionWorld = { 0.0, 0.0, -1.0 };
-  return light;
-}
-
 /// A name with a value of any type.
 template <typename Value>
 struct Named
@@ -440,10 +425,12 @@ struct BoundedLight
   double bound = 0.03;
 };
 
-const Named<BoundedLight> lights[] = { { "SunAlongAnAxis", { sunFrom({ 0.0, 0.0, 1.0 }) } },
-  { "Sun", { sunFrom(glm::normalize(glm::dvec3(0.4, -0.5, 1.0))) } },
-  { "Lamp", { lampAt({ 1.5, -1.0, 4.0 }) } }, { "LampNearby", { lampAt({ 0.3, 0.2, 1.3 }), 0.05 } },
-  { "LampInside", { lampAt({ 0.1, -0.2, 0.3 }) } } };
+const Named<BoundedLight> lights[] = { { "SunAlongAnAxis",
+                                         { directionalLight({ 0.0, 0.0, -1.0 }) } },
+  { "Sun", { directionalLight({ -0.4, 0.5, -1.0 }) } },
+  { "Lamp", { pointLight({ 1.5, -1.0, 4.0 }) } },
+  { "LampNearby", { pointLight({ 0.3, 0.2, 1.3 }), 0.05 } },
+  { "LampInside", { pointLight({ 0.1, -0.2, 0.3 }) } } };
 
 using StackCase = std::tuple<Named<Volume (*)()>, Named<BoundedLight>>;
 struct VolumeStacks : testing::TestWithParam<StackCase>
@@ -468,7 +455,8 @@ TEST_P(VolumeRows, HaveAStackNearTheMarch)
   Volume volume = slabOf(0.5);
   this->GetParam().change(volume);
   const Volumes casters = castersOf({ volume });
-  for (const ShadowLight& light : { sunFrom({ 0.3, 0.2, 1.0 }), lampAt({ 0.5, -0.5, 6.0 }) })
+  for (const ShadowLight& light :
+    { directionalLight({ -0.3, -0.2, -1.0 }), pointLight({ 0.5, -0.5, 6.0 }) })
   {
     const StackErrors errors = errorsOf(casters, light, 256);
     EXPECT_LE(errors.mean, 0.01);
@@ -479,7 +467,7 @@ TEST_P(VolumeRows, HaveAStackNearTheMarch)
 TEST(VolumeStack, LeavesLightAloneBeforeAndBesideVolumes)
 {
   const Volumes casters = castersOf({ slabOf(0.5) });
-  const ShadowRayLight light(sunFrom({ 0.0, 0.0, 1.0 }), glm::dvec3(0.0));
+  const ShadowRayLight light(directionalLight({ 0.0, 0.0, -1.0 }), glm::dvec3(0.0));
   const VolumeStack stack(casters, light, 32);
   const auto leftAt = [&](const glm::vec3& at)
   { return stack.transmittanceOf(at, light.toLight, shadowRayFarDirectional).x; };
@@ -493,7 +481,7 @@ TEST(VolumeStack, LeavesLightAloneBeforeAndBesideVolumes)
 TEST(VolumeStack, BeginsAtTheBoxOfALight)
 {
   const Volumes casters = castersOf({ slabOf(0.5) });
-  ShadowLight sun = sunFrom({ 0.0, 0.0, 1.0 });
+  ShadowLight sun = directionalLight({ 0.0, 0.0, -1.0 });
   sun.box = LightBox{ 4.0, 4.0, 9.0 };
   for (const auto& [height, depth] : { std::pair(3.0, 1.0), { 0.0, 0.5 }, { -1.5, 0.0 } })
   {
