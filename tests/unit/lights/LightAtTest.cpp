@@ -116,18 +116,6 @@ TEST(LightAt, laysOutAllPointsOfALightAlike)
   EXPECT_EQ(layouts(lightTowards(LightKind::Directional, {}, down)), single);
 }
 
-TEST(LightAt, turnsParallelRaysToThePoint)
-{
-  const ShadowLight light = lightTowards(LightKind::Directional, {}, { 0.2, 0.5, -1.0 });
-  for (const glm::dvec3& offset : pairedLightSamples(light))
-  {
-    const ShadowLight at = lightAt(light, offset, fittingTo(scene));
-    const glm::dvec3 towards = offset - light.directionWorld;
-    EXPECT_NEAR(glm::distance(at.directionWorld, -glm::normalize(towards)), 0.0, 1e-15);
-    EXPECT_FALSE(at.box);
-  }
-}
-
 /// A light point's box holds every ray from the centre's box to that point, as far as the centre's
 /// near face.
 TEST(LightAt, standsABoxAroundAllRaysIntoTheCentresBox)

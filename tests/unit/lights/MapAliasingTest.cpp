@@ -42,50 +42,5 @@ TEST(MapAliasing, OfAPositionalLightStandsAcrossItsRay)
   EXPECT_NEAR(aliasing(fineAlongY).side, root * 2.0 / 5.0, 1e-12);
 }
 
-/// For any surface, two projections' ratio of areas equals that of the texels on it.
-TEST(MapAliasing, OfAreasComparesProjectionsOnEverySurface)
-{
-  std::mt19937 random(41);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const glm::dmat3 one(0.013, 0.001, 0.0002, 0.002, 0.017, 0.0005, 0.3, -0.2, 1.5);
-  const glm::dmat3 other(1.3);
-  for (const LightRays& rays : { directionalRays({ 0.3, 0.5, -0.6 }),
-         spotRays({ 300.0, -500.0, 400.0 }, { -1.0, 0.2, -1.0 }) })
-  {
-    const Setting setting = terrain(rays);
-    const glm::dvec3 point(15.0, -400.0, 3.0);
-    const glm::dmat4 centredFromView = glm::inverse(rays.viewFromCentred);
-    const auto areaOn = [&](const glm::dmat3& map, const glm::dvec3& normal)
-    {
-      // Return the screen point at which the ray of a map point meets the surface.
-      const auto screenOf = [&](const glm::dvec2& device)
-      {
-        const glm::dvec2 across = mapped(glm::inverse(map), device);
-        const glm::dvec3 from(centredFromView *
-          (rays.positional ? glm::dvec4(0.0, 0.0, 0.0, 1.0) : glm::dvec4(across, 0.0, 1.0)));
-        const glm::dvec3 along(centredFromView *
-          (rays.positional ? glm::dvec4(across, 1.0, 0.0) : glm::dvec4(0.0, 0.0, 1.0, 0.0)));
-        const glm::dvec3 hit =
-          from + along * (glm::dot(normal, point - from) / glm::dot(normal, along));
-        const glm::dvec4 clip = setting.camera.clipFromCentred() * glm::dvec4(hit, 1.0);
-        return glm::dvec2(clip) / clip.w;
-      };
-      const double step = 1e-5;
-      const glm::dvec2 place = mapped(map, rays.across(inView(rays, point)));
-      const glm::dmat2 sides(screenOf(place + glm::dvec2(step, 0.0)) - screenOf(place),
-        screenOf(place + glm::dvec2(0.0, step)) - screenOf(place));
-      return std::abs(glm::determinant(sides));
-    };
-    const auto aliasing = [&](const glm::dmat3& map)
-    { return perspectiveAliasing({ inView(rays, point) }, setting.camera, rays, map).area; };
-    for (int i = 0; i < 20; ++i)
-    {
-      const glm::dvec3 normal(uniform(random), uniform(random), 1.0);
-      EXPECT_NEAR(
-        areaOn(one, normal) / areaOn(other, normal) / (aliasing(one) / aliasing(other)), 1.0, 1e-2);
-    }
-  }
-}
-
 } // namespace
 } // namespace gnomon::test

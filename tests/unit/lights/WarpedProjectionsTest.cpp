@@ -4,7 +4,6 @@
 
 #include "lights/Lispsm.h"
 #include "lights/MapWarp.h"
-#include "lights/Splits.h"
 #include "lights/Trapezoid.h"
 
 #include <ostream>
@@ -170,24 +169,6 @@ TEST(Lispsm, NearDistanceIsThePublishedOptimum)
   }
 }
 
-/// Survey, row 31: near-plane texel density gain against uniform, for a grazing view.
-TEST(Lispsm, HasMoreTexelsNearTheCamera)
-{
-  const Setting setting = terrain(directionalRays({ 0.3, 0.0, -1.0 }));
-  std::vector<SurfacePoint> nearest;
-  for (const SurfacePoint& point : groundSeen(setting))
-  {
-    if (distanceOf(setting.camera, point.positionCentred) < 40.0)
-    {
-      nearest.push_back(point);
-    }
-  }
-  ASSERT_GT(nearest.size(), 10u);
-  const glm::dmat3 map = lispsmFromAcross(setting.body().vertices(), setting.camera, setting.rays);
-  EXPECT_GT(
-    worstTexel(nearest, setting, uniformOf(setting)) / worstTexel(nearest, setting, map), 2.0);
-}
-
 TEST(Lispsm, SpreadsTheTexelsOfASpotLight)
 {
   for (const LightRays& rays : { spotRays({ 0.0, 0.0, 1500.0 }, { 0.0, 0.0, -1.0 }),
@@ -203,46 +184,6 @@ TEST(Lispsm, SpreadsTheTexelsOfASpotLight)
                 lispsmFromAcross(setting.body().vertices(), setting.camera, setting.rays)),
       0.25 * worstTexel(ground, setting, uniformOf(setting)));
   }
-}
-
-/// Four slices of the body at split distances, each with a map of its own.
-TEST(SlicedBody, SpreadsTheTexelsOverATerrain)
-{
-  for (const glm::dvec3& light : usualLights)
-  {
-    const Setting setting = terrain(directionalRays(light));
-    const ConvexBody body = setting.body();
-    const DistanceRange all = distancesOf(body.vertices(), setting.camera, setting.rays);
-    const auto splits = splitDistances({ all.lower, all.upper }, 4, 0.5);
-    const auto ground = groundSeen(setting);
-    for (std::size_t i = 0; i + 1 < splits.size(); ++i)
-    {
-      std::vector<SurfacePoint> points;
-      for (const SurfacePoint& point : ground)
-      {
-        const double distance = distanceOf(setting.camera, point.positionCentred);
-        if (splits[i] <= distance && distance <= splits[i + 1])
-        {
-          points.push_back(point);
-        }
-      }
-      const Points slice =
-        sliced(body, setting.camera, setting.rays, splits[i], splits[i + 1]).vertices();
-      EXPECT_LE(worstTexel(points, setting, uniformFromAcross(setting.rays.across(slice))),
-        0.25 * worstTexel(ground, setting, uniformOf(setting)));
-    }
-  }
-}
-
-TEST(Trapezoid, GivesTheFocusRegionEightyPercentOfTheMap)
-{
-  const Setting setting = terrain(directionalRays({ 0.0, 0.0, -1.0 }));
-  const Points body = setting.body().vertices();
-  const DistanceRange all = distancesOf(body, setting.camera, setting.rays);
-  const double focus = all.lower * std::pow(all.upper / all.lower, 0.8);
-  const glm::dvec3 point = setting.camera.eyeCentred() + focus * setting.camera.directionCentred();
-  const glm::dmat3 map = trapezoidFromAcross(body, setting.camera, setting.rays);
-  EXPECT_NEAR(mapped(map, setting.rays.across(inView(setting.rays, point))).y, 0.6, 1e-6);
 }
 
 TEST(Trapezoid, TakesTheCornersOfTheTrapezoidToThoseOfTheMap)
