@@ -5,19 +5,16 @@
 #include <vtkActorCollection.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
-#include <vtkGLTFImporter.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
-#include <vtkPLYReader.h>
 #include <vtkPNGReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
-#include <vtkSTLReader.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
@@ -108,13 +105,12 @@ Mesh readWithReader(const std::string& path)
   return mesh;
 }
 
-template <class Importer>
 Mesh readWithImporter(const std::string& path)
 {
   vtkNew<vtkGenericOpenGLRenderWindow> window; // importers require one; it draws nothing
   vtkNew<vtkRenderer> renderer;
   window->AddRenderer(renderer);
-  vtkNew<Importer> importer;
+  vtkNew<vtk3DSImporter> importer;
   importer->SetFileName(path.c_str());
   importer->SetRenderWindow(window);
   importer->Update();
@@ -137,25 +133,13 @@ Mesh readByExtension(const std::string& path)
   {
     return readWithReader<vtkOBJReader>(path);
   }
-  if (extension == ".ply")
-  {
-    return readWithReader<vtkPLYReader>(path);
-  }
-  if (extension == ".stl")
-  {
-    return readWithReader<vtkSTLReader>(path);
-  }
   if (extension == ".vtp")
   {
     return readWithReader<vtkXMLPolyDataReader>(path);
   }
   if (extension == ".3ds")
   {
-    return readWithImporter<vtk3DSImporter>(path);
-  }
-  if (extension == ".gltf" || extension == ".glb")
-  {
-    return readWithImporter<vtkGLTFImporter>(path);
+    return readWithImporter(path);
   }
   throw std::runtime_error(path + ": models of this type cannot be checked");
 }
