@@ -7,6 +7,7 @@
 #include "lights/SceneFrame.h"
 #include "lights/vtkGnomonLightKeys.h"
 
+#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationKeyLookup.h>
@@ -303,6 +304,7 @@ TEST(AreaLight, isCopied)
   light->SetUp(1.0, 2.0, 3.0);
   light->SetRadius(7.0);
   light->SetIntensity(0.25);
+  light->SetTexture(vtkNew<vtkImageData>());
   vtkNew<vtkMatrix4x4> matrix;
   light->SetTransformMatrix(matrix);
   vtkNew<vtkGnomonAreaLight> copy;
@@ -319,6 +321,7 @@ TEST(AreaLight, isCopied)
     EXPECT_EQ(area->GetHeight(), 0.5);
     EXPECT_EQ(area->GetRadius(), 7.0);
     EXPECT_EQ(area->GetUp()[2], 3.0);
+    EXPECT_EQ(area->GetTexture(), light->GetTexture());
     EXPECT_EQ(area->GetIntensity(), 0.25);
     EXPECT_EQ(area->GetPosition()[2], 5.0);
   }

@@ -132,6 +132,8 @@ TEST(LightAt, standsABoxAroundAllRaysIntoTheCentresBox)
       {
         const ShadowLight at = lightAt(light, offset, fittingTo(scene));
         ASSERT_TRUE(at.box);
+        const glm::dvec3 travel = glm::normalize(light.directionWorld - offset);
+        EXPECT_LT(glm::distance(at.directionWorld, travel), 1e-15);
         const glm::dmat4 boxFromCentred = lightFromCentred(at, placesCentre);
         const glm::dmat4 centredFromLight = glm::inverse(lightFromCentred(light, placesCentre));
         const Bounds whole{ { -1.0, -0.75, 0.0 }, { 1.0, 0.75, 4.0 } };

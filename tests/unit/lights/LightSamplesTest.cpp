@@ -132,28 +132,6 @@ TEST(LightSamples, fillADiscAcrossTheLight)
   }
 }
 
-TEST(LightSamples, fillARectangleAlongItsUpDirection)
-{
-  ShadowLight light = lightOf(LightKind::Spot);
-  const glm::dvec3 up(0.3, 1.0, 0.2);
-  light.area = rectangleArea(travel, up, { 0.8, 0.2 });
-  const glm::dvec3 alongWidth = glm::normalize(glm::cross(travel, up));
-  const glm::dvec3 alongHeight = glm::cross(alongWidth, travel);
-  EXPECT_GT(glm::dot(alongHeight, up), 0.0);
-  glm::dvec2 low(1.0);
-  glm::dvec2 high(-1.0);
-  for (const glm::dvec4& sample : lightSamples(light, samplesCentre))
-  {
-    const glm::dvec3 offset = glm::dvec3(sample) - glm::dvec3(1.0, 2.0, 3.0);
-    const glm::dvec2 place(glm::dot(offset, alongWidth), glm::dot(offset, alongHeight));
-    EXPECT_NEAR(glm::dot(offset, travel), 0.0, 1e-6);
-    low = glm::min(low, place);
-    high = glm::max(high, place);
-  }
-  EXPECT_NEAR(glm::distance(high, glm::dvec2(0.8, 0.2)), 0.0, 0.01);
-  EXPECT_NEAR(glm::distance(low, glm::dvec2(-0.8, -0.2)), 0.0, 0.01);
-}
-
 TEST(LightSamples, ofALampLookLikeAnEvenDiscFromAllSides)
 {
   ShadowLight light = lightOf(LightKind::Point);
@@ -376,39 +354,6 @@ TEST(LightSamples, ofPixelsAndSeedsDiffer)
   }
 }
 
-TEST(LightSamples, ofManyPixelsAreEvenOnTheMean)
-{
-  for (const LightSampling sampling :
-    { LightSampling::Sobol, LightSampling::Jittered, LightSampling::Random })
-  {
-    for (const int count : { 1, 3, 4, 16, 100 })
-    {
-      if (sampling == LightSampling::Jittered && count == 3)
-      {
-        continue; // no square number
-      }
-      const LightSamples samples = squareSamples(count, 2, sampling);
-      glm::dvec2 mean(0.0);
-      glm::dvec2 squares(0.0);
-      constexpr std::uint32_t pixels = 128 * 128;
-      for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
-      {
-        const SamplePixel of = samples.pixel(pixel % 128u, pixel / 128u);
-        for (int i = 0; i < count; ++i)
-        {
-          const glm::dvec2 place(placeOf(samples.offset(i, of)));
-          mean += place / (double(pixels) * count);
-          squares += place * place / (double(pixels) * count);
-        }
-      }
-      EXPECT_NEAR(mean.x, 0.5, 0.004) << count;
-      EXPECT_NEAR(mean.y, 0.5, 0.004) << count;
-      EXPECT_NEAR(squares.x, 1.0 / 3.0, 0.004) << count;
-      EXPECT_NEAR(squares.y, 1.0 / 3.0, 0.004) << count;
-    }
-  }
-}
-
 TEST(LightSamples, inPairsAreOppositeAndGoFromTheMiddleOutwards)
 {
   for (const LightKind kind : { LightKind::Directional, LightKind::Spot, LightKind::Point })
@@ -437,21 +382,6 @@ TEST(LightSamples, inPairsAreOppositeAndGoFromTheMiddleOutwards)
       EXPECT_EQ(pairedLightSamples(light) == samples, count == 1);
     }
   }
-}
-
-/// Exception: cuts that leave the square whole from bottom to top.
-TEST(LightSamples, inPairsAreAsEvenAsWithout)
-{
-  ShadowLight light = lightOf(LightKind::Spot);
-  light.area =
-    rectangleArea(glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec2(1.0));
-  std::vector<glm::vec2> places;
-  for (const glm::dvec3& sample : pairedLightSamples(light))
-  {
-    places.push_back(placeOf(sample));
-  }
-  ASSERT_EQ(places.size(), 256u);
-  expectOneInEachPart(places, 7);
 }
 
 } // namespace

@@ -300,14 +300,5 @@ TEST_F(TexturedLight, ofNoSizeHasItsMean)
   EXPECT_EQ(line.texture->colourAt({ -1.0, 0.0, 0.0 }), glm::vec3(255, 255, 0));
 }
 
-TEST_F(TexturedLight, isCopiedWithItsTexture)
-{
-  vtkNew<vtkGnomonAreaLight> copy;
-  copy->DeepCopy(this->light);
-  EXPECT_EQ(copy->GetTexture(), this->light->GetTexture());
-  const auto clone = vtkSmartPointer<vtkLight>::Take(this->light->ShallowClone());
-  EXPECT_EQ(vtkGnomonAreaLight::SafeDownCast(clone)->GetTexture(), this->light->GetTexture());
-}
-
 } // namespace
 } // namespace gnomon::test

@@ -121,32 +121,6 @@ TEST(LightViews, KeepTheBorderThatTheyAreAskedFor)
   }
 }
 
-TEST(LightViews, HaveSixFacesFromAmongTheCasters)
-{
-  const Bounds room{ { -3.0, -2.0, -1.5 }, { 3.0, 2.0, 1.5 } };
-  const LightViews views = fit(lightAround(LightKind::Point, { 0.4, 0.2, 0.9 }), room);
-  EXPECT_EQ(views.views.size(), 6u);
-  std::size_t seen = 0;
-  for (const glm::dvec3& point : pointsIn(room))
-  {
-    // Points nearer than the near plane are excepted.
-    if (glm::length(point - glm::dvec3(0.4, 0.2, 0.9)) > 0.01)
-    {
-      expectSeen(viewOf(views, point), point);
-      ++seen;
-    }
-  }
-  EXPECT_GT(seen, 400u);
-}
-
-TEST(LightViews, FacesWithoutCastersAreLeftOut)
-{
-  const Bounds below{ { -0.5, -0.5, -3.0 }, { 0.5, 0.5, -2.0 } };
-  EXPECT_EQ(facesOf(fit(lightAround(LightKind::Point, {}), below)), std::vector<int>({ 5 }));
-  const Bounds beside{ { 1.0, -5.0, -0.5 }, { 2.0, 0.5, 0.5 } };
-  EXPECT_EQ(facesOf(fit(lightAround(LightKind::Point, {}), beside)), std::vector<int>({ 0, 3 }));
-}
-
 /// Return the lower and upper slopes that a view's map spans, in the view's own space.
 std::pair<glm::dvec2, glm::dvec2> slopesOf(const LightView& view)
 {

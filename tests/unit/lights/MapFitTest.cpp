@@ -21,20 +21,6 @@ TEST(MapFit, IsThePublishedScaleAndOffsetClampedToWhatIsToBeCovered)
   EXPECT_EQ(clamped->offset, glm::dvec2(0.0, -3.0));
 }
 
-TEST(MapFit, TakesWhatIsVisibleToTheBorder)
-{
-  const Rectangle visible = rectangle({ -0.25, 0.1 }, { 0.5, 0.3 });
-  const auto fit = fitTo(visible, { 64, 3 });
-  ASSERT_TRUE(fit);
-  const glm::dvec2 lower = mapped(fit->matrix(), visible.lower);
-  const glm::dvec2 upper = mapped(fit->matrix(), visible.upper);
-  const double inside = 1.0 - 2.0 * 3 / 64;
-  EXPECT_LT(glm::length(lower + inside), 1e-12);
-  EXPECT_LT(glm::length(upper - inside), 1e-12);
-  // At most a quarter of the side becomes border on either side.
-  EXPECT_DOUBLE_EQ((MapTexels{ 8, 7 }).inside(), 0.5);
-}
-
 TEST(MapFit, IsNothingWhereNothingIsVisible)
 {
   EXPECT_FALSE(fitTo(Rectangle(), { 64, 0 }));

@@ -55,30 +55,6 @@ TEST(MapWarp, KnowsTheAnglesOfLightAndView)
   EXPECT_NEAR(against->gammaDegrees, 135.0 - tilt, 1e-9);
 }
 
-TEST(MapWarp, IsThePerspectiveOfItsNearDistance)
-{
-  const Setting setting = terrain(directionalRays({ 0.0, 0.0, -1.0 }));
-  const auto frame = frameOf(setting);
-  ASSERT_TRUE(frame);
-  const auto across = setting.rays.across(setting.body().vertices());
-  const double n = 0.25 * frame->depth;
-  const glm::dmat3 map = warpedFromAcross(*frame, n, across);
-  const glm::dmat3 mapFromFrame = map * glm::inverse(frame->frameFromAcross);
-  EXPECT_NEAR(mapped(mapFromFrame, { 0.0, 0.0 }).y, -1.0, 1e-9);
-  EXPECT_NEAR(mapped(mapFromFrame, { 0.0, frame->depth }).y, 1.0, 1e-9);
-  // Lines through the centre of projection become columns of the map.
-  const double slope = 0.3;
-  EXPECT_NEAR(mapped(mapFromFrame, { slope * n, 0.0 }).x,
-    mapped(mapFromFrame, { slope * (n + 100.0), 100.0 }).x, 1e-9);
-  // Texel heights at the far and near end have the ratio f^2 : n^2.
-  const double step = 1e-6 * frame->depth;
-  const double nearStep =
-    mapped(mapFromFrame, { 0.0, step }).y - mapped(mapFromFrame, { 0.0, 0.0 }).y;
-  const double farStep = mapped(mapFromFrame, { 0.0, frame->depth }).y -
-    mapped(mapFromFrame, { 0.0, frame->depth - step }).y;
-  EXPECT_NEAR(nearStep / farStep, 25.0, 1e-3);
-}
-
 TEST(MapWarp, IsRefusedWithoutPerspectiveOrDepth)
 {
   const LightRays above = directionalRays({ 0.0, 0.0, -1.0 });

@@ -161,14 +161,6 @@ TEST_P(WarpedProjections, spreadTheTexelsOverATerrain)
   }
 }
 
-TEST(Lispsm, NearDistanceIsThePublishedOptimum)
-{
-  for (const double f : { 1.5, 10.0, 1e4 })
-  {
-    EXPECT_NEAR(lispsmOptimum(f) * (f - 1.0), 1.0 + std::sqrt(f), 1e-9 * f);
-  }
-}
-
 TEST(Lispsm, SpreadsTheTexelsOfASpotLight)
 {
   for (const LightRays& rays : { spotRays({ 0.0, 0.0, 1500.0 }, { 0.0, 0.0, -1.0 }),
