@@ -99,22 +99,6 @@ TEST(CutoutMask, AgreesWithTheFilteredAlpha)
   }
 }
 
-// Interpolated alpha is 0 at a texel's centre only if the texel's is, and on the line between the
-// centres of empty texels.
-TEST(CutoutMask, TexelsWithoutWeightDoNotCount)
-{
-  const CutoutMask mask = makeMask(TextureWrap::ClampToEdge, true);
-  const auto at = [&](float x, float y) { return mask.isDrawn({ x / 4.0f, y / 3.0f }); };
-  EXPECT_TRUE(at(1.5f, 0.5f));
-  EXPECT_TRUE(at(2.25f, 0.5f));
-  EXPECT_FALSE(at(2.5f, 0.5f));
-  EXPECT_FALSE(at(3.0f, 0.5f));
-  EXPECT_FALSE(at(0.5f, 1.5f));
-  EXPECT_TRUE(at(0.5f, 1.25f));
-  EXPECT_FALSE(at(1.25f, 1.5f));
-  EXPECT_TRUE(at(1.75f, 1.75f)); // from the texel (2, 2), diagonally
-}
-
 TEST(CutoutMask, AnyCoordinatesHaveAnAnswer)
 {
   constexpr float infinite = std::numeric_limits<float>::infinity();

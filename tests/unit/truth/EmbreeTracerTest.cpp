@@ -32,7 +32,12 @@ std::vector<TestScene> smallScenes()
   const Prop plane{ makePlane(6.0) };
   const Prop sphere{ makeSphere(12, 24), at({ 0.0, 0.0, 1.0 }) };
   Prop oneSided{ makePlane(1.5), glm::rotate(at({ 0.0, 0.0, 1.2 }), 0.7, { 1.0, 0.3, 0.0 }) };
-  oneSided.oneSided = true;
+  Prop turnedOver{ makePlane(1.0), glm::rotate(at({ 1.4, 0.6, 0.8 }), 3.0, { 1.0, 0.0, 0.0 }) };
+  oneSided.oneSided = turnedOver.oneSided = true;
+  Prop castsNothing{ makePlane(1.0), at({ -1.3, 0.5, 0.9 }) };
+  castsNothing.casts = false;
+  Prop showsNothing{ makePlane(1.0), at({ -0.5, -1.5, 0.3 }) };
+  showsNothing.receives = false;
   // Rays go through the holes of the upper plane to the lower one, which is one-sided.
   const glm::dmat4 tilted = glm::rotate(at({ 0.0, 0.0, 1.0 }), 0.2, { 1.0, 0.3, 0.0 });
   const Prop upper = makePerforatedPlane(1.6, 3, glm::translate(tilted, { 0.1, 0.2, 0.3 }));
@@ -48,7 +53,7 @@ std::vector<TestScene> smallScenes()
     { "cube", { plane, { makeBox({ -0.5, -0.5, 0.0 }, { 0.5, 0.5, 1.0 }) } }, camera },
     { "sphere", { plane, sphere }, camera },
     { "soup", { plane, { makeTriangleSoup(400, 7), at({ 0.0, 0.0, 1.5 }) } }, camera },
-    { "one-sided", { plane, oneSided }, camera },
+    { "sides and flags", { plane, oneSided, turnedOver, castsNothing, showsNothing }, camera },
     { "perforated", { plane, upper, lower }, camera },
     { "degenerate", { plane, degenerate, { Mesh() } }, camera },
   };
@@ -83,7 +88,8 @@ std::size_t countReached(
       return countBelow(receivers.size(),
         [&](std::size_t i)
         {
-          return receivers.surface[i] != ReceiverPixels::notCovered &&
+          const std::uint32_t surface = receivers.surface[i];
+          return surface != ReceiverPixels::notCovered && occluders.surfaces[surface].receives &&
             makeRay(positionOf(receivers, i), normalOf(receivers, i), receivers.offset[i]).traced;
         });
     });
@@ -235,53 +241,21 @@ TEST(EmbreeTracer, LitPlanesHaveNoAcne)
   }
 }
 
-/// One receiver on the ground below a square roof at height 1, whose front looks up.
-struct Roof
-{
-  Occluders occluders =
-    makeOccluders({ { makePlane(4.0) }, { makePlane(1.0), at({ 0.0, 0.0, 1.0 }) } });
-  /// The snapshot's centre lies between ground and roof.
-  PlacedReceiver receiver{ { 0.1f, 0.2f, -0.5f }, { 0.0f, 0.0f, 1.0f }, 1e-5f };
-
-  float visibility(const ShadowLight& light = directionalLight({ 0.0, 0.0, -1.0 })) const
-  {
-    return trace(light, this->occluders, rowOf({ this->receiver }))[0];
-  }
-};
-
-TEST(EmbreeTracer, SidesAndFlagsDecideWhichSurfacesCast)
-{
-  Roof roof;
-  Surface& ground = roof.occluders.surfaces[0];
-  Surface& surface = roof.occluders.surfaces[1];
-  for (const bool turned : { false, true })
-  {
-    surface.oneSided = false;
-    EXPECT_EQ(roof.visibility(), 0.0f);
-    surface.oneSided = true;
-    EXPECT_EQ(roof.visibility(), turned ? 1.0f : 0.0f);
-    std::swap(roof.occluders.triangles[2].y, roof.occluders.triangles[2].z);
-    std::swap(roof.occluders.triangles[3].y, roof.occluders.triangles[3].z);
-  }
-  ground.receives = false;
-  EXPECT_EQ(roof.visibility(), 1.0f);
-  ground.receives = true;
-  surface.casts = ground.casts = false;
-  EXPECT_EQ(roof.visibility(), 1.0f);
-  roof.receiver.normal = { 0.0f, 0.0f, -1.0f };
-  EXPECT_EQ(roof.visibility(), 0.0f) << "turned away";
-  roof.receiver.normal = { 1.0f, 0.0f, 0.0f };
-  EXPECT_EQ(roof.visibility(), 0.0f) << "along the light";
-}
-
+/// From one receiver on the ground below a square roof at height 1.
 TEST(EmbreeTracer, SpotLightsReachTheirConeAndNoFurtherThanThemselves)
 {
-  const Roof roof;
+  const Occluders occluders =
+    makeOccluders({ { makePlane(4.0) }, { makePlane(1.0), at({ 0.0, 0.0, 1.0 }) } });
+  const auto visibility = [&](const glm::dvec3& lamp, const glm::dvec3& target, double degrees)
+  {
+    return trace(spotLight(lamp, target, degrees), occluders,
+      rowOf({ { { 0.1f, 0.2f, -0.5f }, { 0.0f, 0.0f, 1.0f }, 1e-5f } }))[0];
+  };
   // Above the roof, below the roof, and below it but aimed elsewhere.
-  EXPECT_EQ(roof.visibility(spotLight({ 0.1, 0.2, 3.0 }, { 0.1, 0.2, 0.0 }, 10.0)), 0.0f);
-  EXPECT_EQ(roof.visibility(spotLight({ 0.1, 0.2, 0.9 }, { 0.1, 0.2, 0.0 }, 10.0)), 1.0f);
-  EXPECT_EQ(roof.visibility(spotLight({ 0.1, 0.2, 0.9 }, { 2.0, 0.2, 0.0 }, 10.0)), 0.0f);
-  EXPECT_EQ(roof.visibility(spotLight({ 0.1, 0.2, 0.9 }, { 0.1, 0.2, 2.0 }, 89.0)), 0.0f);
+  EXPECT_EQ(visibility({ 0.1, 0.2, 3.0 }, { 0.1, 0.2, 0.0 }, 10.0), 0.0f);
+  EXPECT_EQ(visibility({ 0.1, 0.2, 0.9 }, { 0.1, 0.2, 0.0 }, 10.0), 1.0f);
+  EXPECT_EQ(visibility({ 0.1, 0.2, 0.9 }, { 2.0, 0.2, 0.0 }, 10.0), 0.0f);
+  EXPECT_EQ(visibility({ 0.1, 0.2, 0.9 }, { 0.1, 0.2, 2.0 }, 89.0), 0.0f);
 }
 
 /// A wavy surface, and parallel rays through it from chosen origins.

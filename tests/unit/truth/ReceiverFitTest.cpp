@@ -604,36 +604,6 @@ TEST_F(ReceiverFitTest, choosesTheWarpWithTheSmallestMeanTexel)
   EXPECT_GE(uniform, 3u);
 }
 
-TEST_F(ReceiverFitTest, fittedWarpHoldsAllReceivers)
-{
-  const ShadowLight light = lightThatChoosesWarp(directionalLight({ 1.0, -0.2, -0.5 }));
-  const Ground ground({ 0.0, 1.0, -0.1 }, 512, 400);
-  const LightViews views = ground.views(light);
-  ReceiverFit fit;
-  this->compute(fit, light, views, ground.image, glm::inverse(ground.camera.viewFromCentred));
-  const LightView& view = views.views.at(0);
-  const glm::dmat3 warped = readFits(fit).at(0).matrix() * readWarp(fit) * view.mapFromAcross;
-  EXPECT_GT(std::abs(readWarp(fit)[0].z) + std::abs(readWarp(fit)[1].z), 0.1);
-  const glm::dmat4 lightFromView =
-    view.rays.viewFromCentred * glm::inverse(ground.camera.viewFromCentred);
-  Rectangle seen;
-  for (std::size_t i = 0; i < ground.image.points.size(); ++i)
-  {
-    if (ground.image.fragments[i].x > 0.0f)
-    {
-      const glm::dvec3 position(ground.image.points[i]);
-      seen.add(mapped(warped, glm::dvec2(lightFromView * glm::dvec4(position, 1.0))));
-    }
-  }
-  // All of it is seen, and it fills the map up to the border.
-  const double inside = MapTexels{ light.mapSizeTexels, views.borderTexels }.inside();
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    EXPECT_NEAR(seen.lower[axis], -inside, 1e-3);
-    EXPECT_NEAR(seen.upper[axis], inside, 1e-3);
-  }
-}
-
 TEST_F(ReceiverFitTest, warpIsUniformInDegenerateViews)
 {
   const ShadowLight light = lightThatChoosesWarp(directionalLight({ 1.0, -0.2, -0.5 }));

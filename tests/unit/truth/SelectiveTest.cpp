@@ -342,32 +342,27 @@ TEST(CertainHit, isNotOnTheBackOfOneSidedCastersAndNotOnCutouts)
 
 // The chain
 
+using Classes = std::vector<ChainClass>;
+const Classes outsideClasses{ ChainClass::OutsideLit, ChainClass::OutsideShadow };
+const Classes hintedClasses{ ChainClass::HintedLit, ChainClass::HintedShadow };
+const Classes tracedClasses{ ChainClass::TracedLit, ChainClass::TracedShadow };
+const Classes confirmedClasses{ ChainClass::ConfirmedByTexel, ChainClass::ConfirmedByNeighbours,
+  ChainClass::ConfirmedByAdjacency, ChainClass::Corrected };
+
 /// The result of a chain for a picture.
 struct ChainRun
 {
-  std::vector<ChainClass> classes;
+  Classes classes;
   std::vector<float> visibility;
   std::size_t traced = 0;
 
-  std::size_t count(std::initializer_list<ChainClass> of) const
-  {
-    return countBelow(this->classes.size(), [&](std::size_t i) { return this->isAnyOf(i, of); });
-  }
-  bool isAnyOf(std::size_t i, std::initializer_list<ChainClass> of) const
+  bool is(std::size_t i, const Classes& of) const
   {
     return std::find(of.begin(), of.end(), this->classes[i]) != of.end();
   }
-  bool isOutside(std::size_t i) const
+  std::size_t count(const Classes& of) const
   {
-    return this->isAnyOf(i, { ChainClass::OutsideLit, ChainClass::OutsideShadow });
-  }
-  bool isHinted(std::size_t i) const
-  {
-    return this->isAnyOf(i, { ChainClass::HintedLit, ChainClass::HintedShadow });
-  }
-  bool isTraced(std::size_t i) const
-  {
-    return this->isAnyOf(i, { ChainClass::TracedLit, ChainClass::TracedShadow });
+    return countBelow(this->classes.size(), [&](std::size_t i) { return this->is(i, of); });
   }
   /// Count the pixels of a traced class whose texel is wrong.
   std::size_t countWrong(ChainClass of, const std::vector<float>& truth) const
@@ -375,12 +370,6 @@ struct ChainRun
     return countBelow(truth.size(),
       [&](std::size_t i)
       { return this->classes[i] == of && (truth[i] == 0.0f) == (of == ChainClass::TracedLit); });
-  }
-  bool isConfirmed(std::size_t i) const
-  {
-    return this->isAnyOf(i,
-      { ChainClass::ConfirmedByTexel, ChainClass::ConfirmedByNeighbours,
-        ChainClass::ConfirmedByAdjacency, ChainClass::Corrected });
   }
 };
 
@@ -419,18 +408,18 @@ public:
     {
       EXPECT_LT(classes[i], classCount);
       run.classes.push_back(static_cast<ChainClass>(classes[i]));
-      const bool saysLit = run.isAnyOf(i,
+      const bool saysLit = run.is(i,
         { ChainClass::OutsideLit, ChainClass::HintedLit, ChainClass::LeftLit,
           ChainClass::MajorityLit });
-      const bool saysShadow = run.isAnyOf(
+      const bool saysShadow = run.is(
         i, { ChainClass::OutsideShadow, ChainClass::HintedShadow, ChainClass::MajorityShadow });
       EXPECT_EQ(run.visibility[i],
-        saysLit                              ? 1.0f
-          : saysShadow || run.isConfirmed(i) ? 0.0f
-                                             : this->truth_[i]);
-      EXPECT_TRUE(!run.isConfirmed(i) || this->truth_[i] == 0.0f);
+        saysLit                                       ? 1.0f
+          : saysShadow || run.is(i, confirmedClasses) ? 0.0f
+                                                      : this->truth_[i]);
+      EXPECT_TRUE(!run.is(i, confirmedClasses) || this->truth_[i] == 0.0f);
     }
-    EXPECT_EQ(run.traced, run.count({ ChainClass::TracedLit, ChainClass::TracedShadow }));
+    EXPECT_EQ(run.traced, run.count(tracedClasses));
     EXPECT_EQ(classes.size() - run.count({ ChainClass::NoReceiver, ChainClass::Unreached }),
       this->needRays_);
     return run;
@@ -493,8 +482,8 @@ TEST_P(ChainIn, withoutCoherenceIsNeverWrong)
     for (std::size_t i = 0; i < contour.classes.size(); ++i)
     {
       // A stage that decides a pixel of the contour decides it in the whole image.
-      EXPECT_TRUE(contour.isOutside(i) || contour.classes[i] == image.classes[i]);
-      proven += image.isConfirmed(i) ? 1 : 0;
+      EXPECT_TRUE(contour.is(i, outsideClasses) || contour.classes[i] == image.classes[i]);
+      proven += image.is(i, confirmedClasses) ? 1 : 0;
       const bool reached = image.classes[i] != ChainClass::Unreached;
       dark += reached && chained.truth()[i] == 0.0f ? 1 : 0;
     }
@@ -547,7 +536,7 @@ TEST(Chain, confirmsMoreWithMoreTriangles)
       {
         for (const auto& [fewer, all] : more)
         {
-          EXPECT_TRUE(!runs[fewer].isConfirmed(i) || runs[all].isConfirmed(i));
+          EXPECT_TRUE(!runs[fewer].is(i, confirmedClasses) || runs[all].is(i, confirmedClasses));
         }
         // The texel's own triangle is tried first.
         EXPECT_EQ(runs[0].classes[i] == ChainClass::ConfirmedByTexel,
@@ -555,9 +544,9 @@ TEST(Chain, confirmsMoreWithMoreTriangles)
         for (std::size_t k = 0; k < count; ++k)
         {
           const bool isCorrected = runs[k].classes[i] == ChainClass::Corrected;
-          EXPECT_EQ(
-            isCorrected, runs[k].isConfirmed(i) && status.classes[i] == ChainClass::TracedLit);
-          confirmed[k] += runs[k].isConfirmed(i) ? 1 : 0;
+          EXPECT_EQ(isCorrected,
+            runs[k].is(i, confirmedClasses) && status.classes[i] == ChainClass::TracedLit);
+          confirmed[k] += runs[k].is(i, confirmedClasses) ? 1 : 0;
           corrected[k] += isCorrected ? 1 : 0;
         }
       }
@@ -605,31 +594,29 @@ TEST(Chain, stagesChangeOnlyPixelsOfTheirOwn)
       EXPECT_EQ(lit.traced + majority.traced, 0u);
       for (std::size_t i = 0; i < status.classes.size(); ++i)
       {
-        EXPECT_EQ(hinted.isOutside(i), proven.isOutside(i));
-        EXPECT_TRUE(!byCheck.isOutside(i) || proven.isOutside(i));
-        EXPECT_TRUE(!byNine.isHinted(i) || byNine.classes[i] == byFour.classes[i]);
-        EXPECT_TRUE(!byFour.isHinted(i) ||
+        EXPECT_EQ(hinted.is(i, outsideClasses), proven.is(i, outsideClasses));
+        EXPECT_TRUE(!byCheck.is(i, outsideClasses) || proven.is(i, outsideClasses));
+        EXPECT_TRUE(!byNine.is(i, hintedClasses) || byNine.classes[i] == byFour.classes[i]);
+        EXPECT_TRUE(!byFour.is(i, hintedClasses) ||
           (byFour.classes[i] == ChainClass::HintedShadow) ==
             (status.classes[i] == ChainClass::TracedShadow));
         // Pixels that the light does not reach are dark by definition, and need no hint.
         EXPECT_EQ(
           byFour.classes[i] == ChainClass::Unreached, status.classes[i] == ChainClass::Unreached);
-        const bool isLeft = proven.isTraced(i);
+        const bool isLeft = proven.is(i, tracedClasses);
         EXPECT_EQ(lit.classes[i], isLeft ? ChainClass::LeftLit : proven.classes[i]);
-        EXPECT_TRUE(isLeft
-            ? majority.isAnyOf(i, { ChainClass::MajorityLit, ChainClass::MajorityShadow })
-            : majority.classes[i] == proven.classes[i]);
+        EXPECT_TRUE(isLeft ? majority.is(i, { ChainClass::MajorityLit, ChainClass::MajorityShadow })
+                           : majority.classes[i] == proven.classes[i]);
       }
-      const auto add = [&](
-                         ChainSum& sum, const ChainRun& of, std::initializer_list<ChainClass> what)
+      const auto add = [&](ChainSum& sum, const ChainRun& of, const Classes& what)
       {
         sum.wrong += countDifferent(of.visibility, chained.truth());
         sum.counted += of.count(what);
       };
-      add(outside, proven, { ChainClass::OutsideLit, ChainClass::OutsideShadow });
-      add(checked, byCheck, { ChainClass::OutsideLit, ChainClass::OutsideShadow });
-      add(four, byFour, { ChainClass::HintedLit, ChainClass::HintedShadow });
-      add(nine, byNine, { ChainClass::HintedLit, ChainClass::HintedShadow });
+      add(outside, proven, outsideClasses);
+      add(checked, byCheck, outsideClasses);
+      add(four, byFour, hintedClasses);
+      add(nine, byNine, hintedClasses);
     });
   EXPECT_GT(outside.wrong, 0u);
   EXPECT_LE(checked.wrong, outside.wrong);
@@ -650,7 +637,7 @@ TEST(Chain, leavesPixelsLitBetterThanAsTheirTexels)
       wrongByMap += traced.countWrong(ChainClass::TracedLit, chained.truth()) +
         traced.countWrong(ChainClass::TracedShadow, chained.truth());
       wrongLit += countBelow(traced.classes.size(),
-        [&](std::size_t i) { return traced.isTraced(i) && chained.truth()[i] == 0.0f; });
+        [&](std::size_t i) { return traced.is(i, tracedClasses) && chained.truth()[i] == 0.0f; });
     });
   EXPECT_LT(wrongLit, wrongByMap);
 }
@@ -683,13 +670,12 @@ TEST(Chain, hasNoAcneOnSmoothSurfaces)
       { { makePlane(8.0, 16) }, { ball, at({ 0.0, 1.5, 1.0 }) }, { bowl, at({ 0.0, -1.5, 1.2 }) } },
       direction, 256, { -6.0, -2.0, 7.0 });
     const ChainRun run = chained.run(provenStages(6));
-    EXPECT_EQ(
-      countBelow(run.classes.size(),
-        [&](std::size_t i) { return run.isOutside(i) && run.visibility[i] < chained.truth()[i]; }),
+    EXPECT_EQ(countBelow(run.classes.size(),
+                [&](std::size_t i)
+                { return run.is(i, outsideClasses) && run.visibility[i] < chained.truth()[i]; }),
       0u);
     // Little except shadows' edges is traced.
-    EXPECT_LT(
-      run.count({ ChainClass::TracedLit, ChainClass::TracedShadow }), chained.needRays() / 8);
+    EXPECT_LT(run.count(tracedClasses), chained.needRays() / 8);
   }
 }
 

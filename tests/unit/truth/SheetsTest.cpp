@@ -100,16 +100,6 @@ glm::vec3 onEdge(const Occluders& occluders, Random& random)
   return glm::mix(a, b, shares[random() % 3]);
 }
 
-/// Return a ray to a point from a random place below it.
-TestRay toFromBelow(const glm::vec3& point, Random& random)
-{
-  // Half of the places lie on a grid, so that many rays meet the corners exactly.
-  glm::dvec3 place = inCube(random) + glm::dvec3(0.0, 0.0, -9.0);
-  place = random() % 2 != 0 ? glm::round(4.0 * place) / 4.0 : place;
-  const glm::vec3 origin(place);
-  return { origin, point - origin };
-}
-
 /// Return triangles around a corner, in the plane z = 0.
 Mesh makeFan(int triangles)
 {
@@ -161,39 +151,6 @@ std::vector<std::pair<glm::dvec3, glm::dvec3>> innerEdges(const Mesh& mesh)
     }
   }
   return inner;
-}
-
-TEST(Sheets, PanesMultiplyInAnyOrder)
-{
-  Random random(1);
-  for (const int panes : { 1, 2, 5 })
-  {
-    for (int picture = 0; picture < 20; ++picture)
-    {
-      std::vector<Prop> props;
-      std::vector<double> opacities;
-      double expected = 1.0;
-      for (int pane = 0; pane < panes; ++pane)
-      {
-        props.push_back({ makePlane(8.0, 4), at({ 0.0, 0.0, uniform(random, 0.0, 2.0) }) });
-        opacities.push_back(0.1 + 0.1 * (random() % 9));
-        expected *= 1.0 - static_cast<double>(static_cast<float>(opacities.back()));
-      }
-      Occluders occluders = makeOccluders(props);
-      for (std::size_t pane = 0; pane < opacities.size(); ++pane)
-      {
-        setSheet(occluders, pane, sheetOf(opacities[pane]));
-      }
-      Sheets sheets;
-      sheets.update(occluders);
-      for (int i = 0; i < 2000; ++i)
-      {
-        const TestRay ray = toFromBelow(glm::vec3(2.0 * inCube(random)), random);
-        const double found = sheets.transmittanceOf(ray.origin, ray.direction, endless).x;
-        ASSERT_NEAR(found, expected, 1e-12);
-      }
-    }
-  }
 }
 
 /// Meshes whose inner edges and corners are aimed at.
@@ -338,29 +295,6 @@ TEST(Sheets, ClosedSurfacesAreCrossedOnceFromInsideAndEvenlyFromOutside)
       const TestRay ray{ origin, onEdge(occluders, random) - origin };
       ASSERT_THAT(countCrossings(sheets, ray), testing::AnyOf(0.0, 2.0));
     }
-  }
-}
-
-TEST(Sheets, PanesThatMeetInATCountAlone)
-{
-  // A pane that stands on another: rays beside it cross the lower one alone.
-  const Occluders occluders = makeSheets({ { makePlane(8.0, 8) },
-    { makePlane(8.0, 8),
-      glm::rotate(at({ 0.0, 0.0, 4.0 }), glm::half_pi<double>(), { 1, 0, 0 }) } });
-  const glm::vec3 centre(occluders.frame.centre);
-  Sheets sheets;
-  sheets.update(occluders);
-  Random random(4);
-  for (int i = 0; i < 50000; ++i)
-  {
-    const float x = static_cast<float>(uniform(random, -3.0, 3.0));
-    const bool isThrough = random() % 2 != 0;
-    // Through the standing pane at y = 0, or up beside it.
-    const glm::vec3 origin = glm::vec3(x, -1.0f, -1.0f) - centre;
-    const glm::vec3 direction(0.0f, isThrough ? 1.0f : -0.125f, 2.0f);
-    ASSERT_EQ(countCrossings(sheets, { origin, direction }), isThrough ? 2.0 : 1.0);
-    // Exactly at the line where they meet: the lower one, and the standing one or not.
-    ASSERT_THAT(countCrossings(sheets, { origin, { 0.0f, 1.0f, 1.0f } }), testing::AnyOf(1.0, 2.0));
   }
 }
 
