@@ -168,19 +168,6 @@ TEST(AreaShadows, ofALightWithoutSizeAreHardToTheLastBit)
   }
 }
 
-TEST(AreaShadows, becomeHardAsTheLightShrinks)
-{
-  const Occluders occluders = makeThings();
-  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings);
-  for (ShadowLight light : areaLights())
-  {
-    const std::vector<float> hard = trace(light, occluders, receivers);
-    EXPECT_GT(countDifferent(traceArea(light, occluders, receivers), hard), 100u);
-    light.area->worldFromUnit *= 1e-4;
-    EXPECT_LT(countDifferent(traceArea(light, occluders, receivers), hard), 12u);
-  }
-}
-
 /// If the floor cuts a light, or a light lies in it, the lower half is behind the floor's plane.
 TEST(AreaShadows, ofALightInTheFloorsPlaneAreCleanOnTheFloor)
 {

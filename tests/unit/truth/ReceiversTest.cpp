@@ -209,50 +209,6 @@ TEST(Receivers, AreTheClosestPointsOfTrianglesBesideTheRay)
   }
 }
 
-TEST(Receivers, OnATriangleThatReachesBehindTheCamera)
-{
-  // The camera stands 2 above a ground of 20,000, so some corners lie behind it.
-  const Occluders occluders = makeOccluders({ { makePlane(20000.0), at({ 0.0, 0.0, 0.0 }) } });
-  const View view = makeView(occluders, { { 10.0, 20.0, 2.0 }, { 1000.0, 30.0, -60.0 } });
-  const ReceiverPixels receivers = project(view, occluders);
-  ASSERT_GT(countCovered(receivers), 30000u);
-  for (std::size_t i = 0; i < receivers.size(); ++i)
-  {
-    if (view.images.fragments[i].x != 0.0f)
-    {
-      ASSERT_NEAR(receivers.positionZ[i], 0.0f, 1e-12f);
-      ASSERT_LT(offRay(view, i, glm::dvec3(positionOf(receivers, i))),
-        0.6); // a float's spacing near the camera
-    }
-  }
-}
-
-TEST(Receivers, SeenEdgeOnStayOnTheirTriangle)
-{
-  // A plane seen exactly edge-on: no ray meets it, but a rasteriser may draw it.
-  const Occluders occluders = makeOccluders({ { makePlane(2.0), glm::dmat4(1.0) } });
-  Camera camera{ { 0.0, -5.0, 0.0 } };
-  for (const double parallelHeight : { 0.0, 4.0 })
-  {
-    camera.parallelHeight = parallelHeight;
-    View view = makeView(occluders, camera);
-    for (std::size_t column = 100; column < 150; ++column)
-    {
-      view.images.fragments[128 * 256 + column] = { 1.0f, 0.0f };
-    }
-    const ReceiverPixels receivers = project(view, occluders);
-    for (std::size_t column = 100; column < 150; ++column)
-    {
-      const std::size_t i = 128 * 256 + column;
-      ASSERT_EQ(receivers.surface[i], 0u);
-      EXPECT_GT(
-        inside(drawnCorners(view, occluders, i), glm::dvec3(positionOf(receivers, i))), -1e-6);
-      EXPECT_LT(offRay(view, i, glm::dvec3(positionOf(receivers, i))), 0.51);
-      EXPECT_NEAR(receivers.normalY[i], -1.0f, 0.1f);
-    }
-  }
-}
-
 TEST(Receivers, FindTheirTrianglesThroughTables)
 {
   const Occluders plain = turnedScene();

@@ -450,33 +450,6 @@ INSTANTIATE_TEST_SUITE_P(, VolumeStacks,
   testing::Combine(testing::ValuesIn(scans), testing::ValuesIn(lights)),
   [](const auto& of) { return std::get<0>(of.param).name + std::get<1>(of.param).name; });
 
-TEST_P(VolumeRows, HaveAStackNearTheMarch)
-{
-  Volume volume = slabOf(0.5);
-  this->GetParam().change(volume);
-  const Volumes casters = castersOf({ volume });
-  for (const ShadowLight& light :
-    { directionalLight({ -0.3, -0.2, -1.0 }), pointLight({ 0.5, -0.5, 6.0 }) })
-  {
-    const StackErrors errors = errorsOf(casters, light, 256);
-    EXPECT_LE(errors.mean, 0.01);
-    EXPECT_LE(errors.of99Percent, 0.03);
-  }
-}
-
-TEST(VolumeStack, LeavesLightAloneBeforeAndBesideVolumes)
-{
-  const Volumes casters = castersOf({ slabOf(0.5) });
-  const ShadowRayLight light(directionalLight({ 0.0, 0.0, -1.0 }), glm::dvec3(0.0));
-  const VolumeStack stack(casters, light, 32);
-  const auto leftAt = [&](const glm::vec3& at)
-  { return stack.transmittanceOf(at, light.toLight, shadowRayFarDirectional).x; };
-  EXPECT_EQ(leftAt({ 0.0f, 0.0f, 1.01f }), 1.0);
-  EXPECT_EQ(leftAt({ 1.01f, 0.0f, -5.0f }), 1.0);
-  EXPECT_NEAR(leftAt({ 0.0f, 0.0f, -1.0f }), std::exp(-1.0), 1e-4);
-  EXPECT_NEAR(leftAt({ 0.99f, 0.0f, -50.0f }), std::exp(-1.0), 1e-4);
-}
-
 /// Nothing shines through the near face of a light's box.
 TEST(VolumeStack, BeginsAtTheBoxOfALight)
 {
