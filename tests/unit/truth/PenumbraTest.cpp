@@ -9,7 +9,6 @@
 #include "shadowtech/penumbra/PenumbraChooser.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
-#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -252,77 +251,6 @@ Occluders makeTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
   // A second triangle keeps the middle of all coordinates away from the first.
   return makeOccluders(
     { { { { a, b, c }, { { 0, 1, 2 } } } }, { makePlane(0.1), at({ 9.0, -7.0, 8.0 }) } });
-}
-
-/// A triangle whose edge nearly points at the starts, and a light beside it: in that view, rounding
-/// reaches far around its edges.
-TEST(Penumbra, isThatOfAllRaysWhereEdgesPointAtTheLight)
-{
-  Random random(4);
-  for (int run = 0; run < 64; ++run)
-  {
-    const bool fromSide = run % 2 == 0;
-    const double offLine = std::array{ 1e-3, 1e-4, 1e-5, 3e-6 }[run / 2 % 4];
-    const auto [along, x, y, place] = Axes(random);
-    const double nearest = uniform(random, 0.5, 2.0);
-    const double farthest = nearest + uniform(random, 2.0, 5.0);
-    const Mesh mesh{ { place + nearest * along, place + farthest * along,
-                       place + uniform(random, 1.0, 5.0) * along + uniform(random, 1.0, 3.0) * x },
-      { { 0, 1, 2 } } };
-    const Occluders occluders = makeOccluders({ { mesh } });
-    const ReceiverPixels receivers = startingAt(
-      [&, along = along, x = x, y = y, place = place](bool)
-      {
-        const double angle = (random() % 2 ? glm::pi<double>() : 0.0) +
-          (fromSide ? uniform(random, -0.02, 0.02) : uniform(random, 0.3, 2.8));
-        const double off = offLine * farthest * uniform(random, 0.2, 1.0);
-        return Start{ place - occluders.frame.centre +
-            off * (std::cos(angle) * x + std::sin(angle) * y),
-          along, 1e-7 };
-      });
-    const double side = run / 8 % 2 == 0 ? 1.0 : -1.0;
-    const bool directional = run / 16 % 2 == 0;
-    const double distance = directional ? 1.0 : 10.0;
-    const glm::dvec3 towards = glm::normalize(along + side * uniform(random, 3e-4, 1.5e-3) * x);
-    const double half = distance * uniform(random, 2e-5, 1e-4);
-    expectThatOfAllRays(
-      withArea(directional ? directionalLight(-towards) : pointLight(place + distance * towards),
-        rectangleArea(-towards, axisAcross(-towards), { half, half }), 16),
-      occluders, receivers, std::to_string(offLine) + (fromSide ? " from its side" : ""));
-  }
-}
-
-/// Starts lie in a triangle's plane. A light lies in it, too, beyond the triangle's tip.
-TEST(Penumbra, isThatOfAllRaysAlongTriangles)
-{
-  Random random(5);
-  for (int run = 0; run < 144; ++run)
-  {
-    const double offPlane = std::array{ 0.0, 1e-6, 1e-5, 1e-4 }[run % 4];
-    const double angle = std::array{ 1e-3, 1e-2, 1e-1 }[run / 4 % 3];
-    const double half = run / 12 % 2 == 0 ? 1e-5 : 1e-3;
-    const Axes axes(random);
-    const auto corner = [&](double distance, double direction) {
-      return axes.place + distance * (std::cos(direction) * axes.x + std::sin(direction) * axes.y);
-    };
-    const Mesh mesh{ { corner(uniform(random, 2.0, 5.0), 0.0),
-                       corner(uniform(random, 1.0, 6.0), uniform(random, 0.1, 1.0)),
-                       corner(uniform(random, 1.0, 6.0), uniform(random, 0.1, 1.0)) },
-      { { 0, 1, 2 } } };
-    const Occluders occluders = makeOccluders({ { mesh } });
-    const glm::dvec3 towards = std::cos(angle) * axes.x - std::sin(angle) * axes.y;
-    const ReceiverPixels receivers = startingAt(
-      [&](bool)
-      {
-        return Start{ axes.place - occluders.frame.centre +
-            uniform(random, -offPlane, offPlane) * axes.z + uniform(random, -1e-3, 1e-3) * axes.x +
-            angle * uniform(random, -1e-3, 1e-3) * axes.y,
-          towards, 1e-7 };
-      });
-    expectThatOfAllRays(withArea(pointLight(axes.place + 10.0 * towards),
-                          rectangleArea(-towards, axes.z, glm::dvec2(10.0 * half))),
-      occluders, receivers, std::to_string(offPlane) + " off the plane, " + std::to_string(angle));
-  }
 }
 
 /// Starts lie in the plane of a triangle of any slant, or on the triangle, to within rounding. Rays
