@@ -1,11 +1,25 @@
 #include "Comparison.h"
 
+#include "Vec3.h"
+
+#include "plugin/vtkGnomonOffScreenWindow.h"
 #include "shadowtech/base/ShadowRay.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkProperty.h>
+#include <vtkRenderPass.h>
+#include <vtkRenderer.h>
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace gnomon::tool
@@ -18,26 +32,75 @@ glm::dvec3 toGlm(const Vec3& v)
   return { v[0], v[1], v[2] };
 }
 
-/// Return a unit vector; zero for a vector without length.
-glm::dvec3 unitOrZero(const glm::dvec3& v)
+/// Each exposure begins where the previous one has 16 of its 256 steps left.
+constexpr std::array<double, 4> exposureFactors = { 1.0, 16.0, 256.0, 4096.0 };
+
+/// Return a white texture with the source's alpha; null without a texture or without alpha.
+vtkSmartPointer<vtkTexture> whiteTexture(vtkTexture* source)
 {
-  const double length = glm::length(v);
-  return length > 0.0 ? v / length : glm::dvec3(0.0);
+  vtkImageData* image = source ? source->GetInput() : nullptr;
+  const int components = image ? image->GetNumberOfScalarComponents() : 1;
+  if (components % 2 != 0)
+  {
+    return nullptr;
+  }
+  vtkNew<vtkImageData> white;
+  white->DeepCopy(image);
+  for (int i = 0; i + 1 < components; ++i)
+  {
+    white->GetPointData()->GetScalars()->FillComponent(i, image->GetScalarTypeMax());
+  }
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(white);
+  texture->SetInterpolate(source->GetInterpolate());
+  texture->SetWrap(source->GetWrap());
+  return texture;
 }
 
-/// True if a point lies in a light's box, or if the light has no box.
-/// @param fromLight the point minus the light's position
-bool inBox(const SceneLight& light, const glm::dvec3& axis, const glm::dvec3& fromLight)
+/// Return the scene with white, flat, diffuse surfaces and one white light.
+Scene whiteScene(const Scene& scene, std::size_t light)
 {
-  if (!light.box)
+  Scene white = scene;
+  white.background = { { 0.0, 0.0, 0.0 } };
+  white.lights = { scene.lights.at(light) };
+  white.lights[0].color = { { 1.0, 1.0, 1.0 } };
+  white.lights[0].intensity = 1.0;
+  white.models.erase(std::remove_if(white.models.begin(), white.models.end(),
+                       [](const SceneModel& model) { return model.property->GetOpacity() < 1.0; }),
+    white.models.end());
+  for (SceneModel& model : white.models)
   {
-    return true;
+    const bool cullsBack = model.property->GetBackfaceCulling();
+    const bool cullsFront = model.property->GetFrontfaceCulling();
+    model.texture = whiteTexture(model.texture);
+    model.property = vtkSmartPointer<vtkProperty>::New();
+    model.property->SetInterpolationToFlat();
+    model.property->SetColor(1.0, 1.0, 1.0);
+    model.property->SetAmbient(0.0);
+    model.property->SetDiffuse(1.0);
+    model.property->SetSpecular(0.0);
+    model.property->SetBackfaceCulling(cullsBack);
+    model.property->SetFrontfaceCulling(cullsFront);
   }
-  const glm::dvec3 right = unitOrZero(glm::cross(toGlm(light.box->up), axis));
-  const double depth = glm::dot(fromLight, axis);
-  return 2.0 * std::abs(glm::dot(fromLight, right)) <= light.box->width &&
-    2.0 * std::abs(glm::dot(fromLight, glm::cross(axis, right))) <= light.box->height &&
-    depth >= 0.0 && depth <= light.box->depth;
+  return white;
+}
+
+/// Return one picture per exposure.
+std::vector<Picture> expose(vtkRenderer* renderer, int width, int height)
+{
+  const auto window = makeOffScreenWindow();
+  window->SetSize(width, height);
+  window->AddRenderer(renderer);
+  vtkLight* const light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+  std::vector<Picture> pictures;
+  for (double factor : exposureFactors)
+  {
+    light->SetIntensity(factor);
+    window->Render();
+    pictures.push_back(capture(window));
+  }
+  window->RemoveRenderer(renderer);
+  return pictures;
 }
 
 } // namespace
@@ -45,34 +108,33 @@ bool inBox(const SceneLight& light, const glm::dvec3& axis, const glm::dvec3& fr
 //------------------------------------------------------------------------------
 std::vector<unsigned char> facingPixels(const VisibilityImages& images, const SceneLight& light)
 {
-  const glm::dvec3 lightPosition =
-    toGlm(light.position) - glm::dvec3(images.origin[0], images.origin[1], images.origin[2]);
-  const glm::dvec3 axis = unitOrZero(toGlm(light.target) - toGlm(light.position));
-  const bool directional = light.type == SceneLight::Type::Directional;
-  const double cosineOfCone = std::cos(glm::radians(light.coneAngleDegrees));
-
-  std::vector<unsigned char> facing(images.coverage.size(), 0);
-  for (std::size_t i = 0; i < facing.size(); ++i)
+  ShadowLight source;
+  source.kind = light.type;
+  source.positionWorld = toGlm(light.position);
+  source.directionWorld = toGlm(normalized(light.target - light.position));
+  source.coneAngleDegrees = light.coneAngleDegrees;
+  if (light.box)
   {
-    if (images.coverage[i] != 1.0f)
-    {
-      continue;
-    }
-    const glm::dvec3 position(images.positionX[i], images.positionY[i], images.positionZ[i]);
-    const glm::dvec3 normal(images.normalX[i], images.normalY[i], images.normalZ[i]);
-    const glm::dvec3 toLight = directional ? -axis : unitOrZero(lightPosition - position);
-    const bool reached =
-      light.type != SceneLight::Type::Spot || glm::dot(-toLight, axis) >= cosineOfCone;
-    facing[i] =
-      reached && inBox(light, axis, position - lightPosition) && facesLight(normal, toLight);
+    source.box = { light.box->width, light.box->height, light.box->depth, toGlm(light.box->up) };
   }
+  std::vector<unsigned char> facing(images.coverage.size(), 0);
+  visitShadowRays(ShadowRayLight(source, toGlm(images.origin)),
+    [&](const auto& make, float)
+    {
+      for (std::size_t i = 0; i < facing.size(); ++i)
+      {
+        facing[i] = images.coverage[i] == 1.0f &&
+          make({ images.positionX[i], images.positionY[i], images.positionZ[i] },
+            { images.normalX[i], images.normalY[i], images.normalZ[i] }, 0.0f)
+            .traced;
+      }
+    });
   return facing;
 }
 
 //------------------------------------------------------------------------------
 VisibilityError measureError(const VisibilityImages& technique, const VisibilityImages& truth,
-  const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts,
-  std::vector<float>* differences)
+  const std::vector<SceneLight>& lights)
 {
   const auto hasAllPixels = [&](const std::vector<float>& plane)
   { return plane.size() == truth.coverage.size(); };
@@ -83,13 +145,9 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
   {
     throw std::invalid_argument("visibility images differ in size or lights");
   }
-  std::vector<PixelVerdict> ownVerdicts;
-  std::vector<float> ownDifferences;
-  std::vector<PixelVerdict>& found = verdicts ? *verdicts : ownVerdicts;
-  std::vector<float>& greatest = differences ? *differences : ownDifferences;
-  found.assign(truth.coverage.size(), PixelVerdict::NotCounted);
-  greatest.assign(truth.coverage.size(), 0.0f);
   VisibilityError error;
+  error.verdicts.assign(truth.coverage.size(), PixelVerdict::NotCounted);
+  error.differences.assign(truth.coverage.size(), 0.0f);
   double sumOfAbsolutes = 0.0;
   double sumOfSquares = 0.0;
   for (std::size_t k = 0; k < truth.visibility.size(); ++k)
@@ -114,8 +172,8 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
         value > VisibilityError::darkBelow && value < VisibilityError::litAbove;
       sumOfAbsolutes += std::fabs(difference);
       sumOfSquares += static_cast<double>(difference) * difference;
-      greatest[i] = std::max(greatest[i], std::fabs(difference));
-      found[i] = std::max(found[i],
+      error.differences[i] = std::max(error.differences[i], std::fabs(difference));
+      error.verdicts[i] = std::max(error.verdicts[i],
         isLit      ? PixelVerdict::FalseLight
           : isDark ? PixelVerdict::FalseShadow
                    : PixelVerdict::Right);
@@ -125,8 +183,10 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
   {
     for (std::size_t i = 0; i < image.ofPixels.size(); ++i)
     {
-      found[i] = image.classes[image.ofPixels[i]].traced ? std::max(found[i], PixelVerdict::Traced)
-                                                         : found[i];
+      if (image.classes[image.ofPixels[i]].traced)
+      {
+        error.verdicts[i] = std::max(error.verdicts[i], PixelVerdict::Traced);
+      }
     }
   }
   if (error.facingPixels > 0)
@@ -161,6 +221,57 @@ Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& ve
       colour = { grey / 2 + 78, grey / 2 + 10, grey / 2 + 105 }; // shows the picture beneath
     }
     std::copy(colour.begin(), colour.end(), pixel);
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+std::vector<float> visibilityFromPictures(
+  const std::vector<Picture>& lit, const std::vector<Picture>& shadowed, std::size_t colour)
+{
+  std::vector<float> visibility(lit.front().pixelCount(), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < visibility.size(); ++i)
+  {
+    const std::size_t byte = 3 * i + colour;
+    for (std::size_t k = 0; k < lit.size() && lit[k].rgb[byte] < 255; ++k)
+    {
+      if (lit[k].rgb[byte] > 0)
+      {
+        visibility[i] = std::min(
+          1.0f, static_cast<float>(shadowed[k].rgb[byte]) / static_cast<float>(lit[k].rgb[byte]));
+      }
+    }
+  }
+  return visibility;
+}
+
+//------------------------------------------------------------------------------
+PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& truth,
+  const std::function<void(vtkRenderer*)>& addShadows)
+{
+  PictureVisibility result;
+  result.images = truth;
+  result.images.classes.clear();
+  const double aspect = static_cast<double>(truth.width) / truth.height;
+  for (std::size_t k = 0; k < truth.sceneIndices.size(); ++k)
+  {
+    const Scene white = whiteScene(scene, static_cast<std::size_t>(truth.sceneIndices[k]));
+    const std::vector<Picture> lit = expose(makeRenderer(white, aspect), truth.width, truth.height);
+    const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(white, aspect);
+    addShadows(renderer);
+    const std::vector<Picture> shadowed = expose(renderer, truth.width, truth.height);
+    // A light without texture is white here, so all channels are equal.
+    const LightChannel channel = truth.channels[k];
+    const std::size_t colour = channel == LightChannel::Blue ? 2 : channel == LightChannel::Green;
+    const std::vector<float> found = visibilityFromPictures(lit, shadowed, colour);
+    const std::vector<unsigned char> facing = facingPixels(truth, white.lights[0]);
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      const bool isUnreadable = std::isnan(found[i]);
+      result.unreadable += isUnreadable && facing[i];
+      float& visibility = result.images.visibility[k][i];
+      visibility = isUnreadable ? visibility : found[i];
+    }
   }
   return result;
 }

@@ -7,11 +7,22 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace gnomon::tool
 {
+
+/// A pixel's verdict. With several lights, the last enumerator applies.
+enum class PixelVerdict : unsigned char
+{
+  NotCounted, ///< covered by nothing, turned away, or outside the cone
+  Right,
+  Traced, ///< and so right
+  FalseShadow,
+  FalseLight
+};
 
 /// The error of a technique's visibility against the truth, over the pixels that count. These are
 /// covered, face the light (facesLight() of ShadowRay.h), and lie inside its cone or box if it has
@@ -25,6 +36,9 @@ struct VisibilityError
   std::int64_t betweenPixels = 0; ///< neither lit nor dark: strictly inside darkBelow, litAbove
   double meanAbsolute = 0.0;
   double rootMeanSquare = 0.0;
+  std::vector<PixelVerdict> verdicts; ///< of each pixel
+  /// Each pixel's greatest difference from the truth; 0 for pixels that do not count.
+  std::vector<float> differences;
 
   static constexpr float darkBelow = 0.1f;
   static constexpr float litAbove = 0.9f;
@@ -39,28 +53,44 @@ struct VisibilityError
   }
 };
 
-/// A pixel's verdict. With several lights, the last enumerator applies.
-enum class PixelVerdict : unsigned char
-{
-  NotCounted, ///< covered by nothing, turned away, or outside the cone
-  Right,
-  Traced, ///< and so right
-  FalseShadow,
-  FalseLight
-};
-
 /// Return a mask with 1 for each pixel that counts for this light.
 std::vector<unsigned char> facingPixels(const VisibilityImages& images, const SceneLight& light);
 
 /// Measure a technique's error against the truth, over all lights of the truth.
 /// @param lights the scene's lights, indexed by `truth.sceneIndices`
-/// @param verdicts if given, receives one verdict per pixel
-/// @param differences if given, receives each pixel's greatest difference from the truth; 0 for
-/// pixels that do not count
 /// @throws std::invalid_argument if the images differ in size or lights
 VisibilityError measureError(const VisibilityImages& technique, const VisibilityImages& truth,
-  const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts = nullptr,
-  std::vector<float>* differences = nullptr);
+  const std::vector<SceneLight>& lights);
+
+/// Return visibility as the quotient of pictures of white, diffuse, flat surfaces under one light:
+/// the share of light that the shadows leave; NaN if no light arrives.
+///
+/// A picture has only 8 bits and saturates at white, so several exposures go from dark to bright.
+/// Each pixel uses the brightest exposure that is not white without shadows. Values above 1 (some
+/// passes brighten) count as 1.
+/// @param lit, shadowed the exposures without and with shadows
+/// @param colour channel of the pictures: 0 red, 1 green, 2 blue
+std::vector<float> visibilityFromPictures(
+  const std::vector<Picture>& lit, const std::vector<Picture>& shadowed, std::size_t colour);
+
+/// The result of measureVisibility().
+struct PictureVisibility
+{
+  /// The truth's positions, normals and coverage with the measured visibility.
+  VisibilityImages images;
+  std::int64_t unreadable = 0; ///< pixels that count but cannot be measured
+};
+
+/// Measure, from pictures, the visibility that `addShadows` gives a scene. This serves renderers
+/// that shade with visibility but do not export it. For each light of the truth, the scene is
+/// rendered with white surfaces and only this light. Translucent models are left out.
+///
+/// VTK shades some pixels black although facingPixels() counts them: the light grazes them, and
+/// both disagree on the side. Such pixels cannot be measured and get the truth's visibility.
+///
+/// @param addShadows adds shadows to a new renderer; called once per light
+PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& truth,
+  const std::function<void(vtkRenderer*)>& addShadows);
 
 /// Return the dimmed picture with false light in blue, false shadow in red and traced pixels in
 /// purple.

@@ -3,8 +3,6 @@
 #include "Errors.h"
 #include "Files.h"
 #include "FrameVariant.h"
-#include "Machine.h"
-#include "PictureVisibility.h"
 #include "SettingOptions.h"
 #include "VtkMessages.h"
 
@@ -364,13 +362,7 @@ void takeClasses(Variant& variant, const VisibilityImages& images)
   }
   variant.json["traced_pixels"] = traced;
   variant.json["class_pixels"] = Json(classes);
-  const auto told = std::find_if(images.classes.begin(), images.classes.end(),
-    [](const ClassImage& image) { return !image.classes.empty(); });
-  if (told != images.classes.end())
-  {
-    variant.pictures.classes =
-      classPicture(images, static_cast<std::size_t>(told - images.classes.begin()));
-  }
+  variant.pictures.classes = classPicture(images);
 }
 
 /// Measure a variant's error, and take its pictures.
@@ -385,9 +377,7 @@ void measureVariant(Variant& variant, const Scene& scene, const VisibilityImages
   variant.pictures.picture = capture(variant.window());
   std::string source;
   const VisibilityImages images = visibilityOf(variant, scene, truth, soft, source);
-  std::vector<PixelVerdict> verdicts;
-  std::vector<float> differences;
-  const VisibilityError error = measureError(images, truth, scene.lights, &verdicts, &differences);
+  const VisibilityError error = measureError(images, truth, scene.lights);
   variant.json["error"] = { { "source", source }, { "facing_pixels", error.facingPixels },
     { "wrong_pixels", error.wrongPixels() }, { "wrong_share", error.share(error.wrongPixels()) },
     { "false_light_pixels", error.falseLight }, { "false_shadow_pixels", error.falseShadow },
@@ -399,8 +389,8 @@ void measureVariant(Variant& variant, const Scene& scene, const VisibilityImages
     takeClasses(variant, images);
   }
   constexpr int placePixels = 64;
-  variant.pictures.worst = worstPlace(differences, truth.width, truth.height, placePixels);
-  variant.pictures.errors = errorPicture(variant.pictures.picture, verdicts);
+  variant.pictures.worst = worstPlace(error.differences, truth.width, truth.height, placePixels);
+  variant.pictures.errors = errorPicture(variant.pictures.picture, error.verdicts);
   const std::string stem = fileStem(variant.spec().name());
   variant.json["picture"] = stem + ".png";
   variant.json["error_picture"] = stem + "-errors.png";

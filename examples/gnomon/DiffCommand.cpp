@@ -1,7 +1,7 @@
 #include "Commands.h"
 #include "Errors.h"
 #include "Files.h"
-#include "ImageDifference.h"
+#include "ImageFile.h"
 
 #include <CLI/CLI.hpp>
 
@@ -21,19 +21,7 @@ namespace
 /// Read the channels of an .exr unchanged, or of a .png as R, G and B in [0, 255].
 ChannelImage readComparable(const std::string& path)
 {
-  if (lowerExtension(path) == ".exr")
-  {
-    return readChannels(path);
-  }
-  const Picture picture = readPicture(path);
-  ChannelImage image;
-  image.width = picture.width;
-  image.height = picture.height;
-  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
-  {
-    image.channels[std::array{ "R", "G", "B" }[i % 3]].push_back(picture.rgb[i]);
-  }
-  return image;
+  return lowerExtension(path) == ".exr" ? readChannels(path) : channelsOf(readPicture(path), 1.0f);
 }
 
 /// Return an image's size and channels: "10 x 5 pixels with R, G, B".

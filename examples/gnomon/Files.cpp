@@ -12,41 +12,38 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <regex>
 #include <system_error>
 
 namespace gnomon::tool
 {
 
+namespace fs = std::filesystem;
+
 //------------------------------------------------------------------------------
 std::size_t requireReadableFile(const std::string& path)
 {
-  if (path.find('\0') != std::string::npos)
-  {
-    throw BadInput(path.c_str() + std::string(": the path holds a zero byte"));
-  }
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found)
+  const fs::file_status status = fs::status(path, error);
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  using Type = fs::file_type;
+  std::string fault = path.find('\0') != std::string::npos ? "the path holds a zero byte"
+    : status.type() == Type::not_found                     ? "no such file"
+    : status.type() == Type::directory                     ? "not a file but a directory"
+    : status.type() != Type::regular && status.type() != Type::none
+    ? "not a file, but a device or a pipe"
+    : "";
+  if (fault.empty() && (error || !std::ifstream(path, std::ios::binary)))
   {
-    throw BadInput(path + ": no such file");
+    fault = std::string("cannot be read: ") + std::strerror(errno);
   }
-  if (error)
+  if (fault.empty() && bytes == 0)
   {
-    throw BadInput(path + ": cannot be read: " + error.message());
+    fault = "the file is empty";
   }
-  if (!std::filesystem::is_regular_file(status))
+  if (!fault.empty())
   {
-    throw BadInput(path + ": not a file" +
-      (std::filesystem::is_directory(status) ? " but a directory" : ", but a device or a pipe"));
-  }
-  const auto bytes = std::filesystem::file_size(path, error);
-  if (error || !std::ifstream(path, std::ios::binary))
-  {
-    throw BadInput(path + ": cannot be read: " + std::strerror(errno));
-  }
-  if (bytes == 0)
-  {
-    throw BadInput(path + ": the file is empty");
+    throw BadInput(path.c_str() + (": " + fault));
   }
   return static_cast<std::size_t>(bytes);
 }
@@ -110,10 +107,6 @@ void requireWritableFile(
 //------------------------------------------------------------------------------
 void writeWholeFile(const std::string& path, const std::string& bytes)
 {
-  namespace fs = std::filesystem;
-  const auto fail = [&path](int reason)
-  { throw Failure(path + ": writing failed: " + std::strerror(reason)); };
-
   std::error_code ignored;
   const fs::file_status old = fs::status(path, ignored);
   const bool isDevice = fs::exists(old) && !fs::is_regular_file(old); // or a pipe
@@ -124,52 +117,33 @@ void writeWholeFile(const std::string& path, const std::string& bytes)
   {
     part.replace_filename(".gnomon-" + std::to_string(std::random_device()()));
   }
-  const int flags = isDevice ? 0 : O_CREAT | O_EXCL;
-  const int handle = ::open(part.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
-  if (handle < 0)
-  {
-    fail(errno);
-  }
+  errno = 0;
+  std::ofstream file(part, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  int reason = file ? 0 : errno;
   if (fs::is_regular_file(old))
   {
     fs::permissions(part, old.permissions(), ignored);
-  }
-  int reason = 0;
-  for (std::size_t written = 0; written < bytes.size() && reason == 0;)
-  {
-    const ssize_t count = ::write(handle, bytes.data() + written, bytes.size() - written);
-    written += count > 0 ? static_cast<std::size_t>(count) : 0;
-    reason = count < 0 && errno != EINTR ? errno : 0;
-  }
-  if (::close(handle) != 0 && reason == 0)
-  {
-    reason = errno;
   }
   if (!isDevice && reason == 0 && ::rename(part.c_str(), target.c_str()) != 0)
   {
     reason = errno;
   }
-  if (reason != 0)
+  if (!file || reason != 0)
   {
     if (!isDevice)
     {
       ::unlink(part.c_str());
     }
-    fail(reason);
+    throw Failure(path + ": writing failed: " + std::strerror(reason));
   }
 }
 
 //------------------------------------------------------------------------------
 std::string fileStem(const std::string& name)
 {
-  constexpr const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-  std::string stem = name;
-  for (std::size_t other = stem.find_first_not_of(plain); other != std::string::npos;
-       other = stem.find_first_not_of(plain, other))
-  {
-    stem[other] = '-';
-  }
-  return stem;
+  return std::regex_replace(name, std::regex("[^A-Za-z0-9_-]"), "-");
 }
 
 //------------------------------------------------------------------------------

@@ -14,6 +14,7 @@
 #include <vtkSequencePass.h>
 #include <vtkShadowMapBakerPass.h>
 #include <vtkShadowMapPass.h>
+#include <vtksys/SystemInformation.hxx>
 
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -22,6 +23,7 @@
 #include <cstddef>
 #include <iterator>
 #include <sstream>
+#include <thread>
 
 namespace gnomon::tool
 {
@@ -297,6 +299,34 @@ std::vector<double> timeFrames(std::size_t ways, int frames,
   std::vector<double> medians(ways);
   std::transform(times.begin(), times.end(), medians.begin(), median);
   return medians;
+}
+
+//------------------------------------------------------------------------------
+std::int64_t residentBytes()
+{
+  return 1024 * static_cast<std::int64_t>(vtksys::SystemInformation().GetProcMemoryUsed());
+}
+
+//------------------------------------------------------------------------------
+std::string processorName()
+{
+  vtksys::SystemInformation system;
+  system.RunCPUCheck();
+  return system.GetExtendedProcessorName() + std::string(", ") +
+    std::to_string(std::thread::hardware_concurrency()) + " threads";
+}
+
+//------------------------------------------------------------------------------
+std::string openGlName(vtkRenderWindow* window)
+{
+  const std::string capabilities = window->ReportCapabilities();
+  const auto valueOf = [&](const std::string& key)
+  {
+    const std::size_t begin =
+      capabilities.find_first_not_of(" \t", capabilities.find(key) + key.size());
+    return capabilities.substr(begin, capabilities.find('\n', begin) - begin);
+  };
+  return valueOf("OpenGL renderer string:") + ", version " + valueOf("OpenGL version string:");
 }
 
 } // namespace gnomon::tool

@@ -14,6 +14,7 @@
 #include <vtkSmartPointer.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -116,5 +117,14 @@ double median(std::vector<double> values);
 std::vector<double> timeFrames(std::size_t ways, int frames,
   const std::function<double(std::size_t way, int step)>& draw,
   const std::function<void()>& roundDone = {});
+
+/// Return this process' resident memory in bytes; 0 if it is unknown.
+std::int64_t residentBytes();
+
+/// Return the processor's model and its number of hardware threads.
+std::string processorName();
+
+/// Return renderer and version of a window's OpenGL.
+std::string openGlName(vtkRenderWindow* window);
 
 } // namespace gnomon::tool

@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "Files.h"
+#include "ReadGuarded.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -13,7 +14,9 @@
 #include <ImfVecAttribute.h>
 
 #include <png.h>
+#include <vtkJPEGReader.h>
 #include <vtkNew.h>
+#include <vtkPNGReader.h>
 #include <vtkRenderWindow.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -22,6 +25,7 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <stdexcept>
 
 namespace gnomon::tool
@@ -51,25 +55,13 @@ const char* suffixOf(LightChannel channel)
                                       : "";
 }
 
-/// libpng's description of an image; releases its resources.
-///
-/// libpng is used because vtkPNGReader ends the whole program on a truncated file.
-struct PngImage : png_image
-{
-  PngImage()
-    : png_image{}
-  {
-    this->version = PNG_IMAGE_VERSION;
-  }
-  ~PngImage() { png_image_free(this); }
-  PngImage(const PngImage&) = delete;
-  PngImage& operator=(const PngImage&) = delete;
-};
-
+/// Read a picture by libpng, because vtkPNGReader ends the whole program on a truncated file.
 Picture readPng(const std::string& path)
 {
   requireReadableFile(path);
-  PngImage image;
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  const std::unique_ptr<png_image, decltype(&png_image_free)> freed(&image, png_image_free);
   const auto refuse = [&path, &image]
   { throw BadInput(path + ": is not a readable PNG file: " + image.message); };
   if (!png_image_begin_read_from_file(&image, path.c_str()))
@@ -166,7 +158,8 @@ Picture capture(vtkRenderWindow* window)
 //------------------------------------------------------------------------------
 std::vector<unsigned char> encodePng(const Picture& picture)
 {
-  PngImage image;
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
   image.format = PNG_FORMAT_RGB;
@@ -182,17 +175,24 @@ std::vector<unsigned char> encodePng(const Picture& picture)
 }
 
 //------------------------------------------------------------------------------
-Picture classPicture(const VisibilityImages& images, std::size_t light)
+Picture classPicture(const VisibilityImages& images, std::optional<int> sceneIndex)
 {
-  Picture picture{ images.width, images.height, {} };
-  picture.rgb.reserve(3 * picture.pixelCount());
-  const ClassImage& image = images.classes.at(light);
-  for (const std::uint8_t pixelClass : image.ofPixels)
+  for (std::size_t light = 0; light < images.classes.size(); ++light)
   {
-    const auto& colour = image.classes.at(pixelClass).colour;
-    picture.rgb.insert(picture.rgb.end(), colour.begin(), colour.end());
+    const ClassImage& image = images.classes[light];
+    if (!image.classes.empty() &&
+      images.sceneIndices[light] == sceneIndex.value_or(images.sceneIndices[light]))
+    {
+      Picture picture{ images.width, images.height, {} };
+      for (const std::uint8_t pixelClass : image.ofPixels)
+      {
+        const auto& colour = image.classes.at(pixelClass).colour;
+        picture.rgb.insert(picture.rgb.end(), colour.begin(), colour.end());
+      }
+      return picture;
+    }
   }
-  return picture;
+  return {};
 }
 
 //------------------------------------------------------------------------------
@@ -206,18 +206,14 @@ void writePicture(const Picture& picture, const std::string& path)
   }
   else
   {
-    std::array<std::vector<float>, 3> planes;
-    for (std::size_t channel = 0; channel < 3; ++channel)
-    {
-      planes[channel].resize(picture.pixelCount());
-      for (std::size_t i = 0; i < planes[channel].size(); ++i)
-      {
-        planes[channel][i] = static_cast<float>(picture.rgb[3 * i + channel]) / 255.0f;
-      }
-    }
+    const ChannelImage image = channelsOf(picture, 255.0f);
     Imf::Header header(picture.width, picture.height);
-    writeExr(path, picture.width, picture.height, header,
-      { { "R", &planes[0] }, { "G", &planes[1] }, { "B", &planes[2] } });
+    std::map<std::string, const std::vector<float>*> planes;
+    for (const auto& [name, plane] : image.channels)
+    {
+      planes[name] = &plane;
+    }
+    writeExr(path, picture.width, picture.height, header, planes);
   }
 }
 
@@ -324,6 +320,20 @@ ChannelImage readChannels(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
+ChannelImage channelsOf(const Picture& picture, float unit)
+{
+  ChannelImage image;
+  image.width = picture.width;
+  image.height = picture.height;
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+  {
+    image.channels[std::array{ "R", "G", "B" }[i % 3]].push_back(
+      static_cast<float>(picture.rgb[i]) / unit);
+  }
+  return image;
+}
+
+//------------------------------------------------------------------------------
 void writeVisibility(const VisibilityImages& images, const std::string& path,
   const std::map<std::string, std::string>& attributes)
 {
@@ -350,6 +360,36 @@ void writeVisibility(const VisibilityImages& images, const std::string& path,
   header.insert(
     "origin", Imf::V3dAttribute(Imath::V3d(images.origin[0], images.origin[1], images.origin[2])));
   writeExr(path, images.width, images.height, header, planes);
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkImageData> readImage(const std::string& path)
+{
+  vtkSmartPointer<vtkImageReader2> reader;
+  readGuarded(path, requireReadableFile(path),
+    [&]
+    {
+      reader = vtkSmartPointer<vtkPNGReader>::New();
+      if (!reader->CanReadFile(path.c_str()))
+      {
+        reader = vtkSmartPointer<vtkJPEGReader>::New();
+      }
+      if (!reader->CanReadFile(path.c_str()))
+      {
+        throw BadInput("not a PNG or JPEG image");
+      }
+      reader->SetFileName(path.c_str());
+      reader->Update();
+    });
+  return reader->GetOutput();
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkTexture> readTexture(const std::string& path)
+{
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(readImage(path));
+  return texture;
 }
 
 } // namespace gnomon::tool

@@ -4,9 +4,15 @@
 
 #include "lights/vtkGnomonVersions.h"
 
+#include <vtkImageData.h>
+#include <vtkSmartPointer.h>
+#include <vtkTexture.h>
+
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,9 +51,10 @@ struct ChannelImage
   std::array<double, 3> origin{ { 0.0, 0.0, 0.0 } };
 };
 
-/// Return the classes of a visibility's pixels in their colours.
-/// @param light index of an image of `visibility` whose technique has classes
-Picture classPicture(const VisibilityImages& images, std::size_t light);
+/// Return the classes of pixels in their colours: of the first light whose technique has classes.
+/// @param sceneIndex of a light, to ask it alone
+/// @return without pixels if there are none
+Picture classPicture(const VisibilityImages& images, std::optional<int> sceneIndex = std::nullopt);
 
 /// Return the window's picture after its last Render().
 Picture capture(vtkRenderWindow* window);
@@ -71,6 +78,10 @@ Picture readPicture(const std::string& path);
 /// large
 ChannelImage readChannels(const std::string& path);
 
+/// Return a picture as the channels R, G and B.
+/// @param unit what its values are divided by
+ChannelImage channelsOf(const Picture& picture, float unit);
+
 /// Write a visibility file with 32-bit float channels:
 /// - `visibility.N`, or `visibility.N.R/G/B` for a light with a texture; N counts the renderer's
 ///   lights
@@ -82,5 +93,30 @@ ChannelImage readChannels(const std::string& path);
 /// fails
 void writeVisibility(const VisibilityImages& images, const std::string& path,
   const std::map<std::string, std::string>& header);
+
+/// Read a PNG or JPEG image.
+/// @throws BadInput with a message that names the file
+vtkSmartPointer<vtkImageData> readImage(const std::string& path);
+
+/// Read a PNG or JPEG image as a texture with VTK's settings: repeated, nearest texel.
+/// @throws BadInput with a message that names the file
+vtkSmartPointer<vtkTexture> readTexture(const std::string& path);
+
+/// The differences of two images with the same size and channels.
+struct ImageDifference
+{
+  std::int64_t differingPixels = 0;
+  std::string text; ///< that number, the largest difference and its place, as a sentence
+  /// Equal pixels are black, differences within the tolerance grey, larger differences orange to
+  /// yellow, NaN magenta.
+  Picture picture;
+};
+
+/// Compare two images by channels. A pixel differs if one of its channels differs by more than
+/// `maxDifference`. NaN differs from everything, itself included.
+/// @param nameA, nameB the images' names in errors
+/// @throws BadInput if the sizes or the channels' names differ
+ImageDifference compareImages(const ChannelImage& a, const std::string& nameA,
+  const ChannelImage& b, const std::string& nameB, double maxDifference);
 
 } // namespace gnomon::tool

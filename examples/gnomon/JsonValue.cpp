@@ -79,9 +79,9 @@ JsonValue JsonValue::member(const std::string& key) const
 }
 
 //------------------------------------------------------------------------------
-void JsonValue::requireObject(const std::vector<std::string>& known) const
+void JsonValue::requireKeys(const std::vector<std::string>& known) const
 {
-  for (const auto& item : this->require(&nlohmann::json::is_object, "an object").items())
+  for (const auto& item : this->value_->items())
   {
     if (std::find(known.begin(), known.end(), item.key()) == known.end())
     {
@@ -137,6 +137,17 @@ std::string JsonValue::text() const
   if (text.empty())
   {
     this->fail("a text");
+  }
+  return text;
+}
+
+//------------------------------------------------------------------------------
+std::string JsonValue::choice(const std::vector<std::string>& names) const
+{
+  const std::string text = this->text();
+  if (std::find(names.begin(), names.end(), text) == names.end())
+  {
+    this->fail("one of: " + listOf(names));
   }
   return text;
 }

@@ -2,7 +2,7 @@
 #include "Commands.h"
 #include "Errors.h"
 #include "Progress.h"
-#include "SceneExport.h"
+#include "SceneFile.h"
 #include "SettingOptions.h"
 
 #include "shadowtech/Registry.h"

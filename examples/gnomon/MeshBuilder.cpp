@@ -251,6 +251,25 @@ SceneModel makeModel(
 }
 
 //------------------------------------------------------------------------------
+SceneModel makeTriangles(const std::string& name, const std::vector<Vec3>& corners)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+  {
+    const vtkIdType first = points->InsertNextPoint(corners[i].data());
+    points->InsertNextPoint(corners[i + 1].data());
+    points->InsertNextPoint(corners[i + 2].data());
+    cells->InsertNextCell({ first, first + 1, first + 2 });
+  }
+  vtkNew<vtkPolyData> surface;
+  surface->SetPoints(points);
+  surface->SetPolys(cells);
+  return makeModel(name, surface, casterColor);
+}
+
+//------------------------------------------------------------------------------
 SceneModel makePlane(const Vec3& center, double side)
 {
   MeshBuilder mesh;

@@ -115,6 +115,10 @@ Vec3 around(double share);
 SceneModel makeModel(
   const std::string& name, vtkSmartPointer<vtkPolyData> surface, const Vec3& color);
 inline constexpr Vec3 planeColor{ 0.75, 0.75, 0.72 };
+/// The colour of casters that have none of their own.
+inline constexpr Vec3 casterColor{ 0.75, 0.5, 0.4 };
+/// Return a model of separate triangles, from three corners each: double coordinates, no normals.
+SceneModel makeTriangles(const std::string& name, const std::vector<Vec3>& corners);
 /// Return a horizontal square of two triangles around a point, facing up.
 SceneModel makePlane(const Vec3& center, double side);
 /// Return a white directional light.

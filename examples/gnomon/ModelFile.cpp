@@ -9,6 +9,7 @@
 #include "Text.h"
 #include "Vec3.h"
 
+#include "lights/SettingsTable.h"
 #include "plugin/vtkGnomonOffScreenWindow.h"
 
 #include <vtk3DSImporter.h>
@@ -17,6 +18,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
+#include <vtkCleanPolyData.h>
 #include <vtkFloatArray.h>
 #include <vtkGLTFImporter.h>
 #include <vtkLight.h>
@@ -189,12 +191,19 @@ SceneModel* addSurface(vtkPolyData* source, const std::string& path, Model& mode
 //------------------------------------------------------------------------------
 // Readers return one surface.
 
-void readPly(const std::string& path, Model& model)
+/// Return what a reader reads.
+template <class Reader>
+vtkSmartPointer<vtkPolyData> outputOf(const std::string& path)
 {
-  vtkNew<vtkPLYReader> reader;
+  vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
-  addSurface(reader->GetOutput(), path, model);
+  return reader->GetOutput();
+}
+
+void readPly(const std::string& path, Model& model)
+{
+  addSurface(outputOf<vtkPLYReader>(path), path, model);
 }
 
 void readStl(const std::string& path, Model& model)
@@ -221,14 +230,11 @@ void readStl(const std::string& path, Model& model)
 
 void readVtp(const std::string& path, Model& model)
 {
-  vtkNew<vtkXMLPolyDataReader> reader;
-  if (!reader->CanReadFile(path.c_str()))
+  if (!vtkNew<vtkXMLPolyDataReader>()->CanReadFile(path.c_str()))
   {
     throw BadInput("not a VTK XML file with poly data, or a damaged one");
   }
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  addSurface(reader->GetOutput(), path, model);
+  addSurface(outputOf<vtkXMLPolyDataReader>(path), path, model);
 }
 
 //------------------------------------------------------------------------------
@@ -237,36 +243,28 @@ void readVtp(const std::string& path, Model& model)
 /// Return the polygons of one material, with the vertices that they use.
 vtkSmartPointer<vtkPolyData> extractMaterial(vtkPolyData* source, vtkDataArray* materialIds, int id)
 {
-  auto part = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(source->GetPoints()->GetDataType());
   vtkNew<vtkCellArray> polygons;
-  part->GetPointData()->CopyAllocate(source->GetPointData());
-  std::vector<vtkIdType> newIds(static_cast<std::size_t>(source->GetNumberOfPoints()), -1);
   for (vtkIdType cell = 0; cell < source->GetNumberOfPolys(); ++cell)
   {
-    if (materialIds->GetTuple1(cell) != id)
+    if (materialIds->GetTuple1(cell) == id)
     {
-      continue;
-    }
-    vtkIdType size = 0;
-    const vtkIdType* ids = nullptr;
-    source->GetPolys()->GetCellAtId(cell, size, ids);
-    polygons->InsertNextCell(static_cast<int>(size));
-    for (vtkIdType i = 0; i < size; ++i)
-    {
-      vtkIdType& newId = newIds[static_cast<std::size_t>(ids[i])];
-      if (newId < 0)
-      {
-        newId = points->InsertNextPoint(source->GetPoint(ids[i]));
-        part->GetPointData()->CopyData(source->GetPointData(), ids[i], newId);
-      }
-      polygons->InsertCellPoint(newId);
+      vtkIdType size = 0;
+      const vtkIdType* ids = nullptr;
+      source->GetPolys()->GetCellAtId(cell, size, ids);
+      polygons->InsertNextCell(size, ids);
     }
   }
-  part->SetPoints(points);
+  vtkNew<vtkPolyData> part;
+  part->SetPoints(source->GetPoints());
+  part->GetPointData()->ShallowCopy(source->GetPointData());
   part->SetPolys(polygons);
-  return part;
+  vtkNew<vtkCleanPolyData> used; // keeps the order of vertices
+  used->SetInputData(part);
+  used->PointMergingOff();
+  used->ConvertPolysToLinesOff();
+  used->ConvertLinesToPointsOff();
+  used->Update();
+  return used->GetOutput();
 }
 
 /// Return the materials of all libraries that an OBJ file names. A missing library becomes a note.
@@ -310,10 +308,7 @@ void readObj(const std::string& path, Model& model)
       }
     }
   }
-  vtkNew<vtkOBJReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkPolyData* whole = reader->GetOutput();
+  const vtkSmartPointer<vtkPolyData> whole = outputOf<vtkOBJReader>(path);
   vtkDataArray* ids = whole->GetCellData()->GetArray("MaterialIds");
   vtkFieldData* const fields = whole->GetFieldData();
   auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray("MaterialNames"));
@@ -564,36 +559,25 @@ void readGltf(const std::string& path, Model& model)
   }
 }
 
-struct FileType
-{
-  const char* extension;
-  void (*read)(const std::string& path, Model& model);
+const std::map<std::string, void (*)(const std::string& path, Model& model)> readers = {
+  { ".3ds", read3ds }, { ".glb", readGltf }, { ".gltf", readGltf }, { ".obj", readObj },
+  { ".ply", readPly }, { ".stl", readStl }, { ".vtp", readVtp }
 };
-const FileType fileTypes[] = { { ".obj", readObj }, { ".ply", readPly }, { ".stl", readStl },
-  { ".vtp", readVtp }, { ".3ds", read3ds }, { ".glb", readGltf }, { ".gltf", readGltf } };
-
-const FileType* findFileType(const std::string& path)
-{
-  const std::string extension = lowerExtension(path);
-  const auto place = std::find_if(std::begin(fileTypes), std::end(fileTypes),
-    [&](const FileType& type) { return extension == type.extension; });
-  return place == std::end(fileTypes) ? nullptr : place;
-}
 
 } // namespace
 
 //------------------------------------------------------------------------------
 Model readModelFile(const std::string& path)
 {
-  const FileType* type = findFileType(path);
-  if (!type)
+  const auto reader = readers.find(lowerExtension(path));
+  if (reader == readers.end())
   {
     throw BadInput(path + ": the file type is \"" + lowerExtension(path) +
       "\", expected one of: " + modelFileTypes());
   }
   Model model;
   for (const std::string& warning :
-    readGuarded(path, requireReadableFile(path), [&] { type->read(path, model); }))
+    readGuarded(path, requireReadableFile(path), [&] { reader->second(path, model); }))
   {
     model.notes.push_back(path + ": " + warning);
   }
@@ -607,18 +591,18 @@ Model readModelFile(const std::string& path)
 //------------------------------------------------------------------------------
 bool isModelFile(const std::string& path)
 {
-  return findFileType(path) != nullptr;
+  return readers.count(lowerExtension(path)) != 0;
 }
 
 //------------------------------------------------------------------------------
 std::string modelFileTypes()
 {
-  std::string list;
-  for (const FileType& type : fileTypes)
+  std::vector<std::string> types;
+  for (const auto& [type, read] : readers)
   {
-    list += (list.empty() ? "" : ", ") + std::string(type.extension);
+    types.push_back(type);
   }
-  return list;
+  return listOf(types);
 }
 
 } // namespace gnomon::tool

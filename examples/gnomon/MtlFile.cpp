@@ -2,10 +2,10 @@
 
 #include "Errors.h"
 #include "Files.h"
+#include "ImageFile.h"
 #include "ModelFile.h"
 #include "SceneFraming.h"
 #include "Text.h"
-#include "TextureFile.h"
 
 #include <filesystem>
 

@@ -31,9 +31,8 @@ const std::string damaged =
   "the file is damaged: its reader crashed, ran out of memory or did not end";
 
 // For the signal handler: the innermost guard's line, and the program's standard error.
-std::atomic<const char*> lineOfGuard = nullptr;
-std::atomic<std::size_t> lineBytes = 0;
-std::atomic<int> standardError = -1;
+std::atomic<const std::string*> lineOfGuard = nullptr;
+std::atomic<int> standardError = STDERR_FILENO;
 
 /// End the program, with async-signal-safe calls alone.
 extern "C" void endProgram(int)
@@ -43,7 +42,8 @@ extern "C" void endProgram(int)
   {
     pause(); // another thread writes the line
   }
-  (void)!write(standardError, lineOfGuard, lineBytes);
+  const std::string* const line = lineOfGuard;
+  (void)!write(standardError, line->data(), line->size());
   _exit(badInputCode);
 }
 
@@ -59,71 +59,25 @@ rlim_t dataBytes()
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Catches what is written to standard error, from construction to destruction. VTK's PLY reader,
-/// libpng and the C library print there themselves, without end for some files.
-class ErrorCatcher
-{
-public:
-  ErrorCatcher()
-  {
-    if (::pipe2(this->pipe_.data(), O_CLOEXEC | O_NONBLOCK) != 0) // a full pipe drops the rest
-    {
-      throw std::system_error(errno, std::generic_category());
-    }
-    this->before_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-    ::dup2(this->pipe_[1], STDERR_FILENO);
-    if (this->isOutermost_)
-    {
-      standardError = this->before_;
-    }
-  }
-
-  ~ErrorCatcher()
-  {
-    ::dup2(this->before_, STDERR_FILENO);
-    if (this->isOutermost_)
-    {
-      standardError = -1;
-    }
-    for (const int handle : { this->pipe_[0], this->pipe_[1], this->before_ })
-    {
-      ::close(handle);
-    }
-  }
-  ErrorCatcher(const ErrorCatcher&) = delete;
-  ErrorCatcher& operator=(const ErrorCatcher&) = delete;
-
-  /// Return the first line that is not a warning; empty if there is none.
-  std::string firstError() const
-  {
-    std::string text(1 << 16, '\0');
-    const ssize_t count = ::read(this->pipe_[0], text.data(), text.size());
-    text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
-    for (const std::string& written : split(text, '\n'))
-    {
-      if (!written.empty() && written.find("arning") == std::string::npos)
-      {
-        return written;
-      }
-    }
-    return "";
-  }
-
-private:
-  const bool isOutermost_ = standardError < 0;
-  std::array<int, 2> pipe_{};
-  int before_ = -1;
-};
-
-/// Catches signals, and limits memory and processor time, from construction to destruction.
+/// Catches signals and standard error, and limits memory and processor time, from construction to
+/// destruction. VTK's PLY reader, libpng and the C library print errors themselves, without end for
+/// some files.
 class Guard
 {
 public:
   Guard(const std::string& path, std::size_t bytes)
     : line_("gnomon: error: " + oneLine(path) + ": " + damaged + "\n")
   {
-    lineOfGuard = this->line_.c_str();
-    lineBytes = this->line_.size();
+    if (::pipe2(this->pipe_.data(), O_CLOEXEC | O_NONBLOCK) != 0) // a full pipe drops the rest
+    {
+      throw std::system_error(errno, std::generic_category());
+    }
+    ::dup2(this->pipe_[1], STDERR_FILENO);
+    if (!this->outerLine_)
+    {
+      standardError = this->errorsBefore_;
+    }
+    lineOfGuard = &this->line_;
 
     // Only this thread recurses as deep as the file says. Others use their own stacks.
     alignas(16) static std::array<char, 65536> handlerStack;
@@ -152,10 +106,30 @@ public:
     }
     sigaltstack(&this->stack_, nullptr);
     lineOfGuard = this->outerLine_;
-    lineBytes = this->outerLineBytes_;
+    ::dup2(this->errorsBefore_, STDERR_FILENO);
+    for (const int handle : { this->pipe_[0], this->pipe_[1], this->errorsBefore_ })
+    {
+      ::close(handle);
+    }
   }
   Guard(const Guard&) = delete;
   Guard& operator=(const Guard&) = delete;
+
+  /// Return the first printed line that is not a warning; empty if there is none.
+  std::string firstError() const
+  {
+    std::string text(1 << 16, '\0');
+    const ssize_t count = ::read(this->pipe_[0], text.data(), text.size());
+    text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+    for (const std::string& written : split(text, '\n'))
+    {
+      if (!written.empty() && written.find("arning") == std::string::npos)
+      {
+        return written;
+      }
+    }
+    return "";
+  }
 
 private:
   /// Make a count that a file of this size cannot hold a std::bad_alloc.
@@ -189,8 +163,9 @@ private:
 
   const std::string line_;
   // The process before.
-  const char* const outerLine_ = lineOfGuard;
-  const std::size_t outerLineBytes_ = lineBytes;
+  const std::string* const outerLine_ = lineOfGuard; ///< null: this guard is the outermost
+  const int errorsBefore_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  std::array<int, 2> pipe_{};
   stack_t stack_{};
   std::array<struct sigaction, caught.size()> actions_{};
   const std::terminate_handler terminate_ = std::get_terminate();
@@ -204,7 +179,6 @@ private:
 std::vector<std::string> readGuarded(
   const std::string& path, std::size_t bytes, const std::function<void()>& read)
 {
-  const ErrorCatcher printed;
   const Guard guard(path, bytes);
   const VtkMessages messages;
   std::string error;
@@ -226,7 +200,7 @@ std::vector<std::string> readGuarded(
   }
   if (error.empty())
   {
-    error = printed.firstError();
+    error = guard.firstError();
   }
   if (!error.empty())
   {

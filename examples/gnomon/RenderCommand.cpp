@@ -7,7 +7,6 @@
 #include "Scene.h"
 #include "SceneFraming.h"
 #include "SettingOptions.h"
-#include "Text.h"
 #include "Vec3.h"
 #include "VtkMessages.h"
 #include "view/View.h"
@@ -33,6 +32,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <regex>
 #include <utility>
 
 namespace gnomon::tool
@@ -41,11 +41,15 @@ namespace gnomon::tool
 namespace
 {
 
-/// The names of vtkGnomonShadowPass::SkyModelType, in its order.
-const std::vector<std::string>& skyModels()
+///@{
+/// The names of vtkGnomonShadowPass::RouteType and SkyModelType, in their order.
+const std::vector<std::string> routes = { "auto", "inline", "image", "deferred" };
+const std::vector<std::string> skyModels = { "uniform", "dome", "overcast" };
+///@}
+
+int indexOf(const std::string& name, const std::vector<std::string>& names)
 {
-  static const std::vector<std::string> models = { "uniform", "dome", "overcast" };
-  return models;
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
 /// The options of the command line.
@@ -66,7 +70,7 @@ struct RenderOptions
   bool glass = false;
   bool volumes = false;
   std::optional<double> sky; ///< intensity; none: the scene's
-  std::string skyModel = skyModels().front();
+  std::string skyModel = "uniform";
   double skyDistance = 0.0; ///< beyond which nothing hides it; 0: no limit
   std::string visibility;
   std::string stats;
@@ -83,38 +87,33 @@ std::filesystem::path fullPath(const std::string& path)
 /// Refuse invalid options before anything is loaded.
 void check(const RenderOptions& options)
 {
-  requireWritableFile(options.picture, "--output", { ".png", ".exr" });
-  if (!options.visibility.empty())
+  std::map<std::filesystem::path, const char*> taken = { { fullPath(options.scene), "scene" } };
+  struct Output
   {
-    requireWritableFile(options.visibility, "--visibility", { ".exr" });
-    if (fullPath(options.visibility) == fullPath(options.picture))
+    const char* option;
+    const std::string& file;
+    std::vector<std::string> types;
+  };
+  for (const auto& [option, file, types] :
+    { Output{ "--output", options.picture, { ".png", ".exr" } },
+      Output{ "--visibility", options.visibility, { ".exr" } },
+      Output{ "--stats", options.stats, { ".json" } },
+      Output{ "--classes", options.classes, { ".png", ".exr" } } })
+  {
+    const bool isPicture = &file == &options.picture;
+    if (file.empty() && !isPicture)
     {
-      throw BadInput("--visibility: " + options.visibility + ": is the picture's file, too");
+      continue;
     }
-  }
-  if (!options.stats.empty())
-  {
-    requireWritableFile(options.stats, "--stats", { ".json" });
-    if (fullPath(options.stats) == fullPath(options.scene))
+    requireWritableFile(file, option, types);
+    if (const auto [other, isFree] = taken.emplace(fullPath(file), option); !isFree)
     {
-      throw BadInput("--stats: " + options.stats + ": is the scene's file, too");
+      throw BadInput(
+        std::string(option) + ": " + file + ": is the file of " + other->second + ", too");
     }
-  }
-  if (!options.classes.empty())
-  {
-    requireWritableFile(options.classes, "--classes", { ".png", ".exr" });
-    if (fullPath(options.classes) == fullPath(options.picture) ||
-      fullPath(options.classes) == fullPath(options.visibility))
+    if (options.shadeSamples && !isPicture)
     {
-      throw BadInput("--classes: " + options.classes + ": is another output's file, too");
-    }
-  }
-  for (const auto& [name, file] : { std::pair("--visibility", options.visibility),
-         { "--stats", options.stats }, { "--classes", options.classes } })
-  {
-    if (options.shadeSamples && !file.empty())
-    {
-      throw BadInput(std::string(name) +
+      throw BadInput(std::string(option) +
         ": describes one picture, and --shade-samples averages many, expected one of them");
     }
   }
@@ -134,14 +133,6 @@ void check(const RenderOptions& options)
     throw BadInput("--route inline: technique " + info.name +
       " works on the screen, expected --route image or auto");
   }
-}
-
-/// Make a camera parallel, with its target in the same size.
-void makeParallel(SceneCamera& camera)
-{
-  const double halfAngle = 0.5 * vtkMath::RadiansFromDegrees(camera.fovDegrees);
-  camera.parallelScale =
-    camera.parallelScale.value_or(length(camera.target - camera.position) * std::tan(halfAngle));
 }
 
 /// @param aspect the picture's width divided by its height
@@ -167,7 +158,10 @@ Scene loadWithOptions(const RenderOptions& options, double aspect)
   }
   if (options.parallel)
   {
-    makeParallel(scene.camera);
+    SceneCamera& camera = scene.camera; // shows the target in the same size
+    const double halfAngle = 0.5 * vtkMath::RadiansFromDegrees(camera.fovDegrees);
+    camera.parallelScale =
+      camera.parallelScale.value_or(length(camera.target - camera.position) * std::tan(halfAngle));
   }
   placeDefaultLight(scene, aspect);
   for (SceneLight& light : scene.lights)
@@ -231,65 +225,26 @@ void requireDrawable(const PictureSize& size, vtkOpenGLRenderWindow* window)
   requireDrawable(size, side, viewport[0], viewport[1]);
 }
 
-/// The report of a picture's frames: sums of times and counts, and the rest from the last frame.
-class PictureReport
+/// Add a frame to the report of a picture: sums of times and counts, and the rest from the last
+/// frame.
+void addFrame(FrameReport& picture, const FrameReport& frame)
 {
-public:
-  void add(const FrameReport& frame)
+  const FrameReport before = std::exchange(picture, frame);
+  picture.stages = before.stages;
+  for (const StageTime& stage : frame.stages)
   {
-    FrameReport sum = frame;
-    sum.stages = this->sum_.stages;
-    for (const StageTime& stage : frame.stages)
-    {
-      const auto same = std::find_if(sum.stages.begin(), sum.stages.end(),
-        [&stage](const StageTime& before) { return before.name == stage.name; });
-      if (same == sum.stages.end())
-      {
-        sum.stages.push_back(stage);
-      }
-      else
-      {
-        same->milliseconds += stage.milliseconds;
-      }
-    }
-    sum.wallMilliseconds += this->sum_.wallMilliseconds;
-    for (int FrameReport::*count : { &FrameReport::mapBakes, &FrameReport::programCompiles,
-           &FrameReport::bvhBuilds, &FrameReport::bvhRefits, &FrameReport::surfacesExtracted,
-           &FrameReport::surfacesRetransformed })
-    {
-      sum.*count += this->sum_.*count;
-    }
-    this->sum_ = sum;
-    ++this->frames_;
+    const auto same = std::find_if(picture.stages.begin(), picture.stages.end(),
+      [&stage](const StageTime& other) { return other.name == stage.name; });
+    same == picture.stages.end() ? picture.stages.push_back(stage)
+                                 : void(same->milliseconds += stage.milliseconds);
   }
-
-  const FrameReport& sum() const { return this->sum_; }
-  int frames() const { return this->frames_; }
-
-private:
-  FrameReport sum_;
-  int frames_ = 0;
-};
-
-void writeStats(const PictureReport& report, const std::string& path)
-{
-  auto json = nlohmann::ordered_json::parse(textOf(report.sum()));
-  json["frames"] = report.frames();
-  writeWholeFile(path, json.dump(2) + "\n");
-}
-
-/// Return the pixel classes of the first light whose technique has them.
-Picture firstClassPicture(const VisibilityImages& images)
-{
-  for (std::size_t light = 0; light < images.classes.size(); ++light)
+  picture.wallMilliseconds += before.wallMilliseconds;
+  for (int FrameReport::*count : { &FrameReport::mapBakes, &FrameReport::programCompiles,
+         &FrameReport::bvhBuilds, &FrameReport::bvhRefits, &FrameReport::surfacesExtracted,
+         &FrameReport::surfacesRetransformed })
   {
-    if (!images.classes[light].classes.empty())
-    {
-      return classPicture(images, light);
-    }
+    picture.*count += before.*count;
   }
-  throw BadInput("--classes: no casting light has a technique with pixel classes, "
-                 "expected one that traces, such as silhouette");
 }
 
 /// Return settings, timings and counts for the visibility file's header.
@@ -379,10 +334,7 @@ void render(const RenderOptions& options)
   requireDrawable(size, window);
   window->SetSize(size.width, size.height);
   vtkNew<vtkGnomonShadowPass> shadows;
-  shadows->SetRoute(options.route == "inline" ? vtkGnomonShadowPass::ROUTE_INLINE
-      : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE
-      : options.route == "deferred"           ? vtkGnomonShadowPass::ROUTE_DEFERRED
-                                              : vtkGnomonShadowPass::ROUTE_AUTO);
+  shadows->SetRoute(indexOf(options.route, routes));
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
   const bool givesVisibility = !options.visibility.empty() || !options.classes.empty();
   shadows->SetKeepVisibility(givesVisibility);
@@ -392,8 +344,7 @@ void render(const RenderOptions& options)
   shadows->SetSkyIntensity(options.sky.value_or(scene.sky));
   shadows->SetSkyDistance(options.skyDistance);
   shadows->SetSkyUp(0.0, 1.0, 0.0);
-  shadows->SetSkyModel(static_cast<int>(
-    std::find(skyModels().begin(), skyModels().end(), options.skyModel) - skyModels().begin()));
+  shadows->SetSkyModel(indexOf(options.skyModel, skyModels));
   // The only frame should show techniques with their maps.
   shadows->SetSetting("bake", "always");
   shadows->SetTechnique(vtkGnomonShadowPass::GetDefaultTechnique());
@@ -403,11 +354,13 @@ void render(const RenderOptions& options)
   sampling->SetSamplesPerFrame(samplesPerFrame);
   renderer->SetPass(options.shadeSamples ? static_cast<vtkRenderPass*>(sampling) : shadows);
   window->AddRenderer(renderer);
-  PictureReport report;
+  FrameReport report;
+  int frames = 0;
   for (double share = 0.0; share < 1.0; progress.begin("rendering", share))
   {
     window->Render();
-    report.add(shadows->GetReport());
+    addFrame(report, shadows->GetReport());
+    ++frames;
     share = std::min(shadows->GetProgress(), sampling->GetProgress());
   }
 
@@ -416,7 +369,7 @@ void render(const RenderOptions& options)
   {
     progress.print("gnomon: warning: " + warning);
   }
-  if (report.sum().outOfTextureMemory || !report.sum().misfits.empty())
+  if (report.outOfTextureMemory || !report.misfits.empty())
   {
     throw BadInput("rendering: " + messages.errors().front());
   }
@@ -426,27 +379,25 @@ void render(const RenderOptions& options)
   }
   if (!options.classes.empty())
   {
-    writePicture(firstClassPicture(shadows->GetVisibility()), options.classes);
+    const Picture classes = classPicture(shadows->GetVisibility());
+    if (classes.rgb.empty())
+    {
+      throw BadInput("--classes: no casting light has a technique with pixel classes, "
+                     "expected one that traces, such as silhouette");
+    }
+    writePicture(classes, options.classes);
   }
   writePicture(capture(window), options.picture);
   if (!options.visibility.empty())
   {
-    writeVisibility(
-      shadows->GetVisibility(), options.visibility, makeHeader(options, report.sum()));
+    writeVisibility(shadows->GetVisibility(), options.visibility, makeHeader(options, report));
   }
   if (!options.stats.empty())
   {
-    writeStats(report, options.stats);
+    auto json = nlohmann::ordered_json::parse(textOf(report));
+    json["frames"] = frames;
+    writeWholeFile(options.stats, json.dump(2) + "\n");
   }
-}
-
-/// Return an error unless a text is a finite number of at least 0 (CLI::Option::check()).
-std::string isNotNegative(const std::string& text)
-{
-  const std::optional<double> number = parseNumber<double>(text);
-  return number && *number >= 0.0 && std::isfinite(*number)
-    ? ""
-    : "found \"" + text + "\", expected a number of at least 0";
 }
 
 } // namespace
@@ -454,28 +405,16 @@ std::string isNotNegative(const std::string& text)
 //------------------------------------------------------------------------------
 PictureSize parseSize(const std::string& text)
 {
-  const auto fail = [&]
+  std::smatch sides;
+  const bool isSize = std::regex_match(text, sides, std::regex("([0-9]{1,5})x([0-9]{1,5})"));
+  const PictureSize size{ isSize ? std::stoi(sides[1]) : 0, isSize ? std::stoi(sides[2]) : 0 };
+  if (std::min(size.width, size.height) < 1 ||
+    std::max(size.width, size.height) > largestSidePixels)
   {
     throw BadInput("--size: found \"" + text + "\", expected WIDTHxHEIGHT, each from 1 to " +
       std::to_string(largestSidePixels) + ", for example 1024x768");
-  };
-  const std::size_t cross = text.find('x');
-  if (cross == std::string::npos)
-  {
-    fail();
   }
-  const auto side = [&](const std::string& digits)
-  {
-    const bool plain = !digits.empty() && digits.size() <= 5 &&
-      digits.find_first_not_of("0123456789") == std::string::npos;
-    const int pixels = plain ? std::stoi(digits) : 0;
-    if (pixels < 1 || pixels > largestSidePixels)
-    {
-      fail();
-    }
-    return pixels;
-  };
-  return { side(text.substr(0, cross)), side(text.substr(cross + 1)) };
+  return size;
 }
 
 //------------------------------------------------------------------------------
@@ -510,7 +449,7 @@ void addRenderCommand(CLI::App& app)
   command
     ->add_option("--route", options->route,
       "How visibility reaches the picture: inline, image, deferred, auto")
-    ->check(CLI::IsMember({ "inline", "image", "deferred", "auto" }))
+    ->check(CLI::IsMember(routes))
     ->capture_default_str();
   command->add_flag("--shade-samples", options->shadeSamples,
     "Shade from each point of an area light (--light-samples points, --progressive of them per "
@@ -535,14 +474,7 @@ void addRenderCommand(CLI::App& app)
   command
     ->add_option("--ambient", options->ambient,
       "The share of its colour, in [0, 1], that each surface shows where no light falls")
-    ->check(
-      [](const std::string& text)
-      {
-        const std::optional<double> share = parseNumber<double>(text);
-        return share && *share >= 0.0 && *share <= 1.0
-          ? ""
-          : "found \"" + text + "\", expected a number between 0 and 1";
-      });
+    ->check(isOneOf(RealSetting{ 0.0, 1.0 }));
   command->add_flag("--glass", options->glass,
     "Have translucent models let light through, as much as VTK draws of what is behind them; "
     "without it they block all light");
@@ -552,16 +484,16 @@ void addRenderCommand(CLI::App& app)
     ->add_option("--sky", options->sky,
       "The intensity of a sky, which lights surfaces as far as they see it; 0.4 brightens what is "
       "in shadow, but for corners")
-    ->check(isNotNegative);
+    ->check(isOneOf(anyLength));
   command
     ->add_option("--sky-distance", options->skyDistance,
       "The length, in world units, beyond which nothing hides the sky, for rooms; 0 is no limit")
-    ->check(isNotNegative);
+    ->check(isOneOf(anyLength));
   command
     ->add_option("--sky-model", options->skyModel,
       "The sky: as bright from everywhere, from below, too; none below the horizon; CIE's overcast "
       "one. Up is y")
-    ->check(CLI::IsMember(skyModels()))
+    ->check(CLI::IsMember(skyModels))
     ->capture_default_str();
   command->add_option("--visibility", options->visibility,
     "Also write every light's visibility and the receivers, .exr");

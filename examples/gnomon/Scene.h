@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lights/ShadowLight.h"
+
 #include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkPolyData.h>
@@ -46,12 +48,7 @@ struct SceneProp
 /// One light of a scene, in world coordinates.
 struct SceneLight
 {
-  enum class Type
-  {
-    Directional,
-    Spot,
-    Point
-  };
+  using Type = LightKind;
   /// The box of a directional light, see vtkGnomonLightKeys. Its near face is centred on the
   /// light's position.
   struct Box

@@ -1,7 +1,9 @@
 #pragma once
 
-#include "SceneJson.h"
+#include "JsonValue.h"
+#include "Scene.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -18,6 +20,24 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground = std::n
 /// @return the share of ambient light, if it is given
 /// @throws BadInput
 std::optional<double> readSurroundings(
-  const JsonValue& root, const std::filesystem::path& folder, Scene& scene);
+  JsonMembers& members, const std::filesystem::path& folder, Scene& scene);
+
+/// Write a scene as FOLDER/NAME.json, with its surfaces as NAME-NUMBER.vtp, for other programs.
+/// Create the folder. Texture filtering, and materials except their colour, are left out.
+/// @return the scene file's path
+/// @throws BadInput if the folder cannot be written to
+std::string exportScene(const Scene& scene, const std::string& folder);
+
+/// Read or write a light of a scene file or of --light.
+/// @param texture its texture's file, if it has one
+/// @param folder base of relative file paths
+/// @throws BadInput
+void describe(JsonMembers& members, SceneLight& light, std::optional<std::string>& texture,
+  const std::filesystem::path& folder);
+
+/// Read or write a camera of a scene file or of --camera.
+/// @param complete true: position and target are required
+/// @throws BadInput
+void describe(JsonMembers& members, SceneCamera& camera, bool complete);
 
 } // namespace gnomon::tool

@@ -3,6 +3,7 @@
 #include "MeshBuilder.h"
 #include "Vec3.h"
 
+#include <vtkBoundingBox.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
@@ -18,11 +19,6 @@ namespace gnomon::tool
 
 namespace
 {
-
-bool isFinite(const Vec3& point)
-{
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-}
 
 /// A border of the picture. Points with a sum >= 0 are inside.
 struct Side
@@ -100,7 +96,7 @@ void visitCells(vtkPolyData* surface, const Visit& visit)
 //------------------------------------------------------------------------------
 std::array<double, 6> boundsWorld(const Scene& scene)
 {
-  std::array<double, 6> bounds{ { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 } };
+  vtkBoundingBox box;
   for (const SceneModel& model : scene.models)
   {
     for (vtkIdType i = 0; i < model.surface->GetNumberOfPoints(); ++i)
@@ -108,21 +104,18 @@ std::array<double, 6> boundsWorld(const Scene& scene)
       Vec3 point;
       model.surface->GetPoint(i, point.data());
       point = transformed(model.matrix, point, 1.0);
-      if (!isFinite(point))
+      if (std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]))
       {
-        continue;
-      }
-      const bool first = bounds[0] > bounds[1];
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        double& low = bounds[2 * axis];
-        double& high = bounds[2 * axis + 1];
-        low = first ? point[axis] : std::min(low, point[axis]);
-        high = first ? point[axis] : std::max(high, point[axis]);
+        box.AddPoint(point.data());
       }
     }
   }
-  return bounds[0] > bounds[1] ? std::array<double, 6>{} : bounds;
+  std::array<double, 6> bounds{};
+  if (box.IsValid())
+  {
+    box.GetBounds(bounds.data());
+  }
+  return bounds;
 }
 
 //------------------------------------------------------------------------------

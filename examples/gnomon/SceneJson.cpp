@@ -1,11 +1,12 @@
-#include "SceneJson.h"
+#include "SceneFile.h"
 
 #include "Errors.h"
-#include "TextureFile.h"
+#include "ImageFile.h"
+#include "Text.h"
 #include "Vec3.h"
 #include "lights/SettingsTable.h"
 
-#include <map>
+#include <variant>
 
 namespace gnomon::tool
 {
@@ -28,30 +29,30 @@ Vec3 readDirection(const JsonValue& value)
   return direction;
 }
 
-/// Read a target, which must differ from the position.
-Vec3 readTarget(const JsonValue& value, const Vec3& position)
+/// Return a reader of a target, which must differ from the position.
+auto targetOf(const Vec3& position)
 {
-  const Vec3 target = value.numbers<3>(anyCoordinate);
-  if (length(target - position) == 0.0)
+  return [&position](const JsonValue& value)
   {
-    value.fail("a target that is not the position");
-  }
-  return target;
+    const Vec3 target = value.numbers<3>(anyCoordinate);
+    if (target == position)
+    {
+      value.fail("a target that is not the position");
+    }
+    return target;
+  };
 }
 
-/// Read an up direction, which must not be parallel to the direction from position to target.
-/// Default: y.
-Vec3 readUp(const JsonValue& value, const Vec3& defaultUp, const Vec3& forward)
+/// Add an up direction, which must not be parallel to the direction from position to target.
+void addUp(JsonMembers& members, Vec3& up, const Vec3& forward)
 {
-  const Vec3 up = value.present() ? readDirection(value) : defaultUp;
+  members.add("up", up, readDirection);
   constexpr double smallestSine = 1e-6;
-  if (length(cross(normalized(forward), normalized(up))) < smallestSine)
+  if (members.reads() && length(cross(normalized(forward), normalized(up))) < smallestSine)
   {
-    value.present() ? value.fail("an up direction that is not parallel to the view")
-                    : value.refuse("missing, and the default [0, 1, 0] is parallel to the view, "
-                                   "expected another up direction");
+    members.place("up").fail("an up direction that is not parallel to the view, as [0, 1, 0] is "
+                             "by default");
   }
-  return up;
 }
 
 /// Read a setting of a light's shadows, as text.
@@ -60,189 +61,218 @@ std::string readSetting(const JsonValue& value, const Setting& setting)
   ShadowSettings scratch;
   if (const auto* range = std::get_if<IntegerSetting>(&setting.values))
   {
-    return std::to_string(value.integer(range->smallest, range->largest));
+    setting.write(scratch, value.integer(range->smallest, range->largest));
   }
-  if (const auto* reals = std::get_if<RealSetting>(&setting.values))
+  else if (const auto* reals = std::get_if<RealSetting>(&setting.values))
   {
     setting.write(scratch, value.number({ reals->smallest, reals->largest }));
-    return setting.get(scratch);
   }
-  const std::string text = value.text();
-  if (!setting.set(scratch, text))
+  else if (!setting.set(scratch, value.text()))
   {
     value.fail(setting.expected());
   }
-  return text;
+  return setting.get(scratch);
 }
 
-SceneLight::Box readBox(const JsonValue& value, const Vec3& travel)
+/// Read or write the area of an area light. A rectangle's width lies along cross(travel, up), its
+/// height across that.
+void describe(JsonMembers& members, SceneLight::Area& area, const Vec3& travel,
+  std::optional<std::string>& texture, const std::filesystem::path& folder)
 {
-  value.requireObject({ "position", "up", "width", "height", "depth" });
-  SceneLight::Box box;
-  box.width = value.member("width").number(extent);
-  box.height = value.member("height").number(extent);
-  box.depth = value.member("depth").number(extent);
-  box.up = readUp(value.member("up"), box.up, travel);
-  return box;
-}
-
-/// Read the area of an area light. A rectangle's width lies along cross(travel, up), its height
-/// across that.
-SceneLight::Area readArea(
-  const JsonValue& value, const Vec3& travel, const std::filesystem::path& folder)
-{
-  SceneLight::Area area;
-  const JsonValue shape = value.member("shape");
-  const std::string name = shape.present() ? shape.text() : "rectangle";
-  if (name != "rectangle" && name != "disk")
-  {
-    shape.fail("one of: rectangle, disk");
-  }
-  area.rectangle = name == "rectangle";
-  if (const JsonValue texture = value.member("texture"); texture.present())
-  {
-    texture.refuseOnError([&] { area.texture = readImage((folder / texture.text()).string()); });
-  }
-  const auto refuseSurplus = [&](const char* key, const std::string& of)
-  {
-    if (const JsonValue surplus = value.member(key); surplus.present())
-    {
-      surplus.refuse("means nothing for a " + of);
-    }
-  };
+  std::string shape = area.rectangle || members.reads() ? "rectangle" : "disk";
+  members.add("shape", shape, oneOf({ "rectangle", "disk" }));
+  area.rectangle = shape == "rectangle";
   if (area.rectangle)
   {
-    refuseSurplus("radius", name);
-    area.width = value.member("width").number(extent);
-    area.height = value.member("height").number(extent);
+    members.add("width", area.width, numberIn(extent), true);
+    members.add("height", area.height, numberIn(extent), true);
   }
   else
   {
-    refuseSurplus("width", name);
-    refuseSurplus("height", name);
-    area.radius = value.member("radius").number(extent);
+    members.add("radius", area.radius, numberIn(extent), true);
   }
-  if (area.rectangle || area.texture)
+  if (area.rectangle || texture || members.place("texture").present())
   {
-    area.up = readUp(value.member("up"), area.up, travel);
+    addUp(members, area.up, travel);
   }
-  else
+  members.add("texture", texture,
+    [&](const JsonValue& file)
+    {
+      file.refuseOnError([&] { area.texture = readImage((folder / file.text()).string()); });
+      return file.text();
+    });
+}
+
+/// Parse an integer, a number, or text.
+nlohmann::json parseScalar(const std::string& text)
+{
+  if (const std::optional<long long> whole = parseNumber<long long>(text))
   {
-    refuseSurplus("up", "disk without texture");
+    return *whole;
   }
-  return area;
+  const std::optional<double> number = parseNumber<double>(text);
+  return number ? nlohmann::json(*number) : nlohmann::json(text);
+}
+
+/// Parse "key=value;key=value" as the JSON object of a scene file. Values with commas become
+/// arrays.
+nlohmann::json parseAssignments(const std::string& source, const std::string& text)
+{
+  nlohmann::json object = nlohmann::json::object();
+  for (const std::string& assignment : split(text, ';'))
+  {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+    {
+      throw BadInput(source + ": found \"" + assignment + "\", expected key=value;key=value...");
+    }
+    const std::string key = assignment.substr(0, equals);
+    nlohmann::json elements;
+    for (const std::string& element : split(assignment.substr(equals + 1), ','))
+    {
+      elements.push_back(parseScalar(element));
+    }
+    if (!object.emplace(key, elements.size() > 1 ? elements : elements[0]).second)
+    {
+      throw BadInput(source + ": key \"" + key + "\" occurs twice, expected once");
+    }
+  }
+  return object;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-SceneLight readLight(const JsonValue& value, const std::filesystem::path& folder)
+void describe(JsonMembers& members, SceneLight& light, std::optional<std::string>& texture,
+  const std::filesystem::path& folder)
 {
-  static const std::map<std::string, std::vector<std::string>> keys = {
-    { "area",
-      { "position", "target", "cone_angle", "shape", "radius", "width", "height", "up",
-        "texture" } },
-    { "directional", { "direction", "box" } },
-    { "point", { "position" } },
-    { "spot", { "position", "target", "cone_angle" } },
-  };
-  const JsonValue kind = value.member("type");
-  const auto found = keys.find(kind.text());
-  if (found == keys.end())
-  {
-    kind.fail("one of: directional, spot, point, area");
-  }
-  const auto& [type, ownKeys] = *found;
-  std::vector<std::string> known = ownKeys;
-  known.insert(known.end(), { "type", "color", "intensity" });
-  SceneLight light;
-  for (const Setting* setting : shadowSettings())
-  {
-    known.push_back(setting->name);
-    if (const JsonValue wished = value.member(setting->name); wished.present())
-    {
-      light.settings[setting->name] = readSetting(wished, *setting);
-    }
-  }
-  value.requireObject(known);
-  light.color = value.member("color").numbersOr(light.color, colorChannel);
-  light.intensity = value.member("intensity").numberOr(light.intensity, lightIntensity);
-
+  using Type = SceneLight::Type;
+  std::string type = light.area ? "area"
+    : light.type == Type::Spot  ? "spot"
+    : light.type == Type::Point ? "point"
+                                : "directional";
+  members.add("type", type, oneOf({ "directional", "spot", "point", "area" }), true);
   if (type == "directional")
   {
-    const Vec3 travel = normalized(readDirection(value.member("direction")));
-    light.position = -travel;
-    if (const JsonValue box = value.member("box"); box.present())
+    Vec3 travel = light.target - light.position;
+    members.add("direction", travel, readDirection, true);
+    if (members.reads())
     {
-      light.box = readBox(box, travel);
-      light.position = box.member("position").numbers<3>(anyCoordinate);
-      light.target = light.position + travel;
+      travel = normalized(travel);
+      light.position = -travel;
     }
-    return light;
+    if (light.box || members.place("box").present())
+    {
+      light.box = light.box.value_or(SceneLight::Box());
+      members.addObject("box", *light.box,
+        [&](JsonMembers& ofBox, SceneLight::Box& box)
+        {
+          ofBox.add("position", light.position, numbersIn<3>(anyCoordinate), true);
+          addUp(ofBox, box.up, travel);
+          ofBox.add("width", box.width, numberIn(extent), true);
+          ofBox.add("height", box.height, numberIn(extent), true);
+          ofBox.add("depth", box.depth, numberIn(extent), true);
+          light.target = light.position + travel;
+        });
+    }
   }
-  light.type = SceneLight::Type::Point;
-  light.position = value.member("position").numbers<3>(anyCoordinate);
-  light.target = type == "point" ? light.position - Vec3{ 0.0, 1.0, 0.0 } // arbitrary
-                                 : readTarget(value.member("target"), light.position);
-  const JsonValue angle = value.member("cone_angle");
-  if (type == "spot" || angle.present())
+  else
   {
-    light.type = SceneLight::Type::Spot;
-    light.coneAngleDegrees = angle.numberOr(light.coneAngleDegrees, coneAngleDegrees);
+    members.add("position", light.position, numbersIn<3>(anyCoordinate), true);
+    if (type != "point")
+    {
+      members.add("target", light.target, targetOf(light.position), true);
+    }
+    else if (members.reads())
+    {
+      light.target = light.position - Vec3{ 0.0, 1.0, 0.0 }; // arbitrary
+    }
+    const bool isSpot = type == "spot" || light.type == Type::Spot ||
+      (type == "area" && members.place("cone_angle").present());
+    light.type = isSpot ? Type::Spot : Type::Point;
+    if (isSpot)
+    {
+      members.add("cone_angle", light.coneAngleDegrees, numberIn(coneAngleDegrees));
+    }
   }
   if (type == "area")
   {
-    light.area = readArea(value, light.target - light.position, folder);
+    light.area = light.area.value_or(SceneLight::Area());
+    describe(members, *light.area, light.target - light.position, texture, folder);
   }
+  members.add("color", light.color, numbersIn<3>(colorChannel));
+  members.add("intensity", light.intensity, numberIn(lightIntensity));
+  for (const auto& [name, text] : light.settings)
+  {
+    const bool isChoice = std::holds_alternative<ChoiceSetting>(findSetting(name)->values);
+    members.write(name, isChoice ? nlohmann::json(text) : nlohmann::json::parse(text));
+  }
+  for (const Setting* setting : shadowSettings())
+  {
+    if (const JsonValue value = members.place(setting->name); value.present())
+    {
+      light.settings[setting->name] = readSetting(value, *setting);
+    }
+  }
+  members.refuseOthers();
+}
+
+//------------------------------------------------------------------------------
+void describe(JsonMembers& members, SceneCamera& camera, bool complete)
+{
+  members.add("position", camera.position, numbersIn<3>(anyCoordinate), complete);
+  members.add("target", camera.target, targetOf(camera.position), complete);
+  if (camera.target == camera.position)
+  {
+    members.place("position").fail("a position that is not the scene's target");
+  }
+  addUp(members, camera.up, camera.target - camera.position);
+  if (const JsonValue angle = members.place("fov"); angle.present())
+  {
+    if (members.place("parallel_scale").present())
+    {
+      angle.refuse("means nothing for a parallel camera, which \"parallel_scale\" makes");
+    }
+    camera.parallelScale.reset();
+  }
+  members.add("parallel_scale", camera.parallelScale, numberIn(extent));
+  if (!camera.parallelScale)
+  {
+    members.add("fov", camera.fovDegrees, numberIn(fieldOfViewDegrees));
+  }
+  members.refuseOthers();
+}
+
+//------------------------------------------------------------------------------
+SceneLight parseLight(const std::string& spec)
+{
+  const std::string source = "--light " + spec;
+  const std::size_t colon = spec.find(':');
+  if (colon == std::string::npos)
+  {
+    throw BadInput(source + ": no type, expected for example directional:direction=-1,-2,-1");
+  }
+  nlohmann::json object = parseAssignments(source, spec.substr(colon + 1));
+  if (!object.emplace("type", spec.substr(0, colon)).second)
+  {
+    throw BadInput(source + ": unknown key \"type\", expected the type in front of the colon only");
+  }
+  JsonMembers members(JsonValue(source, object));
+  SceneLight light;
+  std::optional<std::string> texture;
+  describe(members, light, texture, {});
   return light;
 }
 
 //------------------------------------------------------------------------------
-SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>& defaults)
+SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults)
 {
-  value.requireObject({ "position", "target", "up", "fov", "parallel_scale" });
-  SceneCamera camera = defaults.value_or(SceneCamera{});
-  const JsonValue position = value.member("position");
-  const JsonValue target = value.member("target");
-  if (position.present() || !defaults)
-  {
-    camera.position = position.numbers<3>(anyCoordinate);
-  }
-  if (target.present() || !defaults)
-  {
-    camera.target = readTarget(target, camera.position);
-  }
-  else if (length(camera.target - camera.position) == 0.0)
-  {
-    position.fail("a position that is not the scene's target");
-  }
-  camera.up = readUp(value.member("up"), camera.up, camera.target - camera.position);
-  const JsonValue angle = value.member("fov");
-  const JsonValue scale = value.member("parallel_scale");
-  if (angle.present() && scale.present())
-  {
-    angle.refuse("means nothing for a parallel camera, which \"parallel_scale\" makes");
-  }
-  if (angle.present())
-  {
-    camera.fovDegrees = angle.number(fieldOfViewDegrees);
-    camera.parallelScale.reset();
-  }
-  else if (scale.present())
-  {
-    camera.parallelScale = scale.number(extent);
-  }
+  const std::string source = "--camera " + spec;
+  const nlohmann::json object = parseAssignments(source, spec);
+  JsonMembers members(JsonValue(source, object));
+  SceneCamera camera = defaults;
+  describe(members, camera, false);
   return camera;
-}
-
-//------------------------------------------------------------------------------
-nlohmann::ordered_json toJson(const SceneCamera& camera)
-{
-  nlohmann::ordered_json json = { { "position", camera.position }, { "target", camera.target },
-    { "up", camera.up } };
-  camera.parallelScale ? json["parallel_scale"] = *camera.parallelScale
-                       : json["fov"] = camera.fovDegrees;
-  return json;
 }
 
 } // namespace gnomon::tool

@@ -36,12 +36,6 @@ void addModelOnPlane(Scene& scene, const std::string& file, const Vec3& color);
 /// Return the picture of a window: two by two coloured panes between dark bars.
 vtkSmartPointer<vtkImageData> makePanes();
 
-/// Return a model of separate triangles, from three corners each: double coordinates, no normals.
-SceneModel makeTriangles(const std::string& name, const std::vector<Vec3>& corners);
-
-/// The colour of casters that have none of their own.
-inline constexpr Vec3 casterColor{ 0.75, 0.5, 0.4 };
-
 /// Add a model to a scene.
 inline void add(
   Scene& scene, const std::string& name, const MeshBuilder& mesh, const Vec3& color = casterColor)

@@ -6,17 +6,14 @@
 
 namespace gnomon::tool
 {
-namespace
-{
 
-/// Return why a setting's value is invalid; empty if it is valid.
-std::string refuse(const Setting& setting, const std::string& text)
+//------------------------------------------------------------------------------
+std::function<std::string(const std::string&)> isOneOf(const SettingValues& values)
 {
-  ShadowSettings scratch;
-  return setting.set(scratch, text) ? "" : "found \"" + text + "\", expected " + setting.expected();
+  return [values](const std::string& text) {
+    return readValue(values, text) ? "" : "found \"" + text + "\", expected " + expectedOf(values);
+  };
 }
-
-} // namespace
 
 //------------------------------------------------------------------------------
 std::string optionOf(std::string settingName)
@@ -53,7 +50,7 @@ void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& va
         continue;
       }
       command.add_option(optionOf(setting.name), values[setting.name], helpOf(setting))
-        ->check([&setting](const std::string& text) { return refuse(setting, text); })
+        ->check(isOneOf(setting.values))
         ->option_text(" ")
         ->group(headingOf(*table));
     }

@@ -4,11 +4,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include <functional>
 #include <map>
 #include <string>
 
 namespace gnomon::tool
 {
+
+/// Return a check that a text is one of these values (CLI::Option::check()).
+std::function<std::string(const std::string&)> isOneOf(const SettingValues& values);
 
 /// Return a setting's option: "--kernel-size" for "kernel_size".
 std::string optionOf(std::string settingName);

@@ -1,7 +1,6 @@
 #include "Commands.h"
 #include "Files.h"
 #include "FrameVariant.h"
-#include "Machine.h"
 #include "Progress.h"
 #include "Report.h"
 #include "SettingOptions.h"

@@ -1,6 +1,5 @@
 #include "Comparison.h"
 
-#include "PictureVisibility.h"
 #include "SyntheticResults.h"
 
 #include <gtest/gtest.h>
@@ -58,10 +57,8 @@ TEST(Comparison, AHundredFlippedPixelsAreAHundredWrongPixels)
   VisibilityImages flipped = floorTruth();
   flipHundredPixels(flipped);
   flipped.visibility[0].back() = 0.0f; // background
-  std::vector<PixelVerdict> verdicts;
-  std::vector<float> differences;
-  const VisibilityError error =
-    measureError(flipped, floorTruth(), { lightFromAbove() }, &verdicts, &differences);
+  const VisibilityError error = measureError(flipped, floorTruth(), { lightFromAbove() });
+  const auto& [verdicts, differences] = std::tie(error.verdicts, error.differences);
   EXPECT_EQ(error.falseLight, 60);
   EXPECT_EQ(error.falseShadow, 40);
   EXPECT_EQ(error.share(error.wrongPixels()), 0.1);

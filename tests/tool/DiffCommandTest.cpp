@@ -1,6 +1,6 @@
 #include "Commands.h"
 #include "Errors.h"
-#include "ImageDifference.h"
+#include "ImageFile.h"
 #include "TestFiles.h"
 
 #include <CLI/CLI.hpp>

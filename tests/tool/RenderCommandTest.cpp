@@ -1,6 +1,5 @@
 #include "Commands.h"
 #include "Errors.h"
-#include "ImageDifference.h"
 #include "ImageFile.h"
 #include "SampleFiles.h"
 #include "TestFiles.h"
@@ -202,6 +201,27 @@ TEST_F(RenderCommand, VolumesCastIfAsked)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(RenderCommand, TellsHowPixelsWereDecided)
+{
+  const ChannelImage image = this->visibilityOf("cube",
+    "--technique silhouette --classes " + this->folder / "classes.png" + " --stats " +
+      this->folder / "stats.json");
+  EXPECT_EQ(readPicture(this->folder / "classes.png").width, 64);
+  const nlohmann::json stats = nlohmann::json::parse(readBytes(this->folder / "stats.json"));
+  const nlohmann::json& light = stats.at("lights").at(0);
+  EXPECT_GT(light.at("classes").at("lit for certain").get<int>(), 500);
+  EXPECT_EQ(image.header.at("light.0.rays"), light.at("rays").dump());
+  EXPECT_EQ(image.header.at("light.0.traced_pixels"), light.at("traced_pixels").dump());
+  int pixels = 0;
+  for (const auto& [name, count] : light.at("classes").items())
+  {
+    EXPECT_EQ(image.header.at("light.0.pixels." + name), count.dump()) << name;
+    pixels += count.get<int>();
+  }
+  EXPECT_EQ(pixels, 64 * 64);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(RenderCommand, ParallelCameraShowsSizesAsTheyAre)
 {
   // The picture is 4 high: the pyramid, 2 wide where it stands, takes half of a row there.
@@ -219,56 +239,6 @@ TEST_F(RenderCommand, ParallelCameraShowsSizesAsTheyAre)
   this->scene["camera"] = { { "position", { 0, 1, 10 } }, { "target", { 0, 1, 0 } },
     { "parallel_scale", 2 } };
   EXPECT_EQ(this->visibilityOf(this->sceneFile()).channels.at("coverage"), coverage);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(RenderCommand, RefusesWhatMakesNoSense)
-{
-  this->scene["lights"] = { { { "type", "point" }, { "position", { 3, 4, 5 } },
-    { "technique", "tsm" } } };
-  const std::string scene = this->sceneFile();
-  const std::string lamp = " --light point:position=3,4,5";
-  struct Case
-  {
-    std::string file;
-    std::string options;
-    std::vector<std::string> named; ///< by the message
-  };
-  const std::vector<Case> cases = {
-    { "cube", lamp + " --technique pssm", { "light 0", "pssm", "point light" } },
-    { "cube", lamp + lamp + ";technique=lispsm", { "light 1", "lispsm" } },
-    { scene, "", { "light 0", "tsm" } },
-    { "cube", "--technique silhouette --map-samples 4",
-      { "light 0", "silhouette", "map_samples" } },
-    { "cube", "--no-ground", { "--no-ground", "cube" } },
-    { this->model, "--camera fov=30;parallel_scale=2", { "--camera", "fov", "parallel_scale" } },
-    { this->model, "--camera parallel_scale=-1", { "--camera", "parallel_scale", "-1" } },
-    { this->model, "--ambient 1.5", { "--ambient", "1.5", "between 0 and 1" } },
-    { this->model, "--ambient nan", { "--ambient", "nan", "between 0 and 1" } },
-    { this->model, "--sky -1", { "--sky", "-1", "at least 0" } },
-    { this->model, "--sky nan", { "--sky", "nan", "at least 0" } },
-    { this->model, "--sky-model cloudy", { "--sky-model", "cloudy", "overcast" } },
-  };
-  for (const Case& wrong : cases)
-  {
-    std::string message = messageOf<BadInput>(
-      [&]
-      {
-        try
-        {
-          this->pictureOf(wrong.file, wrong.options);
-        }
-        catch (const CLI::ValidationError& error) // main() gives it the same exit code
-        {
-          throw BadInput(error.what());
-        }
-      });
-    for (const std::string& name : wrong.named)
-    {
-      EXPECT_NE(message.find(name), std::string::npos) << wrong.options << ": " << message;
-    }
-    EXPECT_FALSE(std::filesystem::exists(this->folder / "out.png")) << wrong.options;
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -45,6 +45,35 @@ const LightView* viewOf(const LightViews& views, const glm::dvec3& positionCentr
   return nullptr;
 }
 
+/// Return a texel's side at a point, across the light, in world units; 0 if no view contains it.
+/// @param sizeTexels of the map
+double texelSide(const LightViews& views, int sizeTexels, const glm::dvec3& positionCentred)
+{
+  const LightView* const view = viewOf(views, positionCentred);
+  if (!view)
+  {
+    return 0.0;
+  }
+  // The determinant of a homography's derivative at a point is its own over w^3; a step across a
+  // positional light at a distance z is a step of 1/z in slopes.
+  const glm::dvec3 seen(view->rays.viewFromCentred * glm::dvec4(positionCentred, 1.0));
+  const glm::dmat3 matrix = texelFromAcross(*view, sizeTexels);
+  const glm::dvec3 image = matrix * glm::dvec3(view->rays.across(seen), 1.0);
+  const double texelsPerArea = std::abs(glm::determinant(matrix) / (image.z * image.z * image.z)) /
+    (view->rays.positional ? seen.z * seen.z : 1.0);
+  return texelsPerArea > 0.0 ? 1.0 / std::sqrt(texelsPerArea) : 0.0;
+}
+
+/// Return a view's colour by its number.
+glm::dvec3 colourOfView(std::size_t view)
+{
+  static constexpr std::array<std::array<double, 3>, 8> colours = { { { 1.0, 0.55, 0.1 },
+    { 0.2, 0.75, 1.0 }, { 0.45, 0.85, 0.25 }, { 0.95, 0.3, 0.6 }, { 0.95, 0.9, 0.2 },
+    { 0.6, 0.45, 1.0 }, { 0.2, 0.9, 0.75 }, { 0.8, 0.8, 0.8 } } };
+  const auto& colour = colours[view % colours.size()];
+  return { colour[0], colour[1], colour[2] };
+}
+
 /// Complete a light. Return true if its technique has a map; false if it refuses the light.
 bool bakesMap(ShadowLight& light)
 {
@@ -64,6 +93,17 @@ glm::dvec3 cornerOf(const LightView& view, double x, double y, double z)
   const glm::dvec2 across = mapped(glm::inverse(view.mapFromAcross), { x, y });
   const glm::dvec3 seen = view.rays.positional ? glm::dvec3(z * across, z) : glm::dvec3(across, z);
   return glm::dvec3(glm::inverse(view.rays.viewFromCentred) * glm::dvec4(seen, 1.0));
+}
+
+/// @param steps log2 of a texel's side in pixels
+glm::dvec3 colourOf(double steps)
+{
+  constexpr double mostSteps = 2.0;
+  const glm::dvec3 fine(0.1, 0.3, 1.0);
+  const glm::dvec3 even(1.0);
+  const glm::dvec3 coarse(1.0, 0.15, 0.1);
+  const double share = std::clamp(steps / mostSteps, -1.0, 1.0);
+  return glm::mix(even, share < 0.0 ? fine : coarse, std::abs(share));
 }
 
 } // namespace
@@ -148,31 +188,35 @@ vtkSmartPointer<vtkPolyData> frustumLines(const LightViews& views, const SceneFr
 }
 
 //------------------------------------------------------------------------------
-double texelSide(const LightViews& views, int sizeTexels, const glm::dvec3& positionCentred)
+Picture texelPicture(const Picture& picture, const VisibilityImages& images,
+  const LightSight& sight, const SceneFrame& frame, const CameraView& camera)
 {
-  const LightView* const view = viewOf(views, positionCentred);
-  if (!view)
+  Picture result = picture;
+  const glm::dvec2 pixelSide = camera.pixelSide({ images.width, images.height });
+  const glm::dvec3 origin(images.origin[0], images.origin[1], images.origin[2]);
+  for (std::size_t i = 0; i < images.coverage.size(); ++i)
   {
-    return 0.0;
+    unsigned char* const pixel = &result.rgb[3 * i];
+    const double grey = (0.21 * pixel[0] + 0.72 * pixel[1] + 0.07 * pixel[2]) / 255.0;
+    glm::dvec3 colour(0.5);
+    if (images.coverage[i] == 1.0f)
+    {
+      const glm::dvec3 position = frame.fromWorld(
+        origin + glm::dvec3(images.positionX[i], images.positionY[i], images.positionZ[i]));
+      const double side = texelSide(sight.views, sight.light.mapSizeTexels, position);
+      const double distance = -(camera.viewFromCentred * glm::dvec4(position, 1.0)).z;
+      if (side > 0.0)
+      {
+        colour = colourOf(std::log2(side / (pixelSide.x + pixelSide.y * distance)));
+      }
+    }
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      pixel[channel] =
+        static_cast<unsigned char>(255.0 * colour[channel] * (0.25 + 0.75 * grey) + 0.5);
+    }
   }
-  // The determinant of a homography's derivative at a point is its own over w^3; a step across a
-  // positional light at a distance z is a step of 1/z in slopes.
-  const glm::dvec3 seen(view->rays.viewFromCentred * glm::dvec4(positionCentred, 1.0));
-  const glm::dmat3 matrix = texelFromAcross(*view, sizeTexels);
-  const glm::dvec3 image = matrix * glm::dvec3(view->rays.across(seen), 1.0);
-  const double texelsPerArea = std::abs(glm::determinant(matrix) / (image.z * image.z * image.z)) /
-    (view->rays.positional ? seen.z * seen.z : 1.0);
-  return texelsPerArea > 0.0 ? 1.0 / std::sqrt(texelsPerArea) : 0.0;
-}
-
-//------------------------------------------------------------------------------
-glm::dvec3 colourOfView(std::size_t view)
-{
-  static constexpr std::array<std::array<double, 3>, 8> colours = { { { 1.0, 0.55, 0.1 },
-    { 0.2, 0.75, 1.0 }, { 0.45, 0.85, 0.25 }, { 0.95, 0.3, 0.6 }, { 0.95, 0.9, 0.2 },
-    { 0.6, 0.45, 1.0 }, { 0.2, 0.9, 0.75 }, { 0.8, 0.8, 0.8 } } };
-  const auto& colour = colours[view % colours.size()];
-  return { colour[0], colour[1], colour[2] };
+  return result;
 }
 
 } // namespace gnomon::tool

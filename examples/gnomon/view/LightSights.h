@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ImageFile.h"
+
 #include "lights/LightViews.h"
 #include "lights/ShadowLight.h"
 #include "plugin/scene/OccluderCollector.h"
@@ -44,13 +46,11 @@ private:
 /// each view.
 vtkSmartPointer<vtkPolyData> frustumLines(const LightViews& views, const SceneFrame& frame);
 
-/// Return a texel's side at a point, across the light, in world units.
-/// @param positionCentred of the point
-/// @param sizeTexels of the map
-/// @return 0 if no view contains the point
-double texelSide(const LightViews& views, int sizeTexels, const glm::dvec3& positionCentred);
-
-/// Return a view's colour by its number.
-glm::dvec3 colourOfView(std::size_t view);
+/// Colour a grey picture by the size of the texels of a light's map: blue for a quarter of a pixel
+/// or less, white for one pixel, red for four or more. Pixels outside of all views stay grey.
+/// @param images the picture's receivers
+/// @param camera the picture's, for the snapshot's centre
+Picture texelPicture(const Picture& picture, const VisibilityImages& images,
+  const LightSight& sight, const SceneFrame& frame, const CameraView& camera);
 
 } // namespace gnomon::tool

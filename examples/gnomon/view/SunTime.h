@@ -2,6 +2,7 @@
 
 #include "Scene.h"
 
+#include <ctime>
 #include <string>
 
 namespace gnomon::tool
@@ -10,16 +11,11 @@ namespace gnomon::tool
 /// A date, a time with its zone, and a place on earth.
 struct SunTime
 {
-  int year = 2000;
-  int month = 1;
-  int day = 1;
-  int minutes = 0;     ///< since midnight, in [0, 1440)
-  int zoneMinutes = 0; ///< east of UTC
+  std::time_t clock = 0; ///< seconds of the date and time in their zone, since 1970 there
+  int zoneMinutes = 0;   ///< east of UTC
   double latitude = 0.0;
   double longitude = 0.0;
 
-  /// Add minutes, which may be negative. Days, months and years roll over.
-  void addMinutes(int count);
   /// "2024-06-21T12:00+02:00"
   std::string time() const;
 };

@@ -20,22 +20,12 @@
 
 namespace gnomon::tool
 {
-namespace
-{
-
-/// Return a scene's renderer whose lights have no shadow settings of their own.
-vtkSmartPointer<vtkRenderer> rendererOf(const Scene& scene, const ViewState& state)
-{
-  return makeRenderer(scene, state.size.aspect());
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 View::View(vtkRenderWindow* window, Scene scene, const ViewState& state)
   : window_(window)
   , scene_(withoutShadowSettings(std::move(scene)))
-  , renderer_(rendererOf(this->scene_, state))
+  , renderer_(makeRenderer(this->scene_, state.size.aspect()))
   , text_(this->front_)
   , handle_(this->front_)
 {
@@ -216,7 +206,7 @@ void View::beforeFront()
   }
   ++this->framesDrawn_;
   this->text_.show(
-    lines, legendOf(this->state_, this->pass_), this->state_, this->window_->GetSize());
+    lines, captionOf(this->state_, this->pass_).legend, this->state_, this->window_->GetSize());
   vtkCamera* const camera = this->front_->GetActiveCamera();
   camera->DeepCopy(this->renderer_->GetActiveCamera());
   const SceneLight* const light = this->selectedLight();

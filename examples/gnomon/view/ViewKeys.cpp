@@ -54,19 +54,14 @@ Change scaleMap(bool larger)
   };
 }
 
-/// The viewer's first sun without --sun: Munich, at noon in summer.
-SunTime firstSun()
-{
-  return { 2024, 6, 21, 12 * 60, 120, 48.1, 11.6 };
-}
-
 /// Move the sun. A scene without a sun stays as it is.
 Change moveSun(int minutes)
 {
   return [minutes](ViewState& state, const Scene& scene, const ViewChoices&)
   {
-    SunTime sun = state.sun.value_or(firstSun());
-    sun.addMinutes(state.sun ? minutes : 0);
+    // The first sun without --sun: Munich, at noon in summer.
+    SunTime sun = state.sun ? *state.sun : parseSunTime("2024-06-21T12:00+02:00,48.1,11.6", "");
+    sun.clock += state.sun ? 60 * minutes : 0;
     if (sunOf(scene))
     {
       placeSun(state, scene, sun);

@@ -2,7 +2,6 @@
 
 #include "ComparisonRun.h"
 #include "Text.h"
-#include "view/TexelPicture.h"
 
 #include "lights/LightManager.h"
 #include "plugin/scene/ShownView.h"
@@ -148,9 +147,8 @@ Picture ViewPass::errors(const Picture& picture, const vtkRenderState* s)
   const VisibilityImages& found = this->technique_->GetVisibility();
   try
   {
-    std::vector<PixelVerdict> verdicts;
-    this->error_ = measureError(found, this->truth_->GetVisibility(), this->lights_, &verdicts);
-    return errorPicture(picture, verdicts);
+    this->error_ = measureError(found, this->truth_->GetVisibility(), this->lights_);
+    return errorPicture(picture, this->error_->verdicts);
   }
   catch (const std::invalid_argument& error)
   {
@@ -162,17 +160,10 @@ Picture ViewPass::errors(const Picture& picture, const vtkRenderState* s)
 //------------------------------------------------------------------------------
 Picture ViewPass::classes(const Picture& picture)
 {
-  const VisibilityImages& found = this->technique_->GetVisibility();
-  for (std::size_t i = 0; i < found.classes.size(); ++i)
-  {
-    if (found.sceneIndices[i] == static_cast<int>(this->state_.light) &&
-      !found.classes[i].classes.empty())
-    {
-      return classPicture(found, i);
-    }
-  }
-  this->complaint_ = "this technique tells no classes";
-  return picture;
+  const Picture classes =
+    classPicture(this->technique_->GetVisibility(), static_cast<int>(this->state_.light));
+  this->complaint_ = classes.rgb.empty() ? "this technique tells no classes" : "";
+  return classes.rgb.empty() ? picture : classes;
 }
 
 //------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 
 #include "Errors.h"
 #include "Files.h"
-#include "SceneJson.h"
+#include "SceneFile.h"
 
 #include "shadowtech/Registry.h"
 
@@ -29,40 +29,6 @@ double radiusSetting(const SceneLight& light)
   return said == light.settings.end() ? 0.0 : std::stod(said->second);
 }
 
-Show readShow(const JsonValue& value)
-{
-  const std::string name = value.text();
-  const auto found = std::find(showNames.begin(), showNames.end(), name);
-  if (found == showNames.end())
-  {
-    value.fail("one of: technique, truth, error, classes, texels");
-  }
-  return static_cast<Show>(found - showNames.begin());
-}
-
-std::vector<LightPlace> readLights(const JsonValue& value, const Scene& scene)
-{
-  std::vector<LightPlace> lights;
-  for (const JsonValue& entry : value.elements())
-  {
-    entry.requireObject({ "position", "target", "size" });
-    LightPlace& light = lights.emplace_back();
-    light.position = entry.member("position").numbers<3>(anyCoordinate);
-    light.target = entry.member("target").numbers<3>(anyCoordinate);
-    light.size = entry.member("size").number(lightSize);
-    if (light.position == light.target)
-    {
-      entry.member("target").fail("a target that is not the position");
-    }
-  }
-  if (lights.size() != scene.lights.size())
-  {
-    value.refuse("has " + std::to_string(lights.size()) + " lights, expected the scene's " +
-      std::to_string(scene.lights.size()));
-  }
-  return lights;
-}
-
 std::array<int, 2> readPair(const JsonValue& value, int low, int high)
 {
   const std::vector<JsonValue> numbers = value.elements();
@@ -73,7 +39,105 @@ std::array<int, 2> readPair(const JsonValue& value, int low, int high)
   return { numbers[0].integer(low, high), numbers[1].integer(low, high) };
 }
 
+void describe(JsonMembers& members, LightPlace& light)
+{
+  members.add("position", light.position, numbersIn<3>(anyCoordinate), true);
+  members.add("target", light.target, numbersIn<3>(anyCoordinate), true);
+  members.add("size", light.size, numberIn(lightSize), true);
+  members.refuseOthers();
+  if (light.position == light.target)
+  {
+    members.place("target").fail("a target that is not the position");
+  }
+}
+
+/// Read the places of so many lights.
+std::vector<LightPlace> readLights(const JsonValue& value, std::size_t expected)
+{
+  std::vector<LightPlace> lights;
+  for (const JsonValue& entry : value.elements())
+  {
+    JsonMembers members(entry);
+    describe(members, lights.emplace_back());
+  }
+  if (lights.size() != expected)
+  {
+    value.refuse("has " + std::to_string(lights.size()) + " lights, expected the scene's " +
+      std::to_string(expected));
+  }
+  return lights;
+}
+
+/// Read or write a state, which is of its scene already.
+void describe(JsonMembers& members, ViewState& state)
+{
+  members.add("scene", state.scene, &JsonValue::text, true);
+  members.add("size", state.size,
+    [](const JsonValue& value)
+    {
+      const std::array<int, 2> sides = readPair(value, 1, largestSidePixels);
+      return PictureSize{ sides[0], sides[1] };
+    });
+  members.addObject("camera", state.camera,
+    [](JsonMembers& ofCamera, SceneCamera& camera) { describe(ofCamera, camera, false); });
+  members.add("lights", state.lights,
+    [&](const JsonValue& value) { return readLights(value, state.lights.size()); });
+  const int lastLight = std::max(0, static_cast<int>(state.lights.size()) - 1);
+  members.add("light", state.light, integerIn(0, lastLight));
+  members.add("technique", state.technique,
+    [&](const JsonValue& value)
+    {
+      const std::string technique = value.text();
+      value.refuseOnError([&] { parseTechnique(technique); });
+      return technique;
+    });
+  members.add("map_size", state.mapSizeTexels, integerIn(16, 16384));
+  members.add("truth_samples", state.truthSamples, integerIn(1, 65536));
+  members.add("show", state.show,
+    [](const JsonValue& value)
+    {
+      const std::string name = value.choice({ showNames.begin(), showNames.end() });
+      return static_cast<Show>(
+        std::find(showNames.begin(), showNames.end(), name) - showNames.begin());
+    });
+  for (const auto& [name, member] : { std::pair("handle", &ViewState::handle),
+         { "frusta", &ViewState::frusta }, { "help", &ViewState::help } })
+  {
+    members.add(name, state.*member, &JsonValue::boolean);
+  }
+  members.add("probe", state.probe,
+    [](const JsonValue& value) { return readPair(value, 0, largestSidePixels - 1); });
+  members.add("sun", state.sun,
+    [](const JsonValue& value) { return parseSunTime(value.text(), value.source() + ": sun"); });
+  if (members.reads() || !state.surfaces.empty())
+  {
+    members.add("surfaces", state.surfaces, oneOf({ "wireframe", "surface" }));
+  }
+  members.add("stereo", state.stereo, &JsonValue::boolean);
+  members.refuseOthers();
+}
+
 } // namespace
+
+///@{
+/// How nlohmann::json writes members of a state.
+static void to_json(Json& json, Show show)
+{
+  json = nameOf(show);
+}
+static void to_json(Json& json, const SunTime& sun)
+{
+  json = textOf(sun);
+}
+static void to_json(Json& json, const PictureSize& size)
+{
+  json = { size.width, size.height };
+}
+static void to_json(Json& json, const LightPlace& light)
+{
+  json = { { "position", light.position }, { "target", light.target }, { "size", light.size } };
+}
+///@}
 
 //------------------------------------------------------------------------------
 std::string nameOf(Show show)
@@ -138,36 +202,9 @@ VariantSpec variantOf(const ViewState& state)
 std::string textOf(const ViewState& state)
 {
   Json json;
-  json["scene"] = state.scene;
-  json["size"] = { state.size.width, state.size.height };
-  json["camera"] = toJson(state.camera);
-  json["lights"] = Json::array();
-  for (const LightPlace& light : state.lights)
-  {
-    json["lights"].push_back(
-      { { "position", light.position }, { "target", light.target }, { "size", light.size } });
-  }
-  json["light"] = state.light;
-  json["technique"] = state.technique;
-  json["map_size"] = state.mapSizeTexels;
-  json["truth_samples"] = state.truthSamples;
-  json["show"] = nameOf(state.show);
-  json["handle"] = state.handle;
-  json["frusta"] = state.frusta;
-  json["help"] = state.help;
-  if (state.probe)
-  {
-    json["probe"] = *state.probe;
-  }
-  if (state.sun)
-  {
-    json["sun"] = textOf(*state.sun);
-  }
-  if (!state.surfaces.empty())
-  {
-    json["surfaces"] = state.surfaces;
-  }
-  json["stereo"] = state.stereo;
+  JsonMembers members(json);
+  ViewState written = state;
+  describe(members, written);
   return json.dump(2) + "\n";
 }
 
@@ -175,64 +212,9 @@ std::string textOf(const ViewState& state)
 ViewState parseState(const std::string& text, const std::string& source, const Scene& scene)
 {
   const nlohmann::json document = parseJson(text, source);
-  const JsonValue root(source, document);
-  root.requireObject({ "scene", "size", "camera", "lights", "light", "technique", "map_size",
-    "truth_samples", "show", "handle", "frusta", "help", "probe", "sun", "surfaces", "stereo" });
-  ViewState state = initialState(root.member("scene").text(), scene);
-  // A missing member takes a new viewer's default.
-  const auto read = [&root](const char* name, const auto& take)
-  {
-    if (const JsonValue value = root.member(name); value.present())
-    {
-      take(value);
-    }
-  };
-  read("size",
-    [&](const JsonValue& value)
-    {
-      const std::array<int, 2> size = readPair(value, 1, largestSidePixels);
-      state.size = { size[0], size[1] };
-    });
-  read("camera", [&](const JsonValue& value) { state.camera = readCamera(value, state.camera); });
-  read("lights", [&](const JsonValue& value) { state.lights = readLights(value, scene); });
-  const int lastLight = std::max(0, static_cast<int>(state.lights.size()) - 1);
-  read("light",
-    [&](const JsonValue& value)
-    { state.light = static_cast<std::size_t>(value.integer(0, lastLight)); });
-  read("technique",
-    [&](const JsonValue& value)
-    {
-      state.technique = value.text();
-      try
-      {
-        variantOf(state);
-      }
-      catch (const BadInput& error)
-      {
-        value.refuse(error.what());
-      }
-    });
-  read("map_size", [&](const JsonValue& value) { state.mapSizeTexels = value.integer(16, 16384); });
-  read(
-    "truth_samples", [&](const JsonValue& value) { state.truthSamples = value.integer(1, 65536); });
-  read("show", [&](const JsonValue& value) { state.show = readShow(value); });
-  read("handle", [&](const JsonValue& value) { state.handle = value.boolean(); });
-  read("frusta", [&](const JsonValue& value) { state.frusta = value.boolean(); });
-  read("help", [&](const JsonValue& value) { state.help = value.boolean(); });
-  read("probe",
-    [&](const JsonValue& value) { state.probe = readPair(value, 0, largestSidePixels - 1); });
-  read("sun",
-    [&](const JsonValue& value) { state.sun = parseSunTime(value.text(), source + ": sun"); });
-  read("surfaces",
-    [&](const JsonValue& value)
-    {
-      state.surfaces = value.text();
-      if (state.surfaces != "wireframe" && state.surfaces != "surface")
-      {
-        value.fail("one of: wireframe, surface");
-      }
-    });
-  read("stereo", [&](const JsonValue& value) { state.stereo = value.boolean(); });
+  JsonMembers members(JsonValue(source, document));
+  ViewState state = initialState("", scene);
+  describe(members, state);
   return state;
 }
 

@@ -48,28 +48,6 @@ std::string countAndShare(std::int64_t pixels, const VisibilityError& error)
   return text;
 }
 
-/// Return the caption of a picture that does not show the technique alone; else no lines.
-std::vector<std::string> captionOf(const ViewState& state, ViewPass* pass)
-{
-  if (!pass->complaint().empty())
-  {
-    return { nameOf(state.show) + ": " + pass->complaint() };
-  }
-  if (pass->error())
-  {
-    return { "wrong pixels: " + countAndShare(pass->error()->wrongPixels(), *pass->error()) };
-  }
-  switch (state.show)
-  {
-    case Show::Classes:
-      return { "how pixels were decided:" };
-    case Show::Texels:
-      return { "how large the map's texels look:" };
-    default:
-      return {};
-  }
-}
-
 /// Return the classes of a light's pixels, with their counts.
 std::vector<LegendLine> classesOf(const VisibilityImages& images, std::size_t light)
 {
@@ -161,7 +139,7 @@ std::string techniqueLine(const ViewState& state, const FrameReport& report)
 std::vector<std::string> linesOf(const ViewState& state, ViewPass* pass)
 {
   std::vector<std::string> lines = { techniqueLine(state, pass->shown()->GetReport()) };
-  const std::vector<std::string> caption = captionOf(state, pass);
+  const std::vector<std::string> caption = captionOf(state, pass).lines;
   lines.insert(lines.end(), caption.begin(), caption.end());
   const std::vector<std::string> more = reservations(state, pass->shown()->GetReport());
   lines.insert(lines.end(), more.begin(), more.end());
@@ -176,26 +154,29 @@ std::vector<std::string> linesOf(const ViewState& state, ViewPass* pass)
 }
 
 //------------------------------------------------------------------------------
-std::vector<LegendLine> legendOf(const ViewState& state, ViewPass* pass)
+Caption captionOf(const ViewState& state, ViewPass* pass)
 {
   if (!pass->complaint().empty())
   {
-    return {};
+    return { { nameOf(state.show) + ": " + pass->complaint() }, {} };
   }
   if (pass->error())
   {
     const VisibilityError& error = *pass->error();
-    return { { "false light " + countAndShare(error.falseLight, error), { 64, 128, 255 } },
-      { "false shadow " + countAndShare(error.falseShadow, error), { 255, 48, 48 } },
-      { "traced", { 108, 40, 135 } } };
+    return { { "wrong pixels: " + countAndShare(error.wrongPixels(), error) },
+      { { "false light " + countAndShare(error.falseLight, error), { 64, 128, 255 } },
+        { "false shadow " + countAndShare(error.falseShadow, error), { 255, 48, 48 } },
+        { "traced", { 108, 40, 135 } } } };
   }
   switch (state.show)
   {
     case Show::Classes:
-      return classesOf(pass->shown()->GetVisibility(), state.light);
+      return { { "how pixels were decided:" },
+        classesOf(pass->shown()->GetVisibility(), state.light) };
     case Show::Texels:
-      return { { "as 4 pixels or more", { 255, 38, 26 } }, { "as a pixel", { 255, 255, 255 } },
-        { "as a quarter or less", { 26, 77, 255 } } };
+      return { { "how large the map's texels look:" },
+        { { "as 4 pixels or more", { 255, 38, 26 } }, { "as a pixel", { 255, 255, 255 } },
+          { "as a quarter or less", { 26, 77, 255 } } } };
     default:
       return {};
   }

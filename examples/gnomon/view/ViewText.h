@@ -25,8 +25,13 @@ struct LegendLine
   std::string text;
   std::array<std::uint8_t, 3> colour;
 };
-/// Return the legend of the pixels' colours; empty if they are the scene's.
-std::vector<LegendLine> legendOf(const ViewState& state, ViewPass* pass);
+/// The description of a picture that does not show the technique alone; else empty.
+struct Caption
+{
+  std::vector<std::string> lines;
+  std::vector<LegendLine> legend; ///< of the pixels' colours
+};
+Caption captionOf(const ViewState& state, ViewPass* pass);
 
 /// The text over a view: lines in the upper left corner, a legend below them, or the keys if asked
 /// for.

@@ -32,10 +32,11 @@ Viewer::Viewer(Scene scene, const ViewState& state, ViewChoices choices, std::st
   this->interactor_->SetInteractorStyle(this->style_);
   this->interactor_->AddObserver(vtkCommand::CharEvent, this, &Viewer::onChar, beforeAll);
   this->interactor_->AddObserver(vtkCommand::MouseMoveEvent, this, &Viewer::onMove, beforeAll);
-  this->interactor_->AddObserver(
-    vtkCommand::MouseWheelForwardEvent, this, &Viewer::onWheelForward, beforeAll);
-  this->interactor_->AddObserver(
-    vtkCommand::MouseWheelBackwardEvent, this, &Viewer::onWheelBackward, beforeAll);
+  for (const auto wheel :
+    { vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent })
+  {
+    this->interactor_->AddObserver(wheel, this, &Viewer::onWheel, beforeAll);
+  }
 
   this->widget_->SetInteractor(this->interactor_);
   this->widget_->SetDefaultRenderer(this->view_.front());
@@ -118,7 +119,7 @@ void Viewer::onMove()
 
 //------------------------------------------------------------------------------
 /// Resize the light by the wheel over the handle; elsewhere the wheel is VTK's.
-bool Viewer::resize(int steps)
+bool Viewer::onWheel(vtkObject*, unsigned long event, void*)
 {
   const int* const position = this->interactor_->GetEventPosition();
   vtkSphereHandleRepresentation* const ball = this->view_.handle().ball();
@@ -126,17 +127,13 @@ bool Viewer::resize(int steps)
     ball->ComputeInteractionState(position[0], position[1]) != vtkHandleRepresentation::Outside;
   if (over)
   {
-    this->change([&](ViewState& state) { resizeLight(state, this->view_.scene(), steps); });
+    this->change(
+      [&](ViewState& state) {
+        resizeLight(
+          state, this->view_.scene(), event == vtkCommand::MouseWheelForwardEvent ? 1 : -1);
+      });
   }
   return over;
-}
-bool Viewer::onWheelForward(vtkObject*, unsigned long, void*)
-{
-  return this->resize(1);
-}
-bool Viewer::onWheelBackward(vtkObject*, unsigned long, void*)
-{
-  return this->resize(-1);
 }
 
 //------------------------------------------------------------------------------

@@ -42,9 +42,7 @@ private:
   void enableHandle();
   void onChar();
   void onMove();
-  bool onWheelForward(vtkObject*, unsigned long, void*);
-  bool onWheelBackward(vtkObject*, unsigned long, void*);
-  bool resize(int steps);
+  bool onWheel(vtkObject*, unsigned long event, void*);
   void onDrag();
 
   vtkNew<vtkRenderWindow> window_;

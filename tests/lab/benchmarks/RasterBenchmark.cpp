@@ -2,7 +2,7 @@
 // finding the casters' edges, and updating them after all casters have moved.
 
 #include "BenchmarkMain.h"
-#include "Machine.h"
+#include "FrameVariant.h"
 #include "Scene.h"
 #include "SyntheticScene.h"
 #include "Timing.h"

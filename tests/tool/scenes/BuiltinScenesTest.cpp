@@ -1,7 +1,7 @@
 #include "BuiltinScenes.h"
 #include "../TestFiles.h"
 #include "Errors.h"
-#include "SceneExport.h"
+#include "SceneFile.h"
 #include "SceneFraming.h"
 #include "Vec3.h"
 #include "plugin/vtkGnomonOffScreenWindow.h"
@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
+#include <vtkDataArrayRange.h>
 #include <vtkImageData.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
@@ -60,13 +61,8 @@ Vec3 pointOf(vtkDataArray* array, vtkIdType i)
 
 std::vector<double> valuesOf(vtkDataArray* array)
 {
-  std::vector<double> values;
-  for (vtkIdType i = 0; array && i < array->GetNumberOfValues(); ++i)
-  {
-    values.push_back(array->GetComponent(
-      i / array->GetNumberOfComponents(), static_cast<int>(i % array->GetNumberOfComponents())));
-  }
-  return values;
+  const auto values = vtk::DataArrayValueRange(array);
+  return { values.begin(), values.end() };
 }
 
 /// Call `visit` with the numbers of each triangle's corners.
