@@ -449,23 +449,5 @@ TEST(CompareCommand, ComparesWhatAUserWouldChooseAmong)
   EXPECT_EQ(techniques.size(), registry().size() + 2) << "with the peers";
 }
 
-TEST(CompareCommand, RefusesBadInputBeforeDrawing)
-{
-  const TestFolder folder;
-  writeBytes(folder / "file", "text");
-  const std::string report = " -o " + folder / "report";
-  for (const std::string& options : { "cube -o " + folder / "file", "no-such-scene" + report,
-         "cube --size 0x10" + report, "cube --techniques nsm,magic" + report })
-  {
-    EXPECT_THROW(compare(options), BadInput) << options;
-  }
-  for (const std::string& options :
-    { "cube --map-sizes 7" + report, "cube --frames -1" + report, "cube --route scenic" + report,
-      "cube --all --techniques nsm" + report, std::string("cube") })
-  {
-    EXPECT_THROW(compare(options), CLI::ParseError) << options;
-  }
-}
-
 } // namespace
 } // namespace gnomon::tool

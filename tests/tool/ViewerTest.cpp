@@ -55,6 +55,12 @@ std::int64_t countBelow(const Picture& picture, const std::array<unsigned char, 
   return count;
 }
 
+/// The picture below the text.
+std::vector<unsigned char> below(const Picture& picture)
+{
+  return { &picture.rgb[3 * firstBelow(picture)], picture.rgb.data() + picture.rgb.size() };
+}
+
 /// A viewer on the X server, and a folder that it saves to. Neither VTK nor OpenGL may complain.
 class ViewerTest : public testing::Test
 {
@@ -188,16 +194,9 @@ TEST_F(ViewerTest, SwitchesTechniqueTruthAndErrorInPlace)
   EXPECT_THAT(this->corner(), HasSubstr("wrong pixels: 0 "));
   this->press(" ");
   EXPECT_EQ(this->state().show, Show::Technique);
-  Picture traced = still();
+  const Picture traced = still();
   this->press(" ");
-  // But for the text, which is in the corner.
-  const Picture again = still();
-  std::size_t below = 0;
-  for (std::size_t i = firstBelow(traced); i < traced.pixelCount(); ++i)
-  {
-    below += !std::equal(&traced.rgb[3 * i], &traced.rgb[3 * i] + 3, &again.rgb[3 * i]);
-  }
-  EXPECT_EQ(below, 0u);
+  EXPECT_TRUE(below(still()) == below(traced));
   this->press("]");
   EXPECT_EQ(this->state().technique, "nsm");
   this->press("[");
@@ -209,25 +208,17 @@ TEST_F(ViewerTest, TheHandleComesBackWithItsBall)
 {
   this->view("bunny", { "nsm" });
   const Picture back = this->press("dd");
-  const Picture again = this->viewer->view().still();
-  for (std::size_t i = firstBelow(back); i < back.pixelCount(); ++i)
-  {
-    ASSERT_TRUE(std::equal(&back.rgb[3 * i], &back.rgb[3 * i] + 3, &again.rgb[3 * i])) << i;
-  }
+  EXPECT_TRUE(below(this->viewer->view().still()) == below(back));
 }
 
 //------------------------------------------------------------------------------
 TEST_F(ViewerTest, SavesWhatTheHeadlessProgramDrawsByteForByte)
 {
   this->view("bunny", { "pssm", "silhouette", "auto" });
-  this->save("");
-  this->save("v");
-  this->save("x");
-  this->save("h ");
-  this->save("  ");
-  this->save("hvik");
-  this->save("]k  .");
-  this->save("d]");
+  for (const char* keys : { "", "v", "x", "h ", "  ", "hvik", "]k  .", "d]" })
+  {
+    this->save(keys);
+  }
   EXPECT_EQ(this->drawAgain(), 8);
 }
 
@@ -383,13 +374,10 @@ TEST_P(ViewerScenes, ShowEveryModeAgainWithoutAScreen)
   this->view(GetParam(),
     soft ? std::vector<std::string>{ "penumbra", "pcss" }
          : std::vector<std::string>{ "silhouette", "pssm" });
-  this->save("");
-  this->save(" ");
-  this->save(" ");
-  this->save("]");
-  this->save("kn");
-  this->save("xvi");
-  this->save("vh ");
+  for (const char* keys : { "", " ", " ", "]", "kn", "xvi", "vh " })
+  {
+    this->save(keys);
+  }
   EXPECT_EQ(this->drawAgain(), 7);
 }
 

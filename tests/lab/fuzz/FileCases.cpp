@@ -13,6 +13,9 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <iostream>
 #include <map>
 
@@ -261,9 +264,8 @@ void runFile(Random random, std::string& description)
   const bool isDrawn = outcome.exited && outcome.code == 0 && chance(random, 0.1);
   if (isDrawn)
   {
-    outcome = tool::run(folder,
-      { "render", entry, "-o", "out.png", "--size", "24x16", "--technique", "nsm", "--map-size",
-        "32" });
+    outcome = tool::run(
+      folder, "render " + entry + " -o out.png --size 24x16 --technique nsm --map-size 32");
   }
   const std::string said = (outcome.exited ? "exit code " : "signal ") +
     std::to_string(outcome.code) + ": " + outcome.errors;
