@@ -312,7 +312,7 @@ std::string processorName()
 {
   vtksys::SystemInformation system;
   system.RunCPUCheck();
-  return system.GetExtendedProcessorName() + std::string(", ") +
+  return system.GetModelName() + std::string(", ") +
     std::to_string(std::thread::hardware_concurrency()) + " threads";
 }
 

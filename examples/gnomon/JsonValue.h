@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -123,10 +124,14 @@ public:
   /// Return a member's place to read; an empty one to write.
   JsonValue place(const std::string& name)
   {
-    this->known_.push_back(name);
+    if (std::find(this->known_.begin(), this->known_.end(), name) == this->known_.end())
+    {
+      this->known_.push_back(name);
+    }
     return this->from_.member(name);
   }
 
+  /// Add a member.
   /// @param read returns the value of a place, or fails
   /// @param required true: the member must be there
   template <class Value, class Read>

@@ -287,6 +287,7 @@ std::vector<BrokenInput> brokenInputs()
     { "--techniques excludes --all", "compare cube --all --techniques nsm -o out" },
     { "--output", "compare cube" },
     { "--export: zero.obj", "scenes --export cube zero.obj" },
+    { "--export: props has props that no scene file describes", "scenes --export props ." },
   };
   for (const auto& [names, arguments] : options)
   {

@@ -1,7 +1,6 @@
 #include "BuiltinScenes.h"
 #include "../TestFiles.h"
 #include "Errors.h"
-#include "SceneFile.h"
 #include "SceneFraming.h"
 #include "Vec3.h"
 #include "plugin/vtkGnomonOffScreenWindow.h"
@@ -206,36 +205,6 @@ TEST_P(BuiltinSceneTest, IsFiniteInFrontOfItsCameraAndTheSameEveryTime)
   const DepthRange depths = visibleDepths(scene, 1.0);
   EXPECT_GT(depths.nearest, 0.0);
   EXPECT_GT(depths.farthest, depths.nearest);
-}
-
-//------------------------------------------------------------------------------
-TEST_P(BuiltinSceneTest, IsReadBackFromItsExport)
-{
-  const Scene scene = loadScene(GetParam());
-  const TestFolder folder;
-  if (!scene.props.empty())
-  {
-    EXPECT_THROW(exportScene(scene, folder.path()), BadInput);
-    return;
-  }
-  const Scene read = loadScene(exportScene(scene, folder.path()));
-  EXPECT_EQ(read.name, scene.name);
-  EXPECT_EQ(read.camera.position, scene.camera.position);
-  EXPECT_EQ(read.camera.target, scene.camera.target);
-  ASSERT_EQ(read.lights.size(), scene.lights.size());
-  for (std::size_t i = 0; i < read.lights.size(); ++i)
-  {
-    EXPECT_EQ(read.lights[i].type, scene.lights[i].type);
-    ASSERT_EQ(read.lights[i].area.has_value(), scene.lights[i].area.has_value());
-    if (const auto& area = scene.lights[i].area)
-    {
-      EXPECT_EQ(read.lights[i].area->width, area->width);
-      EXPECT_EQ(read.lights[i].position, scene.lights[i].position);
-      EXPECT_EQ(bool(read.lights[i].area->texture), bool(area->texture));
-    }
-  }
-  EXPECT_EQ(countTriangles(read), countTriangles(scene));
-  EXPECT_EQ(boundsWorld(read), boundsWorld(scene));
 }
 
 //------------------------------------------------------------------------------
