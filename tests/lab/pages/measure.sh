@@ -14,6 +14,7 @@
 #   hard_cases      the literature's hard cases by all techniques
 #   split_rays      100 million rays against split scenes
 #   drag_rate       drags at 15 frames a second
+#   one_drawing     the drawings that exact shadows of several suns take
 #   gpu [PROGRAMS]  on a machine with a GPU; PROGRAMS is a folder with gnomon and its benchmarks
 #   vtk_programs FOLDER DATA        VTK's tests in C++, each with tests/lab/vtk_programs/main.cxx
 #   vtk_motion FOLDER DATA          ten of them with a moving camera
@@ -239,6 +240,19 @@ drag_rate()
       /usr/bin/python3 tests/lab/benchmarks/drag_rate.py $size
   done | awk 'NR == 1 || !/^pixels,/' > docs/results/drag_rate.csv
   put drag_rate
+}
+
+one_drawing()
+{
+  local scene
+  prepare all
+  for scene in bunny office trees-side terrain; do
+    $programs/gnomon scenes --export "$scene" out/one_drawing
+  done
+  PYTHONPATH=build/lab/lib/python3/dist-packages LD_LIBRARY_PATH=build/lab/lib \
+    /usr/bin/python3 tests/lab/benchmarks/one_drawing.py out/one_drawing \
+    > docs/results/one_drawing.csv
+  put one_drawing
 }
 
 gpu()
