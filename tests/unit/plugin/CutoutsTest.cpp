@@ -187,6 +187,27 @@ TEST_P(Cutouts, goByTheTexturesWrapping)
   this->expectShadow([&](const glm::dvec2& share) { return mask.isDrawn(2.0 * share - 0.5); });
 }
 
+/// Texels are stored once for all actors that share a texture, and are freed with it.
+TEST_P(Cutouts, ofATextureThatActorsShareTakeItsMemoryOnce)
+{
+  const auto texture = makeTexture(letter);
+  this->addSquare(texture);
+  this->addSquare(texture)->SetPosition(0.0, 0.0, -0.1);
+  this->scene.render();
+  const auto bytes = [&] { return static_cast<double>(this->scene.report().bytesOccluders); };
+  const double before = bytes();
+  const auto large = imageOf(Pattern(512, std::string(512, '#')));
+  large->SetScalarComponentFromDouble(0, 0, 0, 3, 0.0);
+  texture->SetInputData(large);
+  this->scene.render();
+  const bool hasMap = std::string(GetParam().technique) != "raytraced";
+  const double texels = (hasMap ? 2 : 1) * 512 * 512;
+  EXPECT_NEAR(bytes() - before, texels, 0.01 * texels);
+  texture->SetInputData(imageOf(letter));
+  this->scene.render();
+  EXPECT_EQ(bytes(), before);
+}
+
 /// Alpha of all kinds of images: by a lookup table, beside grey, of numbers, and of one column,
 /// which VTK takes for a row.
 TEST_P(Cutouts, ofAllKindsOfImages)
