@@ -4,12 +4,12 @@
     PYTHONPATH=... LD_LIBRARY_PATH=... one_drawing.py FOLDER [FRAMES]
 
 FOLDER: scenes of `gnomon scenes --export NAME FOLDER`. Prints a line of CSV for each number of suns
-and scene, with medians of frames in turns, in plain frames: `silhouette` and `nsm`, and three ways
-to draw without the rays. `two drawings`: `silhouette`'s, of triangle numbers and of the picture.
-`records`: that of `nsm`, where each pixel that `silhouette` leaves uncertain appends 16 bytes a
-light to a buffer, which is read back. `contributions`: VTK's, into a half-float attachment a light
-and one of triangle numbers, which is read back. The last two lack the drawing that finishes the
-picture.
+and scene, with medians in plain frames, which are drawn in turns: `silhouette` and `nsm`, and three
+ways to draw without the rays. `two drawings`: `silhouette`'s, of triangle numbers and of the
+picture. `records`: that of `nsm`, where each pixel that `silhouette` leaves uncertain appends 16
+bytes a light to a buffer, which is read back. `contributions`: VTK's, into a half-float attachment
+a light and one of triangle numbers, which is read back. The last two lack the drawing that finishes
+the picture.
 """
 
 import csv
@@ -32,6 +32,7 @@ UNCERTAIN = {"bunny": 0.048, "office": 0.032, "trees-side": 0.21, "terrain": 0.5
 SUNS = 2, 5
 SIZE = 1024
 WARM = 20  # frames
+COLUMNS = "silhouette", "nsm", "two drawings", "records", "contributions"
 MOST_RECORDS = 6_000_000
 
 DRAW_FRAMEBUFFER, STORAGE, TEXTURE_2D, COLOUR_0 = 0x8CA9, 0x90D2, 0x0DE1, 0x8CE0
@@ -207,29 +208,29 @@ class Variant:
 
 
 def measure(folder, scene, suns, frames):
-    variants = {
-        "plain": Variant(folder, scene, suns, None, None),
-        "silhouette": Variant(folder, scene, suns, "silhouette", None),
-        "nsm": Variant(folder, scene, suns, "nsm", None),
-        "records": Variant(folder, scene, suns, "nsm", Records),
-        "contributions": Variant(folder, scene, suns, None, Contributions)}
-    for _ in range(WARM + frames):
-        for variant in variants.values():
+    ways = {"silhouette": ("silhouette", None), "nsm": ("nsm", None),
+            "records": ("nsm", Records), "contributions": (None, Contributions)}
+    plains, ratios = [], {}
+    for name, (technique, extra) in ways.items():
+        # Two windows at a time: the images of more would push each other out of the caches.
+        plain = Variant(folder, scene, suns, None, None)
+        variant = Variant(folder, scene, suns, technique, extra)
+        for _ in range(WARM + frames):
+            plain.draw()
             variant.draw()
-    times = {name: statistics.median(variant.times[-frames:])
-             for name, variant in variants.items()}
-    times["two drawings"] = statistics.median(variants["silhouette"].drawings[-frames:])
-    ratios = [f"{times[name] / times['plain']:.2f}" for name in
-              ("silhouette", "nsm", "two drawings", "records", "contributions")]
-    for variant in variants.values():
+        plains.append(statistics.median(plain.times[-frames:]))
+        ratios[name] = statistics.median(variant.times[-frames:]) / plains[-1]
+        if name == "silhouette":
+            ratios["two drawings"] = statistics.median(variant.drawings[-frames:]) / plains[-1]
+        plain.window.Finalize()
         variant.window.Finalize()
-    return [suns, scene, f"{times['plain']:.1f}", *ratios]
+    return [suns, scene, f"{statistics.median(plains):.1f}",
+            *(f"{ratios[name]:.2f}" for name in COLUMNS)]
 
 
 def main():
     table = csv.writer(sys.stdout)
-    table.writerow(["suns", "scene", "plain ms", "silhouette", "nsm", "two drawings", "records",
-                    "contributions"])
+    table.writerow(["suns", "scene", "plain ms", *COLUMNS])
     for suns in SUNS:
         for scene in UNCERTAIN:
             table.writerow(measure(pathlib.Path(sys.argv[1]), scene, suns,
