@@ -39,7 +39,6 @@ struct Options
 {
   std::vector<std::string> scenes;
   int places = 20;
-  int first = 0;     ///< earlier places are skipped
   int compared = 20; ///< the first of them, at which `auto` is compared
   unsigned int seed = 1;
   int sidePixels = 512;
@@ -382,10 +381,7 @@ void compareWithSingles(const Scene& scene, const Options& options)
     vtkNew<vtkCamera> camera;
     camera->DeepCopy(start);
     wander(camera, random);
-    if (place >= options.first)
-    {
-      place < options.compared ? ways.compare(place, camera) : ways.check(place, camera);
-    }
+    place < options.compared ? ways.compare(place, camera) : ways.check(place, camera);
   }
 }
 
@@ -560,9 +556,6 @@ int run(int argc, char** argv)
   app.add_option("SCENES", options.scenes, "Scenes: built-in names or scene files")->required();
   app.add_option("--places", options.places, "Places of the camera in each scene")
     ->check(CLI::Range(1, 100000))
-    ->capture_default_str();
-  app.add_option("--first", options.first, "The first of them that is measured, from 0")
-    ->check(CLI::Range(0, 100000))
     ->capture_default_str();
   app
     .add_option("--compared", options.compared,

@@ -3,18 +3,19 @@
 //
 // gnomon_benchmark_fitting [SIDE [FRAMES]], the side of the receivers' image in pixels.
 
-#include "ObjFile.h"
+#include "Scene.h"
+#include "SyntheticScene.h"
 #include "Timing.h"
 
 #include "lights/SettingsTable.h"
 
+#include "plugin/scene/OccluderCollector.h"
 #include "plugin/vtkGnomonOffScreenWindow.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/depth_map/Pcf.h"
 #include "shadowtech/fitting/ReceiverFit.h"
 
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <vtkNew.h>
 
@@ -90,13 +91,13 @@ std::array<glm::vec3, 2> boundsOnCpu(const std::vector<glm::vec3>& points, const
 /// Needs a current context.
 void run(int side, int frames)
 {
-  const Occluders occluders = makeOccluders(
-    { { readObj("/usr/share/glmark2/models/bunny.obj"),
-        glm::rotate(at({ 0.0, 0.0, 0.99 }), 0.5 * glm::pi<double>(), { 1.0, 0.0, 0.0 }) },
-      { makePlane(10.0) } });
+  OccluderCollector collector;
+  collector.collect(tool::makeRenderer(tool::loadScene("bunny"), 1.0));
+  const Occluders& occluders = collector.occluders();
   Camera camera;
-  camera.position = { 2.0, -4.0, 3.0 };
-  camera.target = { 0.0, 0.0, 0.8 };
+  camera.position = { 2.0, 2.0, 4.0 };
+  camera.target = { 0.0, -0.2, 0.0 };
+  camera.up = { 0.0, 1.0, 0.0 };
   camera.width = camera.height = side;
   CameraView view;
   view.viewFromCentred = glm::lookAt(
@@ -112,7 +113,7 @@ void run(int side, int frames)
   fitting.centreWorld = occluders.frame.centre;
   fitting.castersCentred = fitting.receiversCentred = occluders.allCentred;
   fitting.texels = { mapSizeTexels, 1 };
-  ShadowLight plain = directionalLight({ -1.0, 0.5, -1.2 });
+  ShadowLight plain = directionalLight({ -1.0, -1.2, -0.5 });
   plain.mapSizeTexels = mapSizeTexels;
   const LightViews plainViews = fitLightViews(plain, fitting);
   fitting.camera = view;
@@ -167,8 +168,8 @@ void run(int side, int frames)
   add("its bounds on the CPU", [&] { corners = boundsOnCpu(images.pointsView, across); });
   addFit("fit of a sun, lispsm", plain, "lispsm");
   addFit("fit of a sun, pssm", plain, "pssm");
-  addFit("fit of a spot", spotLight({ 4.0, -2.0, 5.0 }, glm::dvec3(0.0), 40.0), "uniform");
-  addFit("fit of a point light", pointLight({ 1.5, -1.0, 3.0 }), "uniform");
+  addFit("fit of a spot", spotLight({ 4.0, 4.0, 2.0 }, glm::dvec3(0.0), 40.0), "uniform");
+  addFit("fit of a point light", pointLight({ 1.5, 2.0, 1.0 }), "uniform");
 
   takeTurns(ways, frames);
   std::cout << glGetString(GL_RENDERER) << ", " << side << " x " << side << ", " << frames

@@ -66,20 +66,16 @@ struct Comparison
   std::uint64_t rays = 0;
   std::uint64_t blocked = 0; ///< by the whole
   std::uint64_t different = 0;
-  std::uint64_t onlyWhole = 0; ///< of the different ones, blocked by the whole and by no part
-  std::uint64_t exact = 0;     ///< of the different ones, through a point of an edge
-  std::uint64_t faults = 0;    ///< different or wrong, not at an edge within rounding
-  std::uint64_t wrong = 0;     ///< of the faults, the whole's answer is not the exact one
-  std::uint64_t atEnds = 0;    ///< of the faults, with a start or end in a triangle's plane
-  double mostRoundings = 0.0;  ///< largest margin of the different ones
+  std::uint64_t faults = 0;   ///< different or wrong, not at an edge within rounding
+  std::uint64_t wrong = 0;    ///< of the faults, the whole's answer is not the exact one
+  std::uint64_t atEnds = 0;   ///< of the faults, with a start or end in a triangle's plane
+  double mostRoundings = 0.0; ///< largest margin of the different ones
 
   void add(const Comparison& other)
   {
     this->rays += other.rays;
     this->blocked += other.blocked;
     this->different += other.different;
-    this->onlyWhole += other.onlyWhole;
-    this->exact += other.exact;
     this->faults += other.faults;
     this->wrong += other.wrong;
     this->atEnds += other.atEnds;
@@ -198,7 +194,6 @@ private:
       comparison.blocked += expected[i];
       if (blocked[i] != expected[i])
       {
-        comparison.onlyWhole += expected[i];
         this->judge(rays[i], comparison);
       }
     }
@@ -233,7 +228,6 @@ private:
       ++this->faults_;
       comparison.atEnds += std::abs(margin.roundings) <= mostRoundings ? 1 : 0;
     }
-    comparison.exact += roundings == 0.0 ? 1 : 0;
   }
 
   unsigned int seed_;
