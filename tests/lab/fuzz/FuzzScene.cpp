@@ -7,7 +7,6 @@
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkCamera.h>
-#include <vtkImageData.h>
 #include <vtkProperty.h>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -33,13 +32,10 @@ glm::dvec3 somewhere(Random& random, double reach)
 
 vtkSmartPointer<vtkImageData> drawLightTexture(Random& random)
 {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(1 + static_cast<int>(random() % 3), 1 + static_cast<int>(random() % 3), 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1 + static_cast<int>(random() % 4));
-  auto* values = static_cast<unsigned char*>(image->GetScalarPointer());
-  std::generate_n(values, image->GetNumberOfPoints() * image->GetNumberOfScalarComponents(),
-    [&] { return static_cast<unsigned char>(random()); });
-  return image;
+  const auto upTo = [&](unsigned most) { return 1 + static_cast<int>(random() % most); };
+  const int height = upTo(3);
+  const int width = upTo(3);
+  return drawImage(random, width, height, upTo(4));
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "RandomProps.h"
 
+#include "Shapes.h"
+
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkActor.h>
@@ -11,12 +13,9 @@
 #include <vtkLODProp3D.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkSphereSource.h>
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -33,20 +32,12 @@ using Props = std::vector<vtkSmartPointer<vtkProp3D>>;
 
 vtkSmartPointer<vtkPolyData> surfaceOf(const test::Prop& prop, bool doubles)
 {
-  auto surface = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(doubles ? VTK_DOUBLE : VTK_FLOAT);
-  for (const glm::dvec3& point : prop.mesh.points)
-  {
-    points->InsertNextPoint(glm::value_ptr(point));
-  }
-  vtkNew<vtkCellArray> triangles;
+  std::vector<std::vector<vtkIdType>> triangles;
   for (const glm::uvec3& triangle : prop.mesh.triangles)
   {
-    triangles->InsertNextCell({ triangle.x, triangle.y, triangle.z });
+    triangles.push_back({ triangle.x, triangle.y, triangle.z });
   }
-  surface->SetPoints(points);
-  surface->SetPolys(triangles);
+  const auto surface = test::meshOf(prop.mesh.points, triangles, doubles ? VTK_DOUBLE : VTK_FLOAT);
   if (!prop.textureCoordinates.empty())
   {
     vtkNew<vtkFloatArray> coordinates;
@@ -62,11 +53,14 @@ vtkSmartPointer<vtkPolyData> surfaceOf(const test::Prop& prop, bool doubles)
 
 vtkSmartPointer<vtkActor> actorOf(vtkPolyData* surface)
 {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(surface);
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  return actor;
+  return test::actorOf(test::mapperOf(surface));
+}
+
+/// Hang a texture with holes on an actor that is drawn as opaque.
+void perforate(vtkActor* actor, Random& random)
+{
+  actor->SetTexture(drawHoles(random));
+  actor->ForceOpaqueOn();
 }
 
 Props drawMeshes(const std::string& kind, Random& random)
@@ -81,8 +75,7 @@ Props drawMeshes(const std::string& kind, Random& random)
     vtkGnomonPropKeys::SetOneSided(actor, prop.oneSided);
     if (prop.cutout)
     {
-      actor->SetTexture(drawHoles(random));
-      actor->ForceOpaqueOn();
+      perforate(actor, random);
     }
     props.push_back(actor);
   }
@@ -92,26 +85,17 @@ Props drawMeshes(const std::string& kind, Random& random)
 /// Smooth normals and texture coordinates, too.
 vtkSmartPointer<vtkPolyData> drawBall(Random& random)
 {
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetRadius(uniform(random, 0.05, 1.0));
-  sphere->SetThetaResolution(3 + static_cast<int>(random() % 14));
-  sphere->SetPhiResolution(3 + static_cast<int>(random() % 10));
-  sphere->Update();
-  vtkSmartPointer<vtkPolyData> ball = sphere->GetOutput();
-  return ball;
+  const double radius = uniform(random, 0.05, 1.0);
+  const int around = 3 + static_cast<int>(random() % 14);
+  return test::outputOf(
+    test::ballOf({ 0.0, 0.0, 0.0 }, radius, around, 3 + static_cast<int>(random() % 10)));
 }
 
 vtkSmartPointer<vtkPolyData> drawSquare(Random& random)
 {
-  const double side = uniform(random, 0.2, 1.5);
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-side, -side, 0.0);
-  plane->SetPoint1(side, -side, 0.0);
-  plane->SetPoint2(-side, side, 0.0);
-  plane->SetResolution(1 + static_cast<int>(random() % 3), 1);
-  plane->Update();
-  vtkSmartPointer<vtkPolyData> square = plane->GetOutput();
-  return square;
+  const auto square = test::squareOf(uniform(random, 0.2, 1.5));
+  square->SetResolution(1 + static_cast<int>(random() % 3), 1);
+  return test::outputOf(square);
 }
 
 vtkSmartPointer<vtkProp3D> placed(vtkSmartPointer<vtkProp3D> prop, Random& random)
@@ -131,30 +115,26 @@ Props drawSmoothBall(Random& random)
 
 Props drawGlyphs(Random& random)
 {
-  vtkNew<vtkPoints> places;
-  for (unsigned left = random() % 12; left > 0; --left)
-  {
-    places->InsertNextPoint(
-      uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), uniform(random, 0.0, 2.0));
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(places);
+  std::vector<glm::dvec3> places(random() % 12);
+  std::generate(places.begin(), places.end(),
+    [&]
+    {
+      return glm::dvec3(
+        uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), uniform(random, 0.0, 2.0));
+    });
   vtkNew<vtkConeSource> cone;
   cone->SetHeight(uniform(random, 0.1, 1.0));
   vtkNew<vtkGlyph3DMapper> mapper;
-  mapper->SetInputData(data);
+  mapper->SetInputData(test::meshOf(places, {}));
   mapper->SetSourceConnection(cone->GetOutputPort());
   mapper->SetScaleFactor(uniform(random, -1.0, 1.0));
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  return { actor.Get() };
+  return { test::actorOf(mapper) };
 }
 
 Props drawFence(Random& random)
 {
   const vtkSmartPointer<vtkActor> actor = actorOf(drawSquare(random));
-  actor->SetTexture(drawHoles(random));
-  actor->ForceOpaqueOn();
+  perforate(actor, random);
   return { placed(actor, random) };
 }
 
@@ -216,20 +196,27 @@ vtkSmartPointer<vtkPolyData> drawSurface(Random& random)
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkImageData> drawImage(Random& random, int width, int height, int components)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(width, height, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, components);
+  std::generate_n(static_cast<unsigned char*>(image->GetScalarPointer()),
+    width * height * components, [&] { return static_cast<unsigned char>(random()); });
+  return image;
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkTexture> drawHoles(Random& random)
 {
   const int side = 1 + static_cast<int>(random() % 8);
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(side, side, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* values = static_cast<unsigned char*>(image->GetScalarPointer());
-  std::generate_n(values, 4 * side * side, [&] { return static_cast<unsigned char>(random()); });
+  const auto image = drawImage(random, side, side, 4);
   for (int texel = 0; texel < side * side; ++texel)
   {
-    values[4 * texel + 3] = chance(random, 0.4) ? 0 : 255;
+    image->SetScalarComponentFromDouble(
+      texel % side, texel / side, 0, 3, chance(random, 0.4) ? 0.0 : 255.0);
   }
-  auto texture = vtkSmartPointer<vtkTexture>::New();
-  texture->SetInputData(image);
+  const auto texture = test::textureOf(image);
   texture->SetInterpolate(random() % 2 == 0);
   return texture;
 }

@@ -2,6 +2,7 @@
 
 #include "RandomSettings.h"
 
+#include <vtkImageData.h>
 #include <vtkPolyData.h>
 #include <vtkProp3D.h>
 #include <vtkSmartPointer.h>
@@ -25,6 +26,9 @@ RandomProps drawProps(Random& random);
 
 /// The surface of one mesh of such props.
 vtkSmartPointer<vtkPolyData> drawSurface(Random& random);
+
+/// An image of random bytes.
+vtkSmartPointer<vtkImageData> drawImage(Random& random, int width, int height, int components);
 
 /// A texture with holes.
 vtkSmartPointer<vtkTexture> drawHoles(Random& random);
