@@ -34,6 +34,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -208,42 +209,40 @@ std::vector<Axis> makeAxes(const Options& options)
     return varied;
   };
 
-  Axis triangles{ "triangles", {} };
-  for (const int count : { 10000, 100000, 1000000, 10000000 })
+  const auto numbered = [&](const std::string& key, int most, const std::vector<int>& numbers,
+                          const std::function<void(Case&, int)>& set)
   {
-    if (count <= options.mostTriangles || triangles.cases.empty())
+    Axis axis{ key, {} };
+    for (const int number : numbers)
     {
-      const int drawn = std::min(count, options.mostTriangles);
-      triangles.cases.push_back(named(grouped(drawn), drawn));
-      triangles.cases.back().triangles = drawn;
+      if (number <= most || axis.cases.empty())
+      {
+        const int drawn = std::min(number, most);
+        axis.cases.push_back(named(grouped(drawn), drawn));
+        set(axis.cases.back(), drawn);
+      }
     }
-  }
-  Axis props{ "props", {} };
-  for (const auto& [columns, rows] : { std::pair(5, 2), { 10, 10 }, { 40, 25 }, { 100, 100 } })
-  {
-    if (columns * rows <= options.mostProps)
-    {
-      props.cases.push_back(named(grouped(columns * rows), columns * rows));
-      props.cases.back().columns = columns;
-      props.cases.back().rows = rows;
-    }
-  }
-  Axis programs{ "programs", {} };
-  for (const int count : { 1, 10, 100 })
-  {
-    if (count <= options.mostProps)
-    {
-      programs.cases.push_back(named(grouped(count), count));
-      programs.cases.back().columns = programs.cases.back().rows = 10;
-      programs.cases.back().programs = count;
-    }
-  }
-  Axis lights{ "lights", {} };
-  for (const int count : { 1, 2, 4, 8 })
-  {
-    lights.cases.push_back(named(grouped(count), count));
-    lights.cases.back().lights = count;
-  }
+    return axis;
+  };
+  std::vector<Axis> axes = {
+    numbered("triangles", options.mostTriangles, { 10000, 100000, 1000000, 10000000 },
+      [](Case& of, int triangles) { of.triangles = triangles; }),
+    numbered("props", options.mostProps, { 10, 100, 1000, 10000 },
+      [](Case& of, int props)
+      {
+        static const std::map<int, int> rows = { { 10, 2 }, { 100, 10 }, { 1000, 25 },
+          { 10000, 100 } };
+        of.rows = rows.at(props);
+        of.columns = props / of.rows;
+      }),
+    numbered("programs", options.mostProps, { 1, 10, 100 },
+      [](Case& of, int programs)
+      {
+        of.columns = of.rows = 10;
+        of.programs = programs;
+      }),
+    numbered("lights", 8, { 1, 2, 4, 8 }, [](Case& of, int lights) { of.lights = lights; }),
+  };
   Axis pixels{ "pixels", {} };
   for (const auto& [width, height] :
     { std::pair(512, 512), { 1024, 1024 }, { 1920, 1080 }, { 3840, 2160 } })
@@ -262,7 +261,8 @@ std::vector<Axis> makeAxes(const Options& options)
   movement.cases[0].rows = movement.cases[1].rows = 25;
   movement.cases[1].move = liftOneProp;
   movement.cases[3].move = moveAllVertices;
-  return { triangles, props, programs, lights, pixels, movement };
+  axes.insert(axes.end(), { pixels, movement });
+  return axes;
 }
 
 //------------------------------------------------------------------------------

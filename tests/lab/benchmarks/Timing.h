@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
+#include "FrameVariant.h"
+
 #include <ctime>
 #include <functional>
 #include <iomanip>
@@ -11,14 +11,6 @@
 
 namespace gnomon::test
 {
-
-/// Return the median: the upper of two middle values.
-inline double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// In milliseconds.
 struct Time
@@ -48,7 +40,7 @@ struct Way
   std::vector<double> wall = {};
   std::vector<double> processor = {};
 
-  Time medians() const { return { median(this->wall), median(this->processor) }; }
+  Time medians() const { return { tool::median(this->wall), tool::median(this->processor) }; }
 };
 
 /// Time all ways in turn.

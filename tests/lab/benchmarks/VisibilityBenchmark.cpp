@@ -2,6 +2,9 @@
 // same cells and suns. Scene: hills of 100,352 triangles; the argument is the number of suns.
 
 #include "SyntheticScene.h"
+#include "Timing.h"
+
+#include "tests/unit/plugin/Shapes.h"
 
 #include "plugin/vtkGnomonVisibilityFilter.h"
 #include "shadowtech/base/ShadowRay.h"
@@ -12,17 +15,13 @@
 #include <glm/gtc/constants.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <vtkCellArray.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <ctime>
 #include <limits>
 #include <vector>
 
@@ -52,42 +51,28 @@ std::vector<glm::dvec3> suns(std::size_t count)
   return directions;
 }
 
-double processSeconds()
+/// @param begin of the work
+void reportRays(benchmark::State& state, double rays, const Time& begin)
 {
-  timespec time;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-void reportRays(benchmark::State& state, double rays, double cpuSeconds)
-{
-  state.counters["rays/cpu-s"] = rays / cpuSeconds;
+  state.counters["rays/cpu-s"] = 1e3 * rays / (now().processor - begin.processor);
   state.counters["rays"] = rays / static_cast<double>(state.iterations());
   state.counters["rays/s"] = benchmark::Counter(rays, benchmark::Counter::kIsRate);
 }
 
 void filter(benchmark::State& state)
 {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> cells;
-  for (const glm::dvec3& point : hills().points)
-  {
-    points->InsertNextPoint(point.x, point.y, point.z);
-  }
+  std::vector<std::vector<vtkIdType>> cells;
   for (const glm::uvec3& triangle : hills().triangles)
   {
-    cells->InsertNextCell({ triangle.x, triangle.y, triangle.z });
+    cells.push_back({ triangle.x, triangle.y, triangle.z });
   }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(cells);
   vtkNew<vtkGnomonVisibilityFilter> visibility;
-  visibility->SetInputData(data);
+  visibility->SetInputData(meshOf(hills().points, cells));
   visibility->SetComputeBits(state.range(1) != 0);
   visibility->AddDirection(0.0, 0.0, 1.0);
   visibility->Update(); // the acceleration structure
   double rays = 0.0;
-  const double begin = processSeconds();
+  const Time begin = now();
   for (auto _ : state)
   {
     visibility->ClearLights();
@@ -98,13 +83,12 @@ void filter(benchmark::State& state)
     visibility->Update();
     rays += static_cast<double>(visibility->GetNumberOfRays());
   }
-  reportRays(state, rays, processSeconds() - begin);
+  reportRays(state, rays, begin);
 }
 BENCHMARK(filter)
   ->Args({ 8, 0 })
   ->Args({ 1000, 0 })
   ->Args({ 1000, 1 })
-
   ->UseRealTime()
   ->Unit(benchmark::kMillisecond);
 
@@ -205,12 +189,12 @@ void bareLoop(benchmark::State& state)
   BareLoop loop;
   const std::vector<glm::dvec3> towards = suns(static_cast<std::size_t>(state.range(0)));
   double rays = 0.0;
-  const double begin = processSeconds();
+  const Time begin = now();
   for (auto _ : state)
   {
     rays += static_cast<double>(loop.trace(towards));
   }
-  reportRays(state, rays, processSeconds() - begin);
+  reportRays(state, rays, begin);
 }
 BENCHMARK(bareLoop)->Arg(8)->Arg(1000)->UseRealTime()->Unit(benchmark::kMillisecond);
 
