@@ -50,50 +50,6 @@ void addTriangle(Mesh& mesh, const Corner& a, const Corner& b, const Corner& c)
   }
 }
 
-/// Cut polygons into fans around their first vertex; turn every other triangle of a strip round.
-void addSurface(Mesh& mesh, vtkPolyData* data, vtkMatrix4x4* worldFromData)
-{
-  vtkDataArray* const coordinates = data->GetPointData()->GetTCoords();
-  const auto corner = [&](vtkIdType point)
-  {
-    double p[4] = { 0.0, 0.0, 0.0, 1.0 };
-    data->GetPoint(point, p);
-    if (worldFromData)
-    {
-      worldFromData->MultiplyPoint(p, p);
-    }
-    Corner result{ Vec3(p[0], p[1], p[2]), std::nullopt };
-    if (coordinates)
-    {
-      result.coordinates =
-        Vec2(coordinates->GetComponent(point, 0), coordinates->GetComponent(point, 1));
-    }
-    return result;
-  };
-  vtkIdType size = 0;
-  const vtkIdType* points = nullptr;
-  const auto polygons = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
-  for (polygons->GoToFirstCell(); !polygons->IsDoneWithTraversal(); polygons->GoToNextCell())
-  {
-    polygons->GetCurrentCell(size, points);
-    for (vtkIdType i = 2; i < size; ++i)
-    {
-      addTriangle(mesh, corner(points[0]), corner(points[i - 1]), corner(points[i]));
-    }
-  }
-  const auto strips = vtk::TakeSmartPointer(data->GetStrips()->NewIterator());
-  for (strips->GoToFirstCell(); !strips->IsDoneWithTraversal(); strips->GoToNextCell())
-  {
-    strips->GetCurrentCell(size, points);
-    for (vtkIdType i = 2; i < size; ++i)
-    {
-      const vtkIdType odd = i % 2;
-      addTriangle(
-        mesh, corner(points[i - 2 + odd]), corner(points[i - 1 - odd]), corner(points[i]));
-    }
-  }
-}
-
 template <class Reader>
 Mesh readWithReader(const std::string& path)
 {
@@ -145,6 +101,50 @@ Mesh readByExtension(const std::string& path)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+void addSurface(Mesh& mesh, vtkPolyData* data, vtkMatrix4x4* worldFromData)
+{
+  vtkDataArray* const coordinates = data->GetPointData()->GetTCoords();
+  const auto corner = [&](vtkIdType point)
+  {
+    double p[4] = { 0.0, 0.0, 0.0, 1.0 };
+    data->GetPoint(point, p);
+    if (worldFromData)
+    {
+      worldFromData->MultiplyPoint(p, p);
+    }
+    Corner result{ Vec3(p[0], p[1], p[2]), std::nullopt };
+    if (coordinates)
+    {
+      result.coordinates =
+        Vec2(coordinates->GetComponent(point, 0), coordinates->GetComponent(point, 1));
+    }
+    return result;
+  };
+  vtkIdType size = 0;
+  const vtkIdType* points = nullptr;
+  const auto polygons = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (polygons->GoToFirstCell(); !polygons->IsDoneWithTraversal(); polygons->GoToNextCell())
+  {
+    polygons->GetCurrentCell(size, points);
+    for (vtkIdType i = 2; i < size; ++i)
+    {
+      addTriangle(mesh, corner(points[0]), corner(points[i - 1]), corner(points[i]));
+    }
+  }
+  const auto strips = vtk::TakeSmartPointer(data->GetStrips()->NewIterator());
+  for (strips->GoToFirstCell(); !strips->IsDoneWithTraversal(); strips->GoToNextCell())
+  {
+    strips->GetCurrentCell(size, points);
+    for (vtkIdType i = 2; i < size; ++i)
+    {
+      const vtkIdType odd = i % 2;
+      addTriangle(
+        mesh, corner(points[i - 2 + odd]), corner(points[i - 1 - odd]), corner(points[i]));
+    }
+  }
+}
 
 //------------------------------------------------------------------------------
 Mesh readModel(const std::string& path)

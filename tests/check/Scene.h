@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+class vtkMatrix4x4;
+class vtkPolyData;
+
 /// The independent check of visibility files: it shares no code with Gnomon.
 namespace gnomon::check
 {
@@ -93,6 +96,11 @@ Scene readScene(const std::string& path);
 /// area. Texture coordinates are those of the file's points, if it has an array of them.
 /// @throws std::exception with a message that names the file
 Mesh readModel(const std::string& path);
+
+/// Append the triangles of a surface that have an area. Polygons become fans around their first
+/// vertex, strips triangles of one sense of rotation.
+/// @param worldFromData null for the identity
+void addSurface(Mesh& mesh, vtkPolyData* data, vtkMatrix4x4* worldFromData);
 
 /// Return the holes of a PNG image.
 /// @throws std::exception with a message that names the file

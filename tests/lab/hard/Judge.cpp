@@ -10,7 +10,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSphereSource.h>
-#include <vtkTriangleFilter.h>
 
 #include <algorithm>
 #include <array>
@@ -30,42 +29,8 @@ Vec3 toCheck(const tool::Vec3& vector)
   return { vector[0], vector[1], vector[2] };
 }
 
-Vec3 transformed(const std::array<double, 16>& m, const double* p)
-{
-  return { m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3],
-    m[4] * p[0] + m[5] * p[1] + m[6] * p[2] + m[7],
-    m[8] * p[0] + m[9] * p[1] + m[10] * p[2] + m[11] };
-}
-
-void addTriangles(
-  check::Surface& to, vtkPolyData* surface, const std::array<double, 16>& worldFromModel)
-{
-  vtkNew<vtkTriangleFilter> triangulate;
-  triangulate->PassLinesOff();
-  triangulate->PassVertsOff();
-  triangulate->SetInputData(surface);
-  triangulate->Update();
-  vtkPolyData* const triangles = triangulate->GetOutput();
-  vtkNew<vtkIdList> corners;
-  for (vtkIdType cell = 0; cell < triangles->GetNumberOfCells(); ++cell)
-  {
-    triangles->GetCellPoints(cell, corners);
-    check::Triangle triangle;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      double point[3];
-      triangles->GetPoint(corners->GetId(static_cast<vtkIdType>(k)), point);
-      triangle[k] = transformed(worldFromModel, point);
-    }
-    if ((triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).length() > 0.0)
-    {
-      to.triangles.push_back(triangle);
-    }
-  }
-}
-
 /// Append the balls of a vtkOpenGLSphereMapper as triangles fine enough to count as round.
-void addBalls(check::Surface& to, vtkProp3D* prop)
+void addBalls(check::Mesh& to, vtkProp3D* prop)
 {
   auto* const actor = vtkActor::SafeDownCast(prop);
   auto* const points =
@@ -84,9 +49,7 @@ void addBalls(check::Surface& to, vtkProp3D* prop)
     ball->SetCenter(points->GetPoint(i));
     ball->SetRadius(radii->GetComponent(i, 0));
     ball->Update();
-    std::array<double, 16> worldFromModel;
-    std::copy_n(actor->GetMatrix()->GetData(), 16, worldFromModel.begin());
-    addTriangles(to, ball->GetOutput(), worldFromModel);
+    check::addSurface(to, ball->GetOutput(), actor->GetMatrix());
   }
 }
 
@@ -100,6 +63,34 @@ check::Light lightOf(const tool::SceneLight& light)
   result.position = toCheck(light.position);
   result.direction = (toCheck(light.target) - result.position).normalized();
   result.coneAngleDegrees = light.coneAngleDegrees;
+  return result;
+}
+
+/// The scene as the check's own reader reads it.
+check::Scene checkSceneOf(const tool::Scene& scene)
+{
+  check::Scene result;
+  result.camera = { toCheck(scene.camera.position), toCheck(scene.camera.target),
+    toCheck(scene.camera.up), scene.camera.fovDegrees };
+  for (const tool::SceneModel& model : scene.models)
+  {
+    vtkNew<vtkMatrix4x4> worldFromModel;
+    worldFromModel->DeepCopy(model.matrix.data());
+    check::Mesh mesh;
+    check::addSurface(mesh, model.surface, worldFromModel);
+    result.surfaces.push_back(
+      { mesh.triangles, {}, {}, model.casts, model.receives, model.oneSided });
+  }
+  for (const tool::SceneProp& prop : scene.props)
+  {
+    check::Mesh mesh;
+    addBalls(mesh, prop.make());
+    result.surfaces.push_back({ mesh.triangles, {}, {} });
+  }
+  for (const tool::SceneLight& light : scene.lights)
+  {
+    result.lights.push_back(lightOf(light));
+  }
   return result;
 }
 
@@ -168,34 +159,6 @@ Receiver receiverAt(const VisibilityImages& images, std::size_t pixel)
   const Vec3 origin(images.origin[0], images.origin[1], images.origin[2]);
   return { origin + Vec3(images.positionX[pixel], images.positionY[pixel], images.positionZ[pixel]),
     Vec3(images.normalX[pixel], images.normalY[pixel], images.normalZ[pixel]).normalized() };
-}
-
-//------------------------------------------------------------------------------
-check::Scene checkSceneOf(const tool::Scene& scene)
-{
-  check::Scene result;
-  result.camera = { toCheck(scene.camera.position), toCheck(scene.camera.target),
-    toCheck(scene.camera.up), scene.camera.fovDegrees };
-  for (const tool::SceneModel& model : scene.models)
-  {
-    check::Surface surface;
-    surface.casts = model.casts;
-    surface.receives = model.receives;
-    surface.oneSided = model.oneSided;
-    addTriangles(surface, model.surface, model.matrix);
-    result.surfaces.push_back(std::move(surface));
-  }
-  for (const tool::SceneProp& prop : scene.props)
-  {
-    check::Surface surface;
-    addBalls(surface, prop.make());
-    result.surfaces.push_back(std::move(surface));
-  }
-  for (const tool::SceneLight& light : scene.lights)
-  {
-    result.lights.push_back(lightOf(light));
-  }
-  return result;
 }
 
 //------------------------------------------------------------------------------
@@ -290,21 +253,21 @@ bool Judge::isNearEdge(const Receiver& receiver, std::size_t light, double dista
   const bool isLit = isLitAt({ 0.0, 0.0 });
   const auto& points = discPoints();
   // In the air beside a surface, shadows have no edge.
-  const auto isOnSurface = [&](const std::array<double, 2>& at)
-  {
-    return this->tracer_
-      .nearestTo(placeAt(at), distance, [](const check::Triangle&) { return true; })
-      .has_value();
-  };
   return std::any_of(points.begin(), points.end(),
-    [&](const std::array<double, 2>& at) { return isLitAt(at) != isLit && isOnSurface(at); });
+    [&](const std::array<double, 2>& at)
+    { return isLitAt(at) != isLit && this->surfaceAt(placeAt(at), distance); });
+}
+
+//------------------------------------------------------------------------------
+std::optional<check::Hit> Judge::surfaceAt(const Vec3& position, double distance) const
+{
+  return this->tracer_.nearestTo(position, distance, [](const check::Triangle&) { return true; });
 }
 
 //------------------------------------------------------------------------------
 double Judge::offsetOf(const Receiver& receiver, const Vec3& origin, int height) const
 {
-  const std::optional<check::Hit> hit = this->tracer_.nearestTo(
-    receiver.positionWorld, 1e-4 * this->size_, [](const check::Triangle&) { return true; });
+  const std::optional<check::Hit> hit = this->surfaceAt(receiver.positionWorld, 1e-4 * this->size_);
   if (!hit)
   {
     throw std::runtime_error("a receiver that lies on no surface");
@@ -333,8 +296,7 @@ double Judge::offsetOf(const Receiver& receiver, const Vec3& origin, int height)
 //------------------------------------------------------------------------------
 bool Judge::isOnFloor(const Receiver& receiver) const
 {
-  const std::optional<check::Hit> hit = this->tracer_.nearestTo(
-    receiver.positionWorld, 1e-4 * this->size_, [](const check::Triangle&) { return true; });
+  const std::optional<check::Hit> hit = this->surfaceAt(receiver.positionWorld, 1e-4 * this->size_);
   return hit && hit->surface < this->names_.size() &&
     (this->names_[hit->surface] == "floor" || this->names_[hit->surface] == "plane");
 }

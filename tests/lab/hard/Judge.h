@@ -7,6 +7,7 @@
 #include "tests/check/Tracer.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,8 @@ public:
 
 private:
   check::Vec3 towards(const Receiver& receiver, std::size_t light) const;
+  /// Return the nearest point of all surfaces within a distance.
+  std::optional<check::Hit> surfaceAt(const check::Vec3& position, double distance) const;
 
   check::Scene scene_;
   std::vector<std::string> names_; ///< of the surfaces
@@ -67,8 +70,5 @@ private:
   std::vector<double> widths_;     ///< of all surfaces across each light's direction
   check::Tracer tracer_;
 };
-
-/// The scene as the check's own reader reads it.
-check::Scene checkSceneOf(const tool::Scene& scene);
 
 } // namespace gnomon::hard

@@ -24,8 +24,7 @@ const std::vector<Column>& columns();
 struct Row
 {
   std::string name;
-  std::vector<std::string> cases; ///< the hard cases that it represents
-  std::optional<Movement> movement;
+  std::optional<Movement> movement = {};
 };
 const std::vector<Row>& rows();
 
