@@ -67,15 +67,7 @@ std::string refusalOf(const std::string& key, const nlohmann::json& value)
 {
   nlohmann::json json = nlohmann::json::parse(textOf(unusualState()));
   json[key] = value;
-  try
-  {
-    parseState(json.dump(), "file.json", lightsScene());
-  }
-  catch (const BadInput& error)
-  {
-    return error.what();
-  }
-  return "";
+  return messageOf<BadInput>([&] { parseState(json.dump(), "file.json", lightsScene()); });
 }
 
 } // namespace
@@ -98,7 +90,7 @@ TEST(ViewState, ComesBackFromItsTextToTheLastBit)
 //------------------------------------------------------------------------------
 TEST(ViewState, RefusesWhatItCannotShowAndNamesThePlace)
 {
-  EXPECT_EQ(refusalOf("map_size", 512), "");
+  EXPECT_EQ(refusalOf("map_size", 512), "(nothing was thrown)");
   EXPECT_THAT(refusalOf("technique", "magic"), HasSubstr("file.json: technique: "));
   EXPECT_THAT(refusalOf("technique", "nsm:kernel=box"), HasSubstr("kernel"));
   EXPECT_THAT(refusalOf("show", "all"), HasSubstr("expected one of: technique, truth"));
