@@ -8,6 +8,7 @@
 #include <vtkCamera.h>
 #include <vtkMath.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 

@@ -3,7 +3,6 @@
 #include "FrameVariant.h"
 #include "Scene.h"
 
-#include <array>
 #include <vector>
 
 namespace gnomon::hard
@@ -24,8 +23,6 @@ enum class Movement
   CameraTurned,
   LightTurned
 };
-constexpr std::array<Movement, 3> allMovements = { Movement::CameraAside, Movement::CameraTurned,
-  Movement::LightTurned };
 
 /// The first light's visibility in every frame of a movement, pixel by pixel.
 using Frames = std::vector<std::vector<float>>;
