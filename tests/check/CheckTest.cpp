@@ -211,16 +211,14 @@ TEST(Check, FindsNothingInATrueFile)
   EXPECT_EQ(result.failures(), std::vector<std::string>());
   EXPECT_EQ(result.pixels, 10000u);
   EXPECT_EQ(result.covered, 8100u); // halfGround of 10, squared
-  EXPECT_EQ(result.coverage, Pixels());
-  EXPECT_EQ(result.position, Pixels());
-  EXPECT_EQ(result.otherSurface, Pixels());
-  EXPECT_EQ(result.otherFace, Pixels());
-  EXPECT_EQ(result.normal, Pixels());
   ASSERT_EQ(result.lights.size(), 1u);
-  EXPECT_EQ(result.lights[0].counted, 8100u);
-  EXPECT_EQ(result.lights[0].falseLight, Pixels());
-  EXPECT_EQ(result.lights[0].falseShadow, Pixels());
-  EXPECT_EQ(result.lights[0].unlit, Pixels());
+  const LightResult& light = result.lights[0];
+  EXPECT_EQ(light.counted, 8100u);
+  for (const Pixels& found : { result.coverage, result.position, result.otherSurface,
+         result.otherFace, result.normal, light.falseLight, light.falseShadow, light.unlit })
+  {
+    EXPECT_EQ(found, Pixels());
+  }
 }
 
 //------------------------------------------------------------------------------
