@@ -10,6 +10,7 @@
 #include "plugin/vtkGnomonPropKeys.h"
 #include "shadowtech/Registry.h"
 
+#include <array>
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
@@ -79,6 +80,16 @@ nlohmann::json fullScene()
                 "radius": 0.5, "up": [0, 0, 1], "texture": "t.png", "color": [1, 1, 1],
                 "intensity": 1}],
     "background": [0.25, 0.5, 0.75], "sky": 0.5, "glass": true})");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, PlacesAModelAfterTheMatricesOfItsFile)
+{
+  writeBytes(this->folder / "m.gltf", sampleGltfWithBuffer().dump()); // moved by (0, 0, 1)
+  nlohmann::json document = fullScene();
+  document["models"][0]["file"] = "m.gltf";
+  const std::array<double, 16> placed{ 2, 0, 0, 10, 0, 2, 0, 20, 0, 0, 2, 32, 0, 0, 0, 1 };
+  EXPECT_EQ(this->load(document).models[0].matrix, placed);
 }
 
 //------------------------------------------------------------------------------
