@@ -63,6 +63,14 @@ std::vector<glm::dvec3> someDirections(int count)
   return directions;
 }
 
+void addDirections(Filter* filter, int count, double hours = 1.0)
+{
+  for (const glm::dvec3& direction : someDirections(count))
+  {
+    filter->AddDirection(&direction.x, hours);
+  }
+}
+
 class VisibilityFilter : public testing::Test
 {
 protected:
@@ -83,10 +91,7 @@ protected:
   {
     this->filter->SetInputData(polyData(makeTerrain(10.0, 24, 2.0)));
     this->filter->AddInputData(1, polyData(makeSphere(12, 24), { 0.0, 0.0, 2.5 }));
-    for (const glm::dvec3& direction : someDirections(suns))
-    {
-      this->filter->AddDirection(&direction.x, 0.5);
-    }
+    addDirections(this->filter, suns, 0.5);
   }
 
   vtkNew<Filter> filter;
@@ -322,10 +327,7 @@ TEST_F(VisibilityFilter, AbortedExecutionsGoOn)
   std::vector<double> shares;
   {
     const Progress progress(this->filter, [&](double share) { shares.push_back(share); });
-    for (const glm::dvec3& direction : someDirections(300))
-    {
-      this->filter->AddDirection(&direction.x);
-    }
+    addDirections(this->filter, 300);
     this->filter->Update();
   }
   EXPECT_GT(shares.size(), 3u);
@@ -335,10 +337,7 @@ TEST_F(VisibilityFilter, AbortedExecutionsGoOn)
   const vtkTypeInt64 rays = this->filter->GetNumberOfRays();
 
   this->filter->ClearLights();
-  for (const glm::dvec3& direction : someDirections(300))
-  {
-    this->filter->AddDirection(&direction.x);
-  }
+  addDirections(this->filter, 300);
   int aborts = 0;
   for (bool isDone = false; !isDone && aborts < 50;)
   {
@@ -384,10 +383,7 @@ TEST_F(VisibilityFilter, ChangesAfterAnAbortBeginAnew)
   vtkNew<Filter> fresh;
   fresh->SetInputData(vtkPolyData::SafeDownCast(this->filter->GetInput()));
   fresh->AddInputData(1, this->filter->GetInputDataObject(1, 0));
-  for (const glm::dvec3& direction : someDirections(20))
-  {
-    fresh->AddDirection(&direction.x, 0.5);
-  }
+  addDirections(fresh, 20, 0.5);
   fresh->SetSamples(2);
   fresh->Update();
   EXPECT_EQ(arrays, allArrays(fresh));
@@ -484,10 +480,7 @@ TEST_F(VisibilityFilter, ScenesMayBeFarAwayAndOfAnySize)
     vtkNew<Filter> far;
     far->SetInputData(placed(makeTerrain(10.0, 24, 2.0), glm::dvec3(0.0)));
     far->AddInputData(1, placed(makeSphere(12, 24), { 0.0, 0.0, 2.5 }));
-    for (const glm::dvec3& direction : someDirections(30))
-    {
-      far->AddDirection(&direction.x);
-    }
+    addDirections(far, 30);
     far->Update();
     const Doubles fraction = arrayOf(far, Filter::GetLitFractionName());
     ASSERT_EQ(fraction.size(), near.size());
