@@ -33,6 +33,7 @@
 #include <utility>
 #include <vector>
 
+using gnomon::test::drawn;
 using gnomon::test::makeSphereScene;
 using gnomon::test::readPicture;
 using testing::HasSubstr;
@@ -119,8 +120,7 @@ TEST_F(EGLRenderWindow, drawsWithoutADisplayAndWithoutAWord)
 {
   ASSERT_EQ(std::getenv("DISPLAY"), nullptr);
   const auto window = makeWindow(160, 120);
-  window->Render();
-  const auto picture = readPicture(window);
+  const auto picture = drawn(window);
   ASSERT_EQ(picture.size(), 3u * 160 * 120);
   EXPECT_EQ(pixelAt(picture, 160, 2, 117), background);
   const auto sphere = pixelAt(picture, 160, 80, 60);
@@ -132,8 +132,7 @@ TEST_F(EGLRenderWindow, isAsLargeAsVtksWindowsByDefault)
 {
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->AddRenderer(makeSphereScene());
-  window->Render();
-  const auto picture = readPicture(window);
+  const auto picture = drawn(window);
   ASSERT_EQ(picture.size(), 3u * 300 * 300);
   EXPECT_GT(countColours(picture), 50u);
 }
@@ -186,8 +185,7 @@ TEST_F(EGLRenderWindow, twoWindowsAlternate)
 {
   const auto first = makeWindow(64, 48);
   const auto second = makeWindow(80, 60);
-  first->Render();
-  const auto firstPicture = readPicture(first);
+  const auto firstPicture = drawn(first);
   second->Render();
   EXPECT_FALSE(second->IsCurrent()) << "pictures leave no context behind";
   int major = 0;
@@ -214,16 +212,14 @@ TEST_F(EGLRenderWindow, twoWindowsAlternate)
 TEST_F(EGLRenderWindow, oneWindowGoesAndTheOtherDrawsOn)
 {
   const auto staying = makeWindow(64, 48);
-  staying->Render();
-  const auto picture = readPicture(staying);
+  const auto picture = drawn(staying);
   {
     const auto going = makeWindow(64, 48);
     going->Render();
     staying->MakeCurrent();
   }
   EXPECT_TRUE(staying->IsCurrent()); // the one that went took nothing away
-  staying->Render();
-  EXPECT_EQ(readPicture(staying), picture);
+  EXPECT_EQ(drawn(staying), picture);
 }
 
 TEST_F(EGLRenderWindow, followsItsSize)
@@ -231,8 +227,7 @@ TEST_F(EGLRenderWindow, followsItsSize)
   const auto window = makeWindow(100, 100);
   window->Render();
   window->SetSize(200, 50);
-  window->Render();
-  const auto wide = readPicture(window);
+  const auto wide = drawn(window);
   ASSERT_EQ(wide.size(), 3u * 200 * 50);
   window->SetSize(100, 100);
   window->Render();
@@ -246,11 +241,9 @@ TEST_F(EGLRenderWindow, multisamplingIsOffUntilAskedFor)
 {
   const auto window = makeWindow(100, 100);
   EXPECT_EQ(window->GetMultiSamples(), 0);
-  window->Render();
-  const auto aliased = readPicture(window);
+  const auto aliased = drawn(window);
   window->SetMultiSamples(4);
-  window->Render();
-  const auto smooth = readPicture(window);
+  const auto smooth = drawn(window);
   EXPECT_NE(smooth, aliased);
   EXPECT_GT(countColours(smooth), countColours(aliased)); // edges mix colours
 }
@@ -258,8 +251,7 @@ TEST_F(EGLRenderWindow, multisamplingIsOffUntilAskedFor)
 TEST_F(EGLRenderWindow, windowToImageFilterReadsTheSamePixels)
 {
   const auto window = makeWindow(90, 70);
-  window->Render();
-  const auto picture = readPicture(window);
+  const auto picture = drawn(window);
   vtkNew<vtkWindowToImageFilter> filter;
   filter->SetInput(window);
   filter->Update();
@@ -284,14 +276,12 @@ TEST_F(EGLRenderWindow, startsAgainAfterFinalize)
 {
   const auto window = makeWindow(64, 48);
   window->Finalize(); // before there is anything
-  window->Render();
-  const auto picture = readPicture(window);
+  const auto picture = drawn(window);
   window->Finalize();
   window->Finalize();
   EXPECT_FALSE(window->IsCurrent());
   EXPECT_EQ(window->GetGenericContext(), nullptr);
-  window->Render();
-  EXPECT_EQ(readPicture(window), picture);
+  EXPECT_EQ(drawn(window), picture);
 }
 
 TEST_F(EGLRenderWindow, aRendererOutlivesItsWindow)
@@ -324,8 +314,7 @@ TEST_F(EGLRenderWindow, everyListedDeviceCanBeAskedFor)
   {
     const auto onDevice = makeWindow(64, 48);
     onDevice->SetDeviceIndex(i);
-    onDevice->Render();
-    EXPECT_EQ(readPicture(onDevice).size(), readPicture(reference).size());
+    EXPECT_EQ(drawn(onDevice).size(), readPicture(reference).size());
     EXPECT_GT(countColours(readPicture(onDevice)), 50u);
   }
 }
@@ -343,8 +332,7 @@ TEST_F(EGLRenderWindow, aDeviceThatIsNotThereIsAnErrorAndNoCrash)
   window->Finalize();
 
   window->SetDeviceIndex(-1); // and the window is none the worse for it
-  window->Render();
-  EXPECT_GT(countColours(readPicture(window)), 50u);
+  EXPECT_GT(countColours(drawn(window)), 50u);
 }
 
 TEST_F(EGLRenderWindow, pixelsBeforeTheFirstFrameAreAnError)
@@ -399,8 +387,7 @@ TEST_F(EGLRenderWindow, interactorsDrawAndOnlyXsIsAnError)
 TEST_F(EGLRenderWindow, callsOnASecondThreadAreOneErrorUntilTheFirstReleasesTheContext)
 {
   const auto window = makeWindow(64, 48);
-  window->Render();
-  const auto picture = readPicture(window);
+  const auto picture = drawn(window);
   vtkNew<vtkFloatArray> depths;
   int bits[4];
   vtkNew<vtkWindowToImageFilter> filter;
@@ -424,27 +411,18 @@ TEST_F(EGLRenderWindow, callsOnASecondThreadAreOneErrorUntilTheFirstReleasesTheC
     const std::string errors = this->takeErrors();
     EXPECT_EQ(countErrors(errors), 1) << errors;
     EXPECT_THAT(errors, HasSubstr("call ReleaseCurrent() there first"));
-    window->Render();
-    EXPECT_EQ(readPicture(window), picture);
+    EXPECT_EQ(drawn(window), picture);
   }
 
   window->ReleaseCurrent();
-  std::thread(
-    [&]
-    {
-      window->Render();
-      EXPECT_EQ(readPicture(window), picture);
-    })
-    .join();
-  window->Render();
-  EXPECT_EQ(readPicture(window), picture);
+  std::thread([&] { EXPECT_EQ(drawn(window), picture); }).join();
+  EXPECT_EQ(drawn(window), picture);
 }
 
 TEST_F(EGLRenderWindow, saysOneErrorInAForkedProcess)
 {
   const auto window = makeWindow(64, 48);
-  window->Render();
-  const auto picture = readPicture(window);
+  const auto picture = drawn(window);
   for (const bool isNew : { false, true })
   {
     const pid_t child = fork();
@@ -461,8 +439,7 @@ TEST_F(EGLRenderWindow, saysOneErrorInAForkedProcess)
     waitpid(child, &status, 0);
     EXPECT_EQ(status, 0) << isNew;
   }
-  window->Render();
-  EXPECT_EQ(readPicture(window), picture);
+  EXPECT_EQ(drawn(window), picture);
 }
 
 TEST_F(EGLRenderWindow, noArrayIsOneErrorOfEachMethod)

@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <vector>
 
+using gnomon::test::drawn;
 using gnomon::test::makeSphereScene;
 using gnomon::test::readPicture;
 
@@ -30,8 +31,7 @@ std::vector<unsigned char> draw(vtkRenderWindow* window)
   window->SetMultiSamples(0);
   window->SetSize(320, 240);
   window->AddRenderer(makeSphereScene());
-  window->Render();
-  return readPicture(window);
+  return drawn(window);
 }
 
 } // namespace

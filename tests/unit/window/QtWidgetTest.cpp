@@ -24,8 +24,8 @@
 #include <set>
 #include <thread>
 
+using gnomon::test::drawn;
 using gnomon::test::makeSphereScene;
-using gnomon::test::readPicture;
 
 namespace
 {
@@ -65,8 +65,7 @@ std::vector<unsigned char> drawWithoutDisplay()
   const auto window = gnomon::makeOffScreenWindow();
   window->SetSize(width, height);
   window->AddRenderer(makeSphereScene());
-  window->Render();
-  return readPicture(window);
+  return drawn(window);
 }
 
 } // namespace

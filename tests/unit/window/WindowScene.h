@@ -67,4 +67,11 @@ inline std::vector<unsigned char> readPicture(vtkRenderWindow* window)
   return { first, first + pixels->GetNumberOfValues() };
 }
 
+/// Draw a frame and return its picture.
+inline std::vector<unsigned char> drawn(vtkRenderWindow* window)
+{
+  window->Render();
+  return readPicture(window);
+}
+
 } // namespace gnomon::test
