@@ -59,13 +59,37 @@ void addSpheres(RankView& view, vtkPoints* points, double radius)
   view.renderer->AddActor(actor);
 }
 
-using Split = std::tuple<std::string, Distribution>;
-
-class SharedPicture : public testing::TestWithParam<Split>
+/// Expects no errors but those that a test takes.
+class SharedTest : public testing::Test
 {
 protected:
+  void TearDown() override { EXPECT_EQ(this->messages_.errors().size(), this->errorsTaken_); }
+  /// Expect an error since the last call, and return it.
+  std::string takeError()
+  {
+    EXPECT_EQ(this->messages_.errors().size(), ++this->errorsTaken_);
+    return this->messages_.errors().empty() ? "" : this->messages_.errors().back();
+  }
+
+private:
   tool::VtkMessages messages_;
+  std::size_t errorsTaken_ = 0;
 };
+template <typename Parameter>
+class SharedTestOf
+  : public SharedTest
+  , public testing::WithParamInterface<Parameter>
+{
+};
+
+vtkLight* firstLight(vtkRenderer* renderer)
+{
+  return vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+}
+
+using Split = std::tuple<std::string, Distribution>;
+
+using SharedPicture = SharedTestOf<Split>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SharedPicture,
   testing::Combine(testing::Values("bunny", "atrium", "terrain", "posts"),
@@ -82,7 +106,7 @@ TEST_P(SharedPicture, EqualsThatOfOneProcess)
   scene.change(
     [](vtkRenderer* renderer)
     {
-      auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+      vtkLight* const light = firstLight(renderer);
       double position[3];
       light->GetPosition(position);
       light->SetPosition(position[0] + 0.5, position[1], position[2] + 0.7);
@@ -96,7 +120,6 @@ TEST_P(SharedPicture, EqualsThatOfOneProcess)
       last->SetScale(1.1);
     });
   EXPECT_GT(scene.expectSame(), 0u);
-  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
 /// A scene over a floor, split in blocks.
@@ -108,11 +131,7 @@ tool::Scene boxScene(const std::function<void(tool::SceneLight&)>& shape)
   return scene;
 }
 
-class SharedLights : public testing::TestWithParam<const char*>
-{
-protected:
-  tool::VtkMessages messages_;
-};
+using SharedLights = SharedTestOf<const char*>;
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SharedLights, testing::Values("sun", "spot", "point", "area"),
   [](const testing::TestParamInfo<const char*>& kind) { return std::string(kind.param); });
@@ -136,7 +155,6 @@ TEST_P(SharedLights, EqualThoseOfOneProcess)
     roundRobin());
   EXPECT_GT(scene.expectSame(), 0u);
   EXPECT_EQ(scene.shared().report().lights.front().lightSamples, kind == "area" ? 16 : 1);
-  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
 /// The first process' budget leaves all of them one sample in motion. At rest all samples show.
@@ -168,11 +186,7 @@ TEST(SharedBudget, leavesMotionFewerSamples)
   }
 }
 
-class SharedEdges : public testing::TestWithParam<Split>
-{
-protected:
-  tool::VtkMessages messages_;
-};
+using SharedEdges = SharedTestOf<Split>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SharedEdges,
   testing::Combine(
@@ -195,7 +209,6 @@ TEST_P(SharedEdges, EqualThoseOfOneProcess)
   scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(10.0); });
   smooth("4");
   smooth("64");
-  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
 /// VTK's default sphere and a stone in front of it, over a floor.
@@ -226,11 +239,9 @@ tool::Scene coarseScene()
   return scene;
 }
 
-class SharedTerminators : public testing::TestWithParam<Distribution>
+class SharedTerminators : public SharedTestOf<Distribution>
 {
 protected:
-  tool::VtkMessages messages_;
-
   /// Expect the same pictures without and with smooth terminators, and that these differ in more
   /// than `least` pixels.
   void expectSmooth(SplitScene& scene, std::size_t least)
@@ -247,7 +258,6 @@ protected:
       different += smooth[pixel] != facets[pixel] ? 1 : 0;
     }
     EXPECT_GT(different, least);
-    EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
   }
 };
 
@@ -275,7 +285,7 @@ TEST_P(SharedTerminators, EqualThoseOfOneProcess)
   scene.change(
     [](vtkRenderer* renderer)
     {
-      auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+      vtkLight* const light = firstLight(renderer);
       vtkGnomonLightKeys::SetSetting(light, "light_radius", "4");
       vtkGnomonLightKeys::SetSetting(light, "light_samples", "64");
     });
@@ -336,11 +346,11 @@ private:
   bool fails_ = false;
 };
 vtkStandardNewMacro(FailingActor);
-class SharedFrames : public testing::Test
+
+class SharedFrames : public SharedTest
 {
 protected:
   SplitScene scene_{ tool::loadScene("posts"), blocks() };
-  tool::VtkMessages messages_;
   const int own_ = controller()->GetLocalProcessId();
   const int last_ = controller()->GetNumberOfProcesses() - 1;
   vtkNew<FailingActor> failing_;
@@ -459,7 +469,6 @@ TEST_F(SharedFrames, HoldGlyphsByTheirNumberInAllProcesses)
   this->scene_.change(
     [](vtkRenderer* renderer) { renderer->GetActors()->GetLastActor()->SetScale(-1.0, 1.0, 1.0); });
   expectInstances();
-  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
 TEST_F(SharedFrames, SmoothEdgesBetweenPartsOfAnAssembly)
@@ -489,7 +498,6 @@ TEST_F(SharedFrames, SmoothEdgesBetweenPartsOfAnAssembly)
   this->scene_.smooth("16");
   EXPECT_GT(this->scene_.expectSame(), 0u);
   EXPECT_GT(this->scene_.mixedPixels(), 0u);
-  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
 TEST_F(SharedFrames, TellAllWhyOneFailed)
@@ -497,8 +505,7 @@ TEST_F(SharedFrames, TellAllWhyOneFailed)
   this->failNext();
   this->scene_.shared().draw();
   EXPECT_EQ(this->scene_.shared().report().route, "none");
-  ASSERT_EQ(this->messages_.errors().size(), 1u);
-  const std::string error = this->messages_.errors().front();
+  const std::string error = this->takeError();
   EXPECT_THAT(error, testing::HasSubstr(FailingActor::error));
   if (this->own_ != this->last_)
   {
@@ -508,20 +515,15 @@ TEST_F(SharedFrames, TellAllWhyOneFailed)
   }
   this->failNext();
   this->scene_.shared().draw(); // said once
-  EXPECT_EQ(this->messages_.errors().size(), 1u);
   this->scene_.expectSame();
 }
 
 TEST_F(SharedFrames, RefuseDifferentLights)
 {
-  auto* light =
-    vtkLight::SafeDownCast(this->scene_.shared().renderer->GetLights()->GetItemAsObject(0));
-  light->SetPosition(1.0, 2.0, 10.0 + this->own_);
+  firstLight(this->scene_.shared().renderer)->SetPosition(1.0, 2.0, 10.0 + this->own_);
   this->scene_.shared().draw();
   EXPECT_EQ(this->scene_.shared().report().route, "none");
-  ASSERT_EQ(this->messages_.errors().size(), 1u);
-  EXPECT_THAT(
-    this->messages_.errors().front(), testing::HasSubstr("the processes have different lights"));
+  EXPECT_THAT(this->takeError(), testing::HasSubstr("the processes have different lights"));
 }
 
 TEST_F(SharedFrames, TraceInPlaceOfOtherTechniques)
@@ -529,11 +531,9 @@ TEST_F(SharedFrames, TraceInPlaceOfOtherTechniques)
   this->scene_.shared().pass->SetTechnique("auto");
   this->scene_.expectSame();
   EXPECT_EQ(this->scene_.shared().report().lights.front().technique, "raytraced");
-  EXPECT_TRUE(this->messages_.errors().empty());
   this->scene_.shared().pass->SetTechnique("nsm");
   this->scene_.expectSame();
-  ASSERT_EQ(this->messages_.errors().size(), 1u);
-  EXPECT_THAT(this->messages_.errors().front(),
+  EXPECT_THAT(this->takeError(),
     testing::HasSubstr("'nsm' sees the casters of one process, and several draw this picture"));
 }
 
@@ -544,8 +544,7 @@ TEST_F(SharedFrames, TraceInPlaceOfRefusedTechniques)
   this->scene_.shared().pass->SetSetting("light_samples", "5"); // no square
   this->scene_.shared().draw();
   EXPECT_EQ(this->scene_.shared().report().lights.front().technique, "raytraced");
-  ASSERT_EQ(this->messages_.errors().size(), 1u);
-  EXPECT_THAT(this->messages_.errors().front(), testing::HasSubstr("It uses 'raytraced' instead"));
+  EXPECT_THAT(this->takeError(), testing::HasSubstr("It uses 'raytraced' instead"));
 }
 
 TEST_F(SharedFrames, HaveAllSamplesAtOnce)
@@ -553,7 +552,7 @@ TEST_F(SharedFrames, HaveAllSamplesAtOnce)
   this->scene_.change(
     [](vtkRenderer* renderer)
     {
-      auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+      vtkLight* const light = firstLight(renderer);
       vtkGnomonLightKeys::SetSetting(light, "light_radius", "2");
       vtkGnomonLightKeys::SetSetting(light, "light_samples", "64");
       vtkGnomonLightKeys::SetSetting(light, "moving_samples", "4");
@@ -566,7 +565,6 @@ TEST_F(SharedFrames, HaveAllSamplesAtOnce)
   this->showOwn(true);
   this->scene_.shared().draw();
   EXPECT_EQ(this->scene_.shared().report().lights.front().progress, 1.0);
-  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
 }
 
 TEST_F(SharedFrames, KeepVisibilityIfOneAsks)
@@ -574,8 +572,7 @@ TEST_F(SharedFrames, KeepVisibilityIfOneAsks)
   this->scene_.shared().pass->SetKeepVisibility(this->own_ == 0);
   this->scene_.shared().draw();
   EXPECT_FALSE(this->scene_.shared().pass->GetVisibility().visibility.empty());
-  this->scene_.change([](vtkRenderer* renderer)
-    { vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0))->SwitchOff(); });
+  this->scene_.change([](vtkRenderer* renderer) { firstLight(renderer)->SwitchOff(); });
   this->scene_.shared().draw();
   EXPECT_FALSE(this->scene_.shared().pass->GetVisibility().coverage.empty());
 }
@@ -590,7 +587,7 @@ TEST_F(SharedFrames, CountSurfacesOfOthers)
   this->failNext();
   this->scene_.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(5.0); });
   this->scene_.shared().draw();
-  EXPECT_EQ(this->messages_.errors().size(), 1u);
+  this->takeError();
   this->scene_.expectSame();
 }
 
@@ -625,7 +622,7 @@ TEST_F(SharedFrames, SurviveChangesByChance)
     this->scene_.change(
       [&](vtkRenderer* renderer)
       {
-        auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+        vtkLight* const light = firstLight(renderer);
         switch (change)
         {
           case 0:
@@ -650,11 +647,8 @@ TEST_F(SharedFrames, SurviveChangesByChance)
     this->scene_.shared().draw();
     ASSERT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   }
-  EXPECT_TRUE(this->messages_.errors().empty()) << this->messages_.errors().front();
   this->showOwn(true);
-  auto setLight = [](vtkRenderer* renderer)
-  { vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0))->SetIntensity(1.0); };
-  this->scene_.change(setLight);
+  this->scene_.change([](vtkRenderer* renderer) { firstLight(renderer)->SetIntensity(1.0); });
   this->scene_.expectSame();
 }
 
