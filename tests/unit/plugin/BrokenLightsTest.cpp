@@ -15,59 +15,64 @@ namespace
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void setBox(vtkLight* light, const std::vector<double>& numbers)
+using Break = std::function<void(vtkLight* light)>;
+
+/// Limit a light to a box of these numbers.
+Break box(const std::vector<double>& numbers)
 {
-  light->GetInformation()->Set(
-    vtkGnomonLightKeys::BOX(), numbers.data(), static_cast<int>(numbers.size()));
+  return [=](vtkLight* light)
+  {
+    light->GetInformation()->Set(
+      vtkGnomonLightKeys::BOX(), numbers.data(), static_cast<int>(numbers.size()));
+  };
 }
 
-/// A point light above the floor.
-void makeLamp(vtkLight* light)
+/// Make a light a lamp above the floor.
+Break lamp(const glm::dvec3& place, double coneAngleDegrees = allDirections)
 {
-  light->PositionalOn();
-  light->SetConeAngle(allDirections);
-  light->SetPosition(0.0, 0.0, 5.0);
+  return [=](vtkLight* light)
+  {
+    light->PositionalOn();
+    light->SetConeAngle(coneAngleDegrees);
+    light->SetPosition(place.x, place.y, place.z);
+  };
 }
+const glm::dvec3 above(0.0, 0.0, 5.0);
 
 struct BrokenLight
 {
   const char* name;
-  void (*breakIt)(vtkLight* light);
+  Break breakIt;
   const char* reason; ///< empty if the light casts
 };
 
 const BrokenLight brokenLights[] = {
-  { "lampAtNoPlace", [](vtkLight* l) { makeLamp(l), l->SetPosition(nan, 0.0, 5.0); },
-    "its position is not finite" },
-  { "lampAtInfinity", [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, infinity); },
-    "its position is not finite" },
-  { "lampFarBeyondFloats", [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, 1e300); }, "" },
-  { "spotFarBeyondFloats",
-    [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, 2e18), l->SetConeAngle(30.0); }, "" },
+  { "lampAtNoPlace", lamp({ nan, 0.0, 5.0 }), "its position is not finite" },
+  { "lampAtInfinity", lamp({ 0.0, 0.0, infinity }), "its position is not finite" },
+  { "lampFarBeyondFloats", lamp({ 0.0, 0.0, 1e300 }), "" },
+  { "spotFarBeyondFloats", lamp({ 0.0, 0.0, 2e18 }, 30.0), "" },
   { "spotFarBeyondFloatsThatLooksAway",
     [](vtkLight* l)
     {
-      makeLamp(l), l->SetPosition(0.0, 0.0, 2e18), l->SetConeAngle(30.0);
+      lamp({ 0.0, 0.0, 2e18 }, 30.0)(l);
       l->SetFocalPoint(0.0, 0.0, 4e18);
     },
     "it is far away, and its cone passes the scene by" },
   { "boxFarBeyondFloats",
     [](vtkLight* l)
     {
-      setBox(l, { 1.0, 1.0, 9.0, 0.0, 1.0, 0.0 });
+      box({ 1.0, 1.0, 9.0, 0.0, 1.0, 0.0 })(l);
       l->SetPosition(0.0, 0.0, 2e18);
     },
     "its box begins too far away" },
-  { "lampVeryFar", [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, 1e15); }, "" },
-  { "lampInTheFloor", [](vtkLight* l) { makeLamp(l), l->SetPosition(0.0, 0.0, 0.0); }, "" },
-  { "lampWithoutCone", [](vtkLight* l) { makeLamp(l), l->SetConeAngle(0.0); },
-    "its cone is empty" },
-  { "lampWithNoNumberAsCone", [](vtkLight* l) { makeLamp(l), l->SetConeAngle(nan); },
-    "its cone is empty" },
-  { "lampWithEndlessCone", [](vtkLight* l) { makeLamp(l), l->SetConeAngle(infinity); }, "" },
-  { "spotWithTheThinnestCone", [](vtkLight* l) { makeLamp(l), l->SetConeAngle(1e-300); }, "" },
+  { "lampVeryFar", lamp({ 0.0, 0.0, 1e15 }), "" },
+  { "lampInTheFloor", lamp({ 0.0, 0.0, 0.0 }), "" },
+  { "lampWithoutCone", lamp(above, 0.0), "its cone is empty" },
+  { "lampWithNoNumberAsCone", lamp(above, nan), "its cone is empty" },
+  { "lampWithEndlessCone", lamp(above, infinity), "" },
+  { "spotWithTheThinnestCone", lamp(above, 1e-300), "" },
   { "spotThatLooksNowhere",
-    [](vtkLight* l) { makeLamp(l), l->SetConeAngle(30.0), l->SetFocalPoint(nan, 0.0, 0.0); },
+    [](vtkLight* l) { lamp(above, 30.0)(l), l->SetFocalPoint(nan, 0.0, 0.0); },
     "its position and focal point give no direction" },
   { "sunFromNowhere", [](vtkLight* l) { l->SetFocalPoint(l->GetPosition()); },
     "its position and focal point give no direction" },
@@ -80,69 +85,31 @@ const BrokenLight brokenLights[] = {
     "its shadow attenuation is 0" },
   { "endlessStrength",
     [](vtkLight* l) { l->SetShadowAttenuation(std::numeric_limits<float>::infinity()); }, "" },
-  { "boxWithoutWidth",
-    [](vtkLight* l) {
-      setBox(l, { 0.0, 1.0, 9.0, 0.0, 1.0, 0.0 });
-    },
-    "its box is empty" },
-  { "boxOfNegativeHeight",
-    [](vtkLight* l) {
-      setBox(l, { 1.0, -1.0, 9.0, 0.0, 1.0, 0.0 });
-    },
-    "its box is empty" },
-  { "boxOfEndlessDepth",
-    [](vtkLight* l) {
-      setBox(l, { 1.0, 1.0, infinity, 0.0, 1.0, 0.0 });
-    },
-    "its box is not finite" },
-  { "boxOfNoNumber",
-    [](vtkLight* l) {
-      setBox(l, { nan, 1.0, 9.0, 0.0, 1.0, 0.0 });
-    },
-    "its box is not finite" },
-  { "boxWithoutUp",
-    [](vtkLight* l) {
-      setBox(l, { 1.0, 1.0, 9.0, 0.0, 0.0, 0.0 });
-    },
+  { "boxWithoutWidth", box({ 0.0, 1.0, 9.0, 0.0, 1.0, 0.0 }), "its box is empty" },
+  { "boxOfNegativeHeight", box({ 1.0, -1.0, 9.0, 0.0, 1.0, 0.0 }), "its box is empty" },
+  { "boxOfEndlessDepth", box({ 1.0, 1.0, infinity, 0.0, 1.0, 0.0 }), "its box is not finite" },
+  { "boxOfNoNumber", box({ nan, 1.0, 9.0, 0.0, 1.0, 0.0 }), "its box is not finite" },
+  { "boxWithoutUp", box({ 1.0, 1.0, 9.0, 0.0, 0.0, 0.0 }),
     "its box has its up direction along the light" },
-  { "boxWithUpAlongTheLight",
-    [](vtkLight* l) {
-      setBox(l, { 1.0, 1.0, 9.0, 0.3, 0.2, -1.0 });
-    },
+  { "boxWithUpAlongTheLight", box({ 1.0, 1.0, 9.0, 0.3, 0.2, -1.0 }),
     "its box has its up direction along the light" },
-  { "boxWithNoNumberUp",
-    [](vtkLight* l) {
-      setBox(l, { 1.0, 1.0, 9.0, 0.0, nan, 0.0 });
-    },
-    "its box is not finite" },
-  { "boxOfFiveNumbers",
-    [](vtkLight* l) {
-      setBox(l, { 1.0, 1.0, 9.0, 0.0, 1.0 });
-    },
-    "its box has 5 numbers instead of 6" },
-  { "smallestBox",
-    [](vtkLight* l) {
-      setBox(l, { 1e-300, 1e-300, 1e-300, 0.0, 1.0, 0.0 });
-    },
-    "" },
-  { "largestBox",
-    [](vtkLight* l) {
-      setBox(l, { 1e300, 1e300, 1e300, 0.0, 1.0, 0.0 });
-    },
-    "" },
+  { "boxWithNoNumberUp", box({ 1.0, 1.0, 9.0, 0.0, nan, 0.0 }), "its box is not finite" },
+  { "boxOfFiveNumbers", box({ 1.0, 1.0, 9.0, 0.0, 1.0 }), "its box has 5 numbers instead of 6" },
+  { "smallestBox", box({ 1e-300, 1e-300, 1e-300, 0.0, 1.0, 0.0 }), "" },
+  { "largestBox", box({ 1e300, 1e300, 1e300, 0.0, 1.0, 0.0 }), "" },
   { "boxOfALamp",
     [](vtkLight* l)
     {
-      makeLamp(l);
-      setBox(l, { nan, -1.0, 0.0, 0.0, 0.0, 0.0 }); // lamps have no box
+      lamp(above)(l);
+      box({ nan, -1.0, 0.0, 0.0, 0.0, 0.0 })(l); // lamps have no box
     },
     "" },
-  { "largestRadius", [](vtkLight* l) { makeLamp(l), set(l, "light_radius", "1e300"); },
+  { "largestRadius", [](vtkLight* l) { lamp(above)(l), set(l, "light_radius", "1e300"); },
     "its area is too large" },
   { "largestRadiusBeyondFloats",
     [](vtkLight* l)
     {
-      makeLamp(l), l->SetPosition(0.0, 0.0, 1e20);
+      lamp({ 0.0, 0.0, 1e20 })(l);
       set(l, "light_radius", "1e19");
     },
     "" },

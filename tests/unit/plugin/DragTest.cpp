@@ -3,7 +3,7 @@
 
 #include "PassScene.h"
 
-#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkGenericRenderWindowInteractor.h>
 #include <vtkInteractorEventRecorder.h>
 #include <vtkInteractorStyleFlight.h>
@@ -100,24 +100,27 @@ public:
     this->interactor->SetRenderWindow(this->window);
     this->style.TakeReference(style.make());
     this->interactor->SetInteractorStyle(this->style);
-    this->observe(vtkCommand::CreateTimerEvent,
-      [](DrivenScene& of, int id)
+    onEvent(this->interactor, vtkCommand::CreateTimerEvent,
+      [this](void* id)
       {
         const bool repeats =
-          of.interactor->GetTimerEventType() == vtkRenderWindowInteractor::RepeatingTimer;
-        const double duration = of.loop_ == Loop::X ? of.interactor->GetTimerEventDuration() : 10.0;
-        of.loop_ == Loop::PyQt ? of.timers_.clear() : void();
-        of.timers_[id] = { now() + duration, duration, repeats && of.loop_ == Loop::X };
+          this->interactor->GetTimerEventType() == vtkRenderWindowInteractor::RepeatingTimer;
+        const double duration =
+          this->loop_ == Loop::X ? this->interactor->GetTimerEventDuration() : 10.0;
+        this->loop_ == Loop::PyQt ? this->timers_.clear() : void();
+        this->timers_[*static_cast<int*>(id)] = { now() + duration, duration,
+          repeats && this->loop_ == Loop::X };
       });
-    this->observe(vtkCommand::DestroyTimerEvent,
-      [](DrivenScene& of, int id)
+    onEvent(this->interactor, vtkCommand::DestroyTimerEvent,
+      [this](void* data)
       {
-        if (of.loop_ == Loop::X)
+        const int id = *static_cast<int*>(data);
+        if (this->loop_ == Loop::X)
         {
-          EXPECT_NE(id, of.firing_) << "destroyed inside its own event, as X of 9.1 cannot bear";
-          of.timers_.erase(id);
+          EXPECT_NE(id, this->firing_) << "destroyed inside its own event, as X of 9.1 cannot bear";
+          this->timers_.erase(id);
         }
-        of.loop_ == Loop::PyQt ? of.timers_.clear() : void();
+        this->loop_ == Loop::PyQt ? this->timers_.clear() : void();
       });
     this->interactor->Initialize();
   }
@@ -186,23 +189,6 @@ private:
     return std::chrono::duration<double, std::milli>(
       std::chrono::steady_clock::now().time_since_epoch())
       .count();
-  }
-  void observe(unsigned long event, void (*call)(DrivenScene&, int))
-  {
-    struct Command : vtkCommand
-    {
-      DrivenScene* of;
-      void (*call)(DrivenScene&, int);
-      void Execute(vtkObject*, unsigned long, void* id) override
-      {
-        this->call(*this->of, *static_cast<int*>(id));
-      }
-    };
-    auto* const command = new Command;
-    command->of = this;
-    command->call = call;
-    this->interactor->AddObserver(event, command);
-    command->UnRegister();
   }
 
   Loop loop_;
@@ -322,19 +308,6 @@ protected:
     this->window->SetDesiredUpdateRate(this->interactor->GetStillUpdateRate());
   }
   std::string technique() const { return this->report().lights.at(0).technique; }
-  /// Call at an event of an object, in place of what was called before.
-  void on(vtkObject* object, unsigned long event, const std::function<void()>& call)
-  {
-    this->called_ = call;
-    vtkNew<vtkCallbackCommand> command;
-    command->SetClientData(&this->called_);
-    command->SetCallback([](vtkObject*, unsigned long, void* called, void*)
-      { (*static_cast<std::function<void()>*>(called))(); });
-    object->AddObserver(event, command);
-  }
-
-private:
-  std::function<void()> called_;
 };
 
 /// The first picture at rest comes at once, with one sample a pixel; the next has smooth edges.
@@ -345,8 +318,8 @@ TEST_F(PictureTimer, edgesAreSmoothInTheSecondPictureAtRest)
     this->pass->SetTechnique(technique.c_str());
     this->render();
     std::vector<double> progress;
-    this->on(
-      this->renderer, vtkCommand::EndEvent, [&] { progress.push_back(this->pass->GetProgress()); });
+    onEvent(this->renderer, vtkCommand::EndEvent,
+      [&](void*) { progress.push_back(this->pass->GetProgress()); });
     this->move();
     EXPECT_EQ(progress, std::vector<double>{ 1.0 }) << "in motion";
     const Picture hard = readPicture(this->window);
@@ -363,7 +336,8 @@ TEST_F(PictureTimer, edgesAreSmoothInTheSecondPictureAtRest)
 TEST_F(PictureTimer, thePassMayGoInTheFrameThatTheTimerDraws)
 {
   this->move();
-  this->on(this->renderer, vtkCommand::EndEvent, [this] { this->renderer->SetPass(nullptr); });
+  onEvent(
+    this->renderer, vtkCommand::EndEvent, [this](void*) { this->renderer->SetPass(nullptr); });
   wait(*this, 600.0);
   EXPECT_EQ(this->renderer->GetPass(), nullptr);
 }
@@ -415,16 +389,13 @@ struct Unfinished
 {
   explicit Unfinished(vtkGnomonShadowPass* pass)
   {
-    this->command->SetClientData(this);
-    this->command->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void* milliseconds)
+    onEvent(pass, vtkGnomonShadowPass::PictureUnfinishedEvent,
+      [this](void* data)
       {
-        ++static_cast<Unfinished*>(self)->count;
-        static_cast<Unfinished*>(self)->milliseconds = *static_cast<int*>(milliseconds);
+        ++this->count;
+        this->milliseconds = *static_cast<int*>(data);
       });
-    pass->AddObserver(vtkGnomonShadowPass::PictureUnfinishedEvent, this->command);
   }
-  vtkNew<vtkCallbackCommand> command;
   int count = 0;
   int milliseconds = 0;
 };
@@ -473,7 +444,8 @@ INSTANTIATE_TEST_SUITE_P(Loops, Drag,
 } // namespace
 TEST_F(PictureTimer, aProgramsOwnTimerMayRemoveThePass)
 {
-  this->on(this->interactor, vtkCommand::TimerEvent, [this] { this->renderer->SetPass(nullptr); });
+  onEvent(
+    this->interactor, vtkCommand::TimerEvent, [this](void*) { this->renderer->SetPass(nullptr); });
   this->interactor->CreateOneShotTimer(5);
   this->move();
   wait(*this, 600.0);
@@ -482,7 +454,7 @@ TEST_F(PictureTimer, aProgramsOwnTimerMayRemoveThePass)
 
 TEST_F(PictureTimer, goesOnBesideARepeatingTimerThatRenders)
 {
-  this->on(this->interactor, vtkCommand::TimerEvent, [this] { this->interactor->Render(); });
+  onEvent(this->interactor, vtkCommand::TimerEvent, [this](void*) { this->interactor->Render(); });
   this->interactor->CreateRepeatingTimer(20);
   this->move();
   wait(*this, 600.0);

@@ -8,7 +8,6 @@
 #include "shadowtech/base/TextureMemory.h"
 #include "vtkGnomonShadowSettings.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDepthPeelingPass.h>
 #include <vtkInformation.h>
@@ -250,12 +249,8 @@ TEST_P(LightSamplingOf, lightsAreAsTheyWere)
   const glm::dvec3 position = glm::make_vec3(this->light->GetPosition());
   const vtkMTimeType keysTime = this->light->GetInformation()->GetMTime();
   int modified = 0;
-  vtkNew<vtkCallbackCommand> count;
-  count->SetClientData(&modified);
-  count->SetCallback(
-    [](vtkObject*, unsigned long, void* counter, void*) { ++*static_cast<int*>(counter); });
-  this->light->AddObserver(vtkCommand::ModifiedEvent, count);
-  this->scene.renderer->AddObserver(vtkCommand::ModifiedEvent, count);
+  onEvent(this->light, vtkCommand::ModifiedEvent, [&](void*) { ++modified; });
+  onEvent(this->scene.renderer, vtkCommand::ModifiedEvent, [&](void*) { ++modified; });
   for (int frame = 0; frame < 2; ++frame)
   {
     this->scene.render();
@@ -287,17 +282,6 @@ protected:
     this->box->VisibilityOff();
     this->sphere->VisibilityOff();
   }
-
-  /// Render until the picture is complete.
-  void finish()
-  {
-    int frame = 0;
-    do
-    {
-      this->scene.render();
-      ASSERT_LT(frame++, 20);
-    } while (this->sampling->GetProgress() < 1.0);
-  }
 };
 
 /// The centre's picture comes first, then each point's, once.
@@ -320,35 +304,6 @@ TEST_F(LightSampling, drawsEachPointOnce)
     }
     this->scene.render();
     EXPECT_EQ(this->counting->Count, samples + 1) << "nothing is drawn again";
-  }
-}
-
-/// RefiningTest has the changes of scenes.
-TEST_F(LightSampling, restartsWithWhatItsDelegateShows)
-{
-  this->sampling->SetSamplesPerFrame(4);
-  vtkNew<vtkLight> other;
-  other->SetIntensity(0.1);
-  this->scene.pass->ObeyUseShadowsOn();
-  this->scene.renderer->UseShadowsOn();
-  const std::pair<const char*, std::function<void()>> changes[] = {
-    { "another light", [&] { this->scene.renderer->AddLight(other); } },
-    { "no other light", [&] { this->scene.renderer->RemoveLight(other); } },
-    { "delegate's setting", [&] { this->counting->Modified(); } },
-    { "delegate", [&] { this->sampling->SetDelegatePass(this->scene.pass); } },
-    { "technique", [&] { this->scene.pass->SetTechnique("pcf"); } },
-    { "pass's settings", [&] { this->scene.pass->GetSettings()->SetMapSize(200); } },
-    { "samples of a pixel", [&] { this->scene.window->SetMultiSamples(4); } },
-    { "shadows", [&] { this->scene.renderer->UseShadowsOff(); } },
-  };
-  for (const auto& [what, change] : changes)
-  {
-    this->finish();
-    change();
-    this->scene.render();
-    EXPECT_EQ(this->sampling->GetProgress(), 0.0) << what;
-    this->scene.render();
-    EXPECT_GT(this->sampling->GetProgress(), 0.3) << what;
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include "shadowtech/base/Gl.h"
 
-#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkRenderPass.h>
 #include <vtkTrivialProducer.h>
 
@@ -417,16 +417,9 @@ Acne countAcneOfLamp(const VisibilityImages& kept, const glm::dvec3& lightWorld,
 
 void listenToProgress(vtkObject* teller, std::vector<double>& told)
 {
-  vtkNew<vtkCallbackCommand> listener;
-  listener->SetClientData(&told);
-  listener->SetCallback(
-    [](vtkObject*, unsigned long event, void* list, void* progress)
-    {
-      static_cast<std::vector<double>*>(list)->push_back(
-        event == vtkCommand::EndEvent ? 2.0 : *static_cast<double*>(progress));
-    });
-  teller->AddObserver(vtkCommand::ProgressEvent, listener);
-  teller->AddObserver(vtkCommand::EndEvent, listener);
+  onEvent(teller, vtkCommand::ProgressEvent,
+    [&told](void* progress) { told.push_back(*static_cast<double*>(progress)); });
+  onEvent(teller, vtkCommand::EndEvent, [&told](void*) { told.push_back(2.0); });
 }
 
 Agreement compareVisibility(const VisibilityImages& a, const VisibilityImages& b, std::size_t light)

@@ -155,6 +155,10 @@ TEST_P(Refining, restartsOnceWhenSomethingChanges)
   const auto colour = makeImage(1, 1, [](int, int) { return glm::dvec3(0.5); });
   const auto sky = textureOf(colour);
   vtkNew<vtkGnomonShadowSettings> settings;
+  vtkNew<vtkLight> other;
+  other->SetIntensity(0.1);
+  this->scene.pass->ObeyUseShadowsOn();
+  this->scene.renderer->UseShadowsOn();
   const Change changes[] = {
     { "camera",
       [&] {
@@ -207,6 +211,16 @@ TEST_P(Refining, restartsOnceWhenSomethingChanges)
       } },
     { "one of them",
       [&] { this->isSampling() ? settings->SetMapSize(300) : settings->SetLightSeed(5); } },
+    { "another light", [&] { this->scene.renderer->AddLight(other); }, Concern::Material },
+    { "no other light", [&] { this->scene.renderer->RemoveLight(other); }, Concern::Material },
+    { "samples of a pixel", [&] { this->scene.window->SetMultiSamples(4); }, Concern::Material },
+    { "pass's settings",
+      [&] { this->isSampling() ? this->scene.pass->GetSettings()->SetMapSize(200) : void(); },
+      Concern::Material },
+    { "technique", [&] { this->isSampling() ? this->scene.choose("pcf") : void(); },
+      Concern::Material },
+    { "shadows", [&] { this->scene.renderer->UseShadowsOff(); }, Concern::Material },
+    { "delegate", [&] { this->sampling->SetDelegatePass(nullptr); }, Concern::Material },
   };
   for (const Change& change : changes)
   {

@@ -1,5 +1,6 @@
 #include "Shapes.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
@@ -146,6 +147,17 @@ vtkSmartPointer<vtkTexture> textureOf(vtkImageData* image)
   const auto texture = vtkSmartPointer<vtkTexture>::New();
   texture->SetInputData(image);
   return texture;
+}
+
+void onEvent(vtkObject* object, unsigned long event, const std::function<void(void* data)>& call)
+{
+  using Call = std::function<void(void*)>;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(new Call(call));
+  command->SetClientDataDeleteCallback([](void* data) { delete static_cast<Call*>(data); });
+  command->SetCallback([](vtkObject*, unsigned long, void* function, void* data)
+    { (*static_cast<Call*>(function))(data); });
+  object->AddObserver(event, command);
 }
 
 } // namespace gnomon::test

@@ -65,4 +65,7 @@ vtkSmartPointer<vtkImageData> makeVeil(
   int width, int height, const std::function<int(int, int)>& alphaOf);
 vtkSmartPointer<vtkTexture> textureOf(vtkImageData* image);
 
+/// Call a function at an event of an object, with the event's data.
+void onEvent(vtkObject* object, unsigned long event, const std::function<void(void* data)>& call);
+
 } // namespace gnomon::test
