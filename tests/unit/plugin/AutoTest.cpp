@@ -59,15 +59,6 @@ protected:
 
 } // namespace
 
-TEST_F(Auto, restingPicturesAreExact)
-{
-  EXPECT_STREQ(vtkNew<vtkGnomonShadowPass>()->GetTechnique(), "auto") << "the default";
-  const Picture first = this->rest();
-  EXPECT_EQ(this->technique(), "silhouette");
-  EXPECT_THAT(this->report().choice, HasSubstr("rests"));
-  EXPECT_TRUE(first == this->by("raytraced"));
-}
-
 // A picture at rest shows nothing of the frames in motion.
 TEST_F(Auto, restingPicturesAfterMotionAreThoseOfAFreshPass)
 {

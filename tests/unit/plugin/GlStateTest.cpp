@@ -26,12 +26,10 @@ using State = std::map<std::string, std::vector<double>>;
 State readState()
 {
   State state;
-  const auto add = [&](const std::string& name, GLenum query, std::size_t count)
+  const auto add = [&](const std::string& name, GLenum query)
   {
-    std::vector<double> values(std::max<std::size_t>(count, 16));
-    glGetDoublev(query, values.data());
-    values.resize(count);
-    state[name] = values;
+    state[name].resize(16); // more than any of these has
+    glGetDoublev(query, state[name].data());
   };
 #define NAMED(query) std::pair<const char*, GLenum>(#query, query)
   for (const auto& [name, query] :
@@ -48,27 +46,16 @@ State readState()
       NAMED(GL_POLYGON_OFFSET_UNITS), NAMED(GL_LINE_WIDTH), NAMED(GL_PACK_ALIGNMENT),
       NAMED(GL_PACK_ROW_LENGTH), NAMED(GL_PACK_SKIP_PIXELS), NAMED(GL_PACK_SKIP_ROWS),
       NAMED(GL_UNPACK_ALIGNMENT), NAMED(GL_UNPACK_ROW_LENGTH), NAMED(GL_UNPACK_SKIP_PIXELS),
-      NAMED(GL_UNPACK_SKIP_ROWS), NAMED(GL_ACTIVE_TEXTURE) })
+      NAMED(GL_UNPACK_SKIP_ROWS), NAMED(GL_ACTIVE_TEXTURE), NAMED(GL_DEPTH_RANGE),
+      NAMED(GL_POLYGON_MODE), NAMED(GL_VIEWPORT), NAMED(GL_SCISSOR_BOX), NAMED(GL_COLOR_WRITEMASK),
+      NAMED(GL_COLOR_CLEAR_VALUE), NAMED(GL_DEPTH_TEST), NAMED(GL_SCISSOR_TEST),
+      NAMED(GL_STENCIL_TEST), NAMED(GL_CULL_FACE), NAMED(GL_POLYGON_OFFSET_FILL),
+      NAMED(GL_DEPTH_CLAMP), NAMED(GL_COLOR_LOGIC_OP), NAMED(GL_CLIP_DISTANCE0),
+      NAMED(GL_CLIP_DISTANCE1), NAMED(GL_MULTISAMPLE), NAMED(GL_SAMPLE_ALPHA_TO_COVERAGE),
+      NAMED(GL_FRAMEBUFFER_SRGB), NAMED(GL_RASTERIZER_DISCARD), NAMED(GL_PROGRAM_POINT_SIZE),
+      NAMED(GL_PRIMITIVE_RESTART), NAMED(GL_LINE_SMOOTH) })
   {
-    add(name, query, 1);
-  }
-  for (const auto& [name, query] : { NAMED(GL_DEPTH_RANGE), NAMED(GL_POLYGON_MODE) })
-  {
-    add(name, query, 2);
-  }
-  for (const auto& [name, query] : { NAMED(GL_VIEWPORT), NAMED(GL_SCISSOR_BOX),
-         NAMED(GL_COLOR_WRITEMASK), NAMED(GL_COLOR_CLEAR_VALUE) })
-  {
-    add(name, query, 4);
-  }
-  for (const auto& [name, capability] :
-    { NAMED(GL_DEPTH_TEST), NAMED(GL_SCISSOR_TEST), NAMED(GL_STENCIL_TEST), NAMED(GL_CULL_FACE),
-      NAMED(GL_POLYGON_OFFSET_FILL), NAMED(GL_DEPTH_CLAMP), NAMED(GL_COLOR_LOGIC_OP),
-      NAMED(GL_CLIP_DISTANCE0), NAMED(GL_CLIP_DISTANCE1), NAMED(GL_MULTISAMPLE),
-      NAMED(GL_SAMPLE_ALPHA_TO_COVERAGE), NAMED(GL_FRAMEBUFFER_SRGB), NAMED(GL_RASTERIZER_DISCARD),
-      NAMED(GL_PROGRAM_POINT_SIZE), NAMED(GL_PRIMITIVE_RESTART), NAMED(GL_LINE_SMOOTH) })
-  {
-    state[name] = { glIsEnabled(capability) ? 1.0 : 0.0 };
+    add(name, query);
   }
 #undef NAMED
   for (GLuint i = 0; i < 8; ++i)
@@ -94,12 +81,12 @@ State readState()
   {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     const std::string of = " of unit " + std::to_string(unit);
-    add("GL_TEXTURE_BINDING_2D" + of, GL_TEXTURE_BINDING_2D, 1);
-    add("GL_TEXTURE_BINDING_2D_ARRAY" + of, GL_TEXTURE_BINDING_2D_ARRAY, 1);
-    add("GL_TEXTURE_BINDING_3D" + of, GL_TEXTURE_BINDING_3D, 1);
-    add("GL_TEXTURE_BINDING_CUBE_MAP" + of, GL_TEXTURE_BINDING_CUBE_MAP, 1);
-    add("GL_TEXTURE_BINDING_BUFFER" + of, GL_TEXTURE_BINDING_BUFFER, 1);
-    add("GL_SAMPLER_BINDING" + of, GL_SAMPLER_BINDING, 1);
+    add("GL_TEXTURE_BINDING_2D" + of, GL_TEXTURE_BINDING_2D);
+    add("GL_TEXTURE_BINDING_2D_ARRAY" + of, GL_TEXTURE_BINDING_2D_ARRAY);
+    add("GL_TEXTURE_BINDING_3D" + of, GL_TEXTURE_BINDING_3D);
+    add("GL_TEXTURE_BINDING_CUBE_MAP" + of, GL_TEXTURE_BINDING_CUBE_MAP);
+    add("GL_TEXTURE_BINDING_BUFFER" + of, GL_TEXTURE_BINDING_BUFFER);
+    add("GL_SAMPLER_BINDING" + of, GL_SAMPLER_BINDING);
   }
   glActiveTexture(static_cast<GLenum>(active));
   return state;

@@ -258,7 +258,6 @@ public:
     }
     return actor;
   }
-  vtkActor* ground() { return this->place(squareOf(3.0), 1.0); }
   vtkActor* pane(const glm::dvec3& middle, double opacity, double turn = 0.0,
     const glm::dvec3& colour = glm::dvec3(1.0))
   {
@@ -292,7 +291,7 @@ public:
   vtkNew<vtkRenderStepsPass> steps;
 };
 
-/// A picture of glass.
+/// A picture of glass over a ground, under the sun if it has no lamp.
 struct GlassPicture
 {
   const char* name;
@@ -304,10 +303,6 @@ std::ostream& operator<<(std::ostream& stream, const GlassPicture& of)
   return stream << of.name;
 }
 
-void sun(GlassScene& scene)
-{
-  scene.addSun({ 0.5, 0.3, -1.0 });
-}
 void lamp(GlassScene& scene, const glm::dvec3& place)
 {
   scene.addSpot(place, glm::dvec3(0.0), allDirections);
@@ -315,16 +310,12 @@ void lamp(GlassScene& scene, const glm::dvec3& place)
 
 const GlassPicture glassPictures[] = {
   { "pane",
-    [](GlassScene& scene)
-    {
-      scene.ground();
+    [](GlassScene& scene) {
       scene.pane({ 0.0, 0.0, 1.0 }, 0.4);
-      sun(scene);
     } },
   { "five_panes",
     [](GlassScene& scene)
     {
-      scene.ground();
       for (int i = 0; i < 5; ++i)
       {
         scene.pane({ 0.3 * i - 0.6, 0.0, 0.4 + 0.4 * i }, 0.3, 8.0 * i);
@@ -334,41 +325,32 @@ const GlassPicture glassPictures[] = {
   { "nested_shells",
     [](GlassScene& scene)
     {
-      scene.ground();
       for (int i = 0; i < 4; ++i)
       {
         scene.place(ballOf({ 0.0, 0.0, 1.2 }, 1.1 - 0.25 * i, 32, 16), 0.25);
       }
-      sun(scene);
     } },
   { "ball_in_box",
     [](GlassScene& scene)
     {
-      scene.ground();
       scene.place(boxOf({ -1.0, -1.0, 0.1 }, { 1.0, 1.0, 1.9 }), 0.35);
       scene.place(ballOf({ 0.2, 0.0, 0.9 }, 0.5, 32, 16), 1.0, { 0.9, 0.8, 0.4 });
-      sun(scene);
     } },
   { "stained_panes",
     [](GlassScene& scene)
     {
-      scene.ground();
       scene.pane({ -0.5, 0.0, 1.0 }, 0.7, 20.0, { 1.0, 0.2, 0.1 });
       scene.pane({ 0.5, 0.2, 1.5 }, 0.6, -20.0, { 0.1, 0.4, 1.0 });
-      sun(scene);
     } },
   { "panes_in_a_T",
     [](GlassScene& scene)
     {
-      scene.ground();
       scene.pane({ 0.0, 0.0, 0.8 }, 0.5);
       scene.pane({ 0.0, 0.0, 1.8 }, 0.5, 90.0);
-      sun(scene);
     } },
   { "lamp_in_a_shade",
     [](GlassScene& scene)
     {
-      scene.ground();
       scene.place(ballOf({ 0.0, 0.0, 1.2 }, 0.7, 32, 16), 0.5, { 1.0, 0.7, 0.3 });
       for (int i = 0; i < 5; ++i)
       {
@@ -381,7 +363,6 @@ const GlassPicture glassPictures[] = {
   { "alpha_of_vertices",
     [](GlassScene& scene)
     {
-      scene.ground();
       const vtkSmartPointer<vtkPolyData> data = copyOf(squareOf(1.2, 1.0, 1));
       vtkNew<vtkUnsignedCharArray> colours;
       colours->SetNumberOfComponents(4);
@@ -392,12 +373,10 @@ const GlassPicture glassPictures[] = {
       data->GetPointData()->SetScalars(colours);
       scene.add(data);
       scene.pane({ 0.3, 0.2, 0.5 }, 0.5);
-      sun(scene);
     } },
   { "alpha_of_cells",
     [](GlassScene& scene)
     {
-      scene.ground();
       const vtkSmartPointer<vtkPolyData> data = copyOf(squareOf(1.2, 1.0, 3));
       vtkNew<vtkUnsignedCharArray> colours;
       colours->SetNumberOfComponents(4);
@@ -407,12 +386,10 @@ const GlassPicture glassPictures[] = {
       }
       data->GetCellData()->SetScalars(colours);
       scene.add(data);
-      sun(scene);
     } },
   { "alpha_of_a_texture",
     [](GlassScene& scene)
     {
-      scene.ground();
       vtkActor* const pane = scene.pane({ 0.0, 0.0, 1.0 }, 1.0);
       pane->SetTexture(
         textureOf(makeVeil(4, 4, [](int x, int y) { return 50 * ((x + y) % 4) + 30; })));
@@ -423,12 +400,10 @@ const GlassPicture glassPictures[] = {
         return (50 * ((texel.x + texel.y) % 4) + 30) / 255.0;
       };
       scene.pane({ 0.3, 0.2, 0.5 }, 0.5);
-      sun(scene);
     } },
   { "instances",
     [](GlassScene& scene)
     {
-      scene.ground();
       vtkNew<vtkPolyData> places;
       vtkNew<vtkPoints> points;
       const vtkSmartPointer<vtkCubeSource> box = boxOf(glm::dvec3(-0.3), glm::dvec3(0.3));
@@ -445,21 +420,17 @@ const GlassPicture glassPictures[] = {
         scene.tracer.add(boxes, outputOf(box), glm::translate(glm::dmat4(1.0), at));
       }
       places->SetPoints(points);
-      sun(scene);
     } },
   { "glass_over_an_edge",
     [](GlassScene& scene)
     {
-      scene.ground();
       scene.place(boxOf({ -1.5, -0.2, 0.0 }, { 0.0, 0.2, 1.2 }), 1.0);
       scene.pane({ 0.2, 0.0, 1.6 }, 0.5);
       scene.pane({ -0.3, 0.4, 2.0 }, 0.5, 15.0);
-      sun(scene);
     } },
   { "cabinet",
     [](GlassScene& scene)
     {
-      scene.ground();
       scene.place(boxOf({ -1.4, -0.7, 0.05 }, { 1.4, 0.7, 2.0 }), 0.2, { 0.6, 0.9, 0.8 });
       scene.place(squareOf(0.65, 1.0), 0.3)->SetScale(2.0, 1.0, 1.0);
       scene.place(ballOf({ -0.7, 0.0, 0.4 }, 0.3, 32, 16), 1.0, { 0.8, 0.3, 0.2 });
@@ -474,7 +445,12 @@ using GlassPictures = PassTestOf<GlassPicture>;
 TEST_P(GlassPictures, areThoseOfTheTracer)
 {
   GlassScene scene;
+  scene.place(squareOf(3.0), 1.0); // the ground
   GetParam().fill(scene);
+  if (scene.renderer->GetLights()->GetNumberOfItems() == 0)
+  {
+    scene.addSun({ 0.5, 0.3, -1.0 });
+  }
   const Picture truth = scene.trace();
   const Picture picture = scene.render("raytraced edge_samples=1");
   double squares = 0.0;

@@ -124,33 +124,27 @@ TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)
   EXPECT_LE(sum, this->scene.report().wallMilliseconds);
 }
 
-TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyed)
+TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyedAndBringsNoneOfVtks)
 {
   EXPECT_FALSE(this->scene.pass->GetObeyUseShadows());
   const Picture shadowed = this->scene.render();
-  this->scene.pass->ObeyUseShadowsOn();
+  this->scene.renderer->UseShadowsOn();
+  const vtkMTimeType time = this->scene.renderer->GetMTime();
+  for (const bool obeys : { false, true })
+  {
+    this->scene.pass->SetObeyUseShadows(obeys);
+    EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
+    EXPECT_EQ(this->scene.renderer->GetUseShadows(), 1);
+    EXPECT_EQ(this->scene.renderer->GetMTime(), time);
+  }
+  this->scene.renderer->UseShadowsOff();
   const Picture unshadowed = this->scene.render();
   EXPECT_EQ(this->scene.report().route, "none");
   EXPECT_THAT(this->scene.report().routeReason, HasSubstr("UseShadows"));
-  this->scene.renderer->UseShadowsOn();
-  EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
-  this->scene.renderer->UseShadowsOff();
-  EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
   EXPECT_EQ(differingPixels(unshadowed, this->scene.renderPlain()), 0u);
   EXPECT_GT(differingPixels(shadowed, unshadowed), 300u);
-}
-
-TEST_P(SettingsOfWay, useShadowsDoesNotBringVtksOwn)
-{
-  const Picture own = this->scene.render();
   this->scene.renderer->UseShadowsOn();
-  const vtkMTimeType time = this->scene.renderer->GetMTime();
-  EXPECT_EQ(differingPixels(own, this->scene.render()), 0u);
-  EXPECT_EQ(this->scene.renderer->GetUseShadows(), 1);
-  EXPECT_EQ(this->scene.renderer->GetMTime(), time);
   vtkGnomonLightKeys::SetCasts(this->sun, false);
-  const Picture unshadowed = this->scene.render();
-  this->scene.renderer->UseShadowsOff();
   EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
 }
 

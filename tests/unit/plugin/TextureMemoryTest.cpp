@@ -178,37 +178,3 @@ TEST_F(TextureMemory, mapsThatAreDrawnWithThePictureNameTheirLight)
   scene.pass->SetMapSize(64);
   EXPECT_EQ(differingPixels(coarse, scene.render()), 0u);
 }
-
-/// Each of the maps has room alone, and not all of them together.
-TEST_F(TextureMemory, mapsThatHaveNoRoomTogetherAreAnErrorThatNamesTheFirstLightWithout)
-{
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the address sanitizer ends a program whose address space ends";
-#endif
-  constexpr int large = 4096; // 67 MB
-  constexpr int lights = 8;
-  PassScene scene(100, 80);
-  scene.addSphereOverFloor();
-  for (int i = 0; i < lights; ++i)
-  {
-    scene.addSun({ 0.2 * i - 0.8, 0.3, -1.0 })->SetIntensity(0.1);
-  }
-  const Picture plain = scene.renderPlain();
-  scene.pass->SetMapSize(64);
-  const Picture coarse = scene.render();
-  EXPECT_GT(differingPixels(plain, coarse), 100u);
-  const LiveObjects live = countLiveObjects(scene.window);
-  {
-    const AddressSpace scarce(300u << 20);
-    scene.pass->SetMapSize(large);
-    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-  }
-  const std::string errors = this->takeErrors();
-  EXPECT_THAT(errors, testing::ContainsRegex("light [1-7]: a map of 4096 x 4096 needs 67 MB"));
-  EXPECT_THAT(errors, HasSubstr("is not available; "));
-  EXPECT_TRUE(scene.report().outOfTextureMemory);
-
-  scene.pass->SetMapSize(64);
-  EXPECT_EQ(differingPixels(coarse, scene.render()), 0u);
-  EXPECT_EQ(countLiveObjects(scene.window), live);
-}
