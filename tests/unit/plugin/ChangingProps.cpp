@@ -120,9 +120,12 @@ ChangingProp ofData(vtkSmartPointer<vtkActor> actor = vtkSmartPointer<vtkActor>:
   return prop;
 }
 
-ChangingProp makeWireframe(vtkRenderer*)
+template <int representation>
+ChangingProp makeShown(vtkRenderer*)
 {
-  return ofData<vtkPolyDataMapper>();
+  ChangingProp prop = ofData<vtkPolyDataMapper>();
+  prop.actor->GetProperty()->SetRepresentation(representation);
+  return prop;
 }
 
 ChangingProp makePipeline(vtkRenderer*)
@@ -133,19 +136,11 @@ ChangingProp makePipeline(vtkRenderer*)
   return prop;
 }
 
-ChangingProp makePoints(vtkRenderer*)
+ChangingProp makeLines(vtkRenderer* renderer)
 {
-  ChangingProp prop = ofData<vtkPolyDataMapper>();
-  prop.actor->GetProperty()->SetRepresentationToPoints();
-  return prop;
-}
-
-ChangingProp makeLines(vtkRenderer*)
-{
-  ChangingProp prop = ofData<vtkPolyDataMapper>();
+  ChangingProp prop = makeShown<VTK_SURFACE>(renderer);
   prop.data->SetLines(prop.data->GetPolys());
   prop.data->SetPolys(nullptr);
-  prop.actor->GetProperty()->SetRepresentationToSurface();
   return prop;
 }
 
@@ -199,17 +194,9 @@ ChangingProp makeSplats(vtkRenderer*)
   return prop;
 }
 
-ChangingProp makeSurface(vtkRenderer*)
+ChangingProp makeFence(vtkRenderer* renderer)
 {
-  ChangingProp prop = ofData<vtkPolyDataMapper>();
-  prop.actor->GetProperty()->SetRepresentationToSurface();
-  return prop;
-}
-
-ChangingProp makeFence(vtkRenderer*)
-{
-  ChangingProp prop = ofData<vtkPolyDataMapper>();
-  prop.actor->GetProperty()->SetRepresentationToSurface();
+  ChangingProp prop = makeShown<VTK_SURFACE>(renderer);
   prop.data->GetPointData()->SetScalars(nullptr);
   prop.image = picture();
   prop.actor->SetTexture(textureOf(prop.image));
@@ -257,7 +244,7 @@ ChangingProp makeFollower(vtkRenderer* renderer)
 
 ChangingProp makePropFollower(vtkRenderer* renderer)
 {
-  ChangingProp prop = makeWireframe(renderer);
+  ChangingProp prop = makeShown<VTK_WIREFRAME>(renderer);
   vtkNew<vtkProp3DFollower> follower;
   follower->SetProp3D(prop.leaf);
   follower->SetCamera(renderer->GetActiveCamera());
@@ -298,7 +285,7 @@ ChangingProp makeQuadricActor(vtkRenderer* renderer)
 
 ChangingProp makeAssembly(vtkRenderer* renderer)
 {
-  ChangingProp prop = makeWireframe(renderer);
+  ChangingProp prop = makeShown<VTK_WIREFRAME>(renderer);
   vtkNew<vtkAssembly> assembly;
   assembly->AddPart(prop.leaf);
   prop.prop = assembly;
@@ -331,7 +318,7 @@ ChangingProp inAssembly(ChangingProp prop)
 
 ChangingProp makePropAssembly(vtkRenderer* renderer)
 {
-  ChangingProp prop = inAssembly(makeWireframe(renderer));
+  ChangingProp prop = inAssembly(makeShown<VTK_WIREFRAME>(renderer));
   prop.changePart = [assembly = vtkPropAssembly::SafeDownCast(prop.prop), renderer]
   { assembly->AddPart(makeSlice<vtkImageSliceMapper>(renderer).leaf); };
   return prop;
@@ -400,15 +387,15 @@ vtkLookupTable* tableOf(const ChangingProp& prop)
 //------------------------------------------------------------------------------
 const std::vector<PropKind>& changingProps()
 {
-  static const std::vector<PropKind> kinds = { { "wireframe", makeWireframe },
+  static const std::vector<PropKind> kinds = { { "wireframe", makeShown<VTK_WIREFRAME> },
     { "culled glyphs", makeCulledGlyphs, false }, { "prop assembly", makePropAssembly },
     { "slice", makeSlice<vtkImageSliceMapper> }, { "levels", makeLevels },
     { "prop follower", makePropFollower }, { "blocks", makeBlocks<SharedBlocksMapper> },
     { "pipeline", makePipeline }, { "fence", makeFence }, { "nested assembly", makeNest },
     { "axes", makeAxes }, { "restless", makeActor<RestlessActor> }, { "lines", makeLines },
-    { "points", makePoints }, { "data set", makeDataSet },
+    { "points", makeShown<VTK_POINTS> }, { "data set", makeDataSet },
     { "parts", makeBlocks<vtkCompositePolyDataMapper> }, { "glyphs", makeGlyphs },
-    { "splats", makeSplats }, { "surface", makeSurface },
+    { "splats", makeSplats }, { "surface", makeShown<VTK_SURFACE> },
     { "resliced", makeSlice<vtkImageResliceMapper>, false }, { "stack", makeStack },
     { "follower", makeFollower }, { "level actor", makeActor<vtkLODActor>, false },
     { "quadric actor", makeQuadricActor, false }, { "assembly", makeAssembly },

@@ -55,11 +55,6 @@ vtkStandardNewMacro(CountingPass);
 /// A picture's channels, unrounded.
 using Channels = std::vector<float>;
 
-Channels channelsOf(const Picture& picture)
-{
-  return Channels(picture.rgb.begin(), picture.rgb.end());
-}
-
 double meanOf(const Channels& channels)
 {
   return std::accumulate(channels.begin(), channels.end(), 0.0) /

@@ -26,6 +26,11 @@ Picture readPicture(vtkRenderWindow* window)
   return { size[0], size[1], { first, first + values->GetNumberOfValues() } };
 }
 
+std::vector<float> channelsOf(const Picture& picture)
+{
+  return { picture.rgb.begin(), picture.rgb.end() };
+}
+
 std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance)
 {
   if (a.rgb.size() != b.rgb.size())

@@ -29,6 +29,9 @@ struct Picture
 /// Read the whole window.
 Picture readPicture(vtkRenderWindow* window);
 
+/// Return a picture's channels, of 255.
+std::vector<float> channelsOf(const Picture& picture);
+
 /// Count the pixels in which some channel differs by more than `tolerance` of 255.
 std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance = 0);
 

@@ -5,7 +5,6 @@
 #include "plugin/vtkGnomonLightSamplingPass.h"
 
 #include <set>
-#include <sstream>
 
 using namespace gnomon::test;
 using testing::HasSubstr;
@@ -93,17 +92,6 @@ TEST_F(Settings, techniquesAreListed)
   EXPECT_EQ(vtkGnomonShadowPass::GetTechniqueName(-1), nullptr);
   EXPECT_EQ(
     vtkGnomonShadowPass::GetTechniqueName(vtkGnomonShadowPass::GetNumberOfTechniques()), nullptr);
-}
-
-TEST_F(Settings, numbersAreClamped)
-{
-  vtkNew<vtkGnomonShadowPass> pass;
-  pass->SetMapSize(1 << 20);
-  pass->SetRoute(7);
-  EXPECT_EQ(pass->GetRoute(), static_cast<int>(vtkGnomonShadowPass::ROUTE_DEFERRED));
-  std::ostringstream text;
-  pass->Print(text);
-  EXPECT_THAT(text.str(), HasSubstr("Setting map_size: 16384"));
 }
 
 TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)

@@ -6,6 +6,7 @@
 #include "vtkGnomonShadowSettings.h"
 
 #include <set>
+#include <sstream>
 
 using namespace gnomon::test;
 using testing::HasSubstr;
@@ -53,6 +54,12 @@ TEST_F(ShadowSettingsTest, numbersAreClampedToTheirRange)
   EXPECT_EQ(this->settings->GetMapSize(), 16);
   this->settings->SetMapSize(1000000);
   EXPECT_EQ(this->settings->GetMapSize(), 16384);
+  this->pass->SetMapSize(1 << 20);
+  this->pass->SetRoute(7);
+  EXPECT_EQ(this->pass->GetRoute(), static_cast<int>(vtkGnomonShadowPass::ROUTE_DEFERRED));
+  std::ostringstream text;
+  this->pass->Print(text);
+  EXPECT_THAT(text.str(), HasSubstr("Setting map_size: 16384"));
   this->settings->SetSplitLambda(7.0);
   EXPECT_EQ(this->settings->GetSplitLambda(), 1.0);
   this->settings->SetLightRadius(std::numeric_limits<double>::infinity());
