@@ -202,6 +202,9 @@ TEST_P(LifeCycle, passMovedToAnotherWindowAndBackManyTimes)
       this->draw();
     }));
   EXPECT_EQ(differingPixels(picture, this->scene_.render()), 0u);
+  this->scene_.usePlain();
+  other.renderer->SetPass(this->scene_.pass);
+  EXPECT_EQ(differingPixels(picture, other.render()), 0u) << "by objects of the other window";
 }
 
 TEST_P(LifeCycle, lightSamplingReleasesEverything)
