@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "Files.h"
 #include "FrameVariant.h"
+#include "PictureVisibility.h"
 #include "SettingOptions.h"
 #include "VtkMessages.h"
 

@@ -1,7 +1,7 @@
 #include "Commands.h"
 #include "Errors.h"
 #include "Files.h"
-#include "ImageFile.h"
+#include "ImageDifference.h"
 
 #include <CLI/CLI.hpp>
 

@@ -254,8 +254,7 @@ void Receivers::visitTiles(const std::function<void(const ReceiverTile&)>& visit
       }
       visit({ tile.firstColumn, tile.firstRow, tile.columns, tile.rows,
         drawn ? making.receivers : *this->stored_,
-        drawn ? 0 : tile.firstRow * this->width_ + tile.firstColumn,
-        drawn ? tile.columns : this->width_, making.known });
+        drawn ? 0 : tile.firstRow * this->width_ + tile.firstColumn, making.known });
     });
 }
 

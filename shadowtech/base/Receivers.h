@@ -150,10 +150,7 @@ struct ReceiverTile
   std::size_t firstColumn, firstRow; ///< its lower left pixel in the picture
   std::size_t columns, rows;       ///< fewer than the most at the picture's right and upper border
   const ReceiverPixels& receivers; ///< the tile's alone, or those of the picture
-  ///@{
-  /// Where the tile begins among `receivers`, and the step from a row to the next.
-  std::size_t first, perRow;
-  ///@}
+  std::size_t first;               ///< index of the tile's first receiver
   /// The certainty of each pixel of the tile by its triangle and line, row by row; Uncertain
   /// without a decider. Receivers decided so are left out of `receivers`, as if their pixels showed
   /// nothing.
@@ -168,7 +165,7 @@ struct ReceiverTile
   /// Return the index of a pixel's receiver.
   std::size_t at(std::size_t column, std::size_t row) const
   {
-    return this->first + row * this->perRow + column;
+    return this->first + row * static_cast<std::size_t>(this->receivers.width) + column;
   }
 };
 

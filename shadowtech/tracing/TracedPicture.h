@@ -106,7 +106,7 @@ struct alignas(64) TracedTile
   std::array<Plane<float>, 3> samplesOfRay;
   ///@}
   Plane<std::uint8_t> classes;     ///< TracedClass
-  const ReceiverPixels* receivers; ///< the tile's and perhaps others
+  const ReceiverPixels* receivers; ///< as in ReceiverTile
   std::vector<TurnedPixel> turned; ///< needed ones
 
   std::size_t channels;         ///< of the visibility: 1 or 3

@@ -1,4 +1,5 @@
 #include "Comparison.h"
+#include "PictureVisibility.h"
 
 #include "SyntheticResults.h"
 

@@ -1,6 +1,6 @@
 #include "Commands.h"
 #include "Errors.h"
-#include "ImageFile.h"
+#include "ImageDifference.h"
 #include "TestFiles.h"
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,6 @@
 #include "Commands.h"
 #include "Errors.h"
+#include "ImageDifference.h"
 #include "ImageFile.h"
 #include "SampleFiles.h"
 #include "TestFiles.h"

@@ -49,7 +49,7 @@ TEST(VisibleDepths, AreOfWhatIsInThePicture)
   {
     const DepthRange depths = depthsOf(of.model, of.aspect);
     EXPECT_NEAR(depths.nearest, of.nearest, 1e-6) << of.name;
-    EXPECT_NEAR(depths.farthest, of.farthest, 1e-6 * of.farthest) << of.name;
+    EXPECT_NEAR(depths.farthest, of.farthest, 1e-7 * of.farthest) << of.name;
   }
   const DepthRange none = depthsOf(makeBox({ -1.0, 1.0, 2.0 }, { 1.0, 3.0, 3.0 }), 1.0);
   EXPECT_LT(none.farthest, none.nearest) << "behind the eye";

@@ -95,7 +95,7 @@ std::size_t countReached(
     });
 }
 
-/// Every pixel is traced once, whatever the image's shape.
+/// Images of all shapes: each pixel is traced once.
 TEST(EmbreeTracer, AgreesWithBruteForceOnImagesOfAnyShape)
 {
   using Shapes = std::vector<std::pair<int, int>>;
