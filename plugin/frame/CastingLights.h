@@ -38,6 +38,11 @@ struct CastingLight
   std::size_t edgeSamples() const { return edgeSamplesOf(this->info(), this->light()); }
   /// Return the technique that VTK's shaders call; null if they call none.
   const PointwiseTechnique* pointwise() const;
+  /// Return the one that shaders of surfaces call.
+  const PointwiseTechnique* pointwiseOfSurfaces() const
+  {
+    return this->plan.surfacesFetch ? nullptr : this->pointwise();
+  }
 };
 
 /// The lights of a frame's plan. Each keeps its techniques from frame to frame while it asks for

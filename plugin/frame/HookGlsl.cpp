@@ -1,5 +1,6 @@
 #include "plugin/frame/HookGlsl.h"
 
+#include "plugin/frame/CastingLights.h"
 #include "plugin/frame/EdgeImage.h"
 #include "plugin/frame/FrameShaders.h"
 #include "plugin/frame/TriangleNumbers.h"
@@ -28,41 +29,42 @@ void replace(std::string& source, const std::string& search, const std::string& 
 
 /// Return the expression of one light's visibility. On the image route, translucent surfaces
 /// compute it, as they are in no layer. The deferred route first draws opaque ones as lit.
-std::string visibilityOf(const HookVariant& variant, const ShadedLight& shaded, int light)
+std::string visibilityOf(const HookVariant& variant, const CastingLight& casting, int light)
 {
   const char* const bit = variant.edgeBit == noBit ? "gnomonBit(" : "gnomonSmoothBit(";
   // A visibility of one channel scales the mean colour of the light's texture, or white.
-  const bool isColour = shaded.light.texture || shaded.channels == 3;
-  const std::string even = isColour ? litOf(shaded, light) + " * " : "";
+  const bool isColour = casting.lightInShaders.texture || casting.plan.channels == 3;
+  const std::string even = isColour ? litOf(casting, light) + " * " : "";
   const auto layer = [&](int channel)
-  { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
-  const std::string fetched = variant.route == Route::Deferred ? litOf(shaded, light)
-    : shaded.bit != noBit  ? even + bit + std::to_string(shaded.bit) + ")"
-    : shaded.channels == 3 ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
-                           : even + layer(0);
+  { return "gnomonLayer(" + std::to_string(casting.plan.layer + channel) + ")"; };
+  const std::string fetched = variant.route == Route::Deferred ? litOf(casting, light)
+    : casting.plan.bit != noBit  ? even + bit + std::to_string(casting.plan.bit) + ")"
+    : casting.plan.channels == 3 ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
+                                 : even + layer(0);
   const std::string computed =
     even + "visibility_" + std::to_string(light) + "(gnomonPosition, gnomonNormal)";
   return variant.route == Route::Inline ? computed
-    : shaded.pointwise ? "(gnomonTranslucent == 0 ? " + fetched + " : " + computed + ")"
-                       : fetched;
+    : casting.pointwiseOfSurfaces()
+    ? "(gnomonTranslucent == 0 ? " + fetched + " : " + computed + ")"
+    : fetched;
 }
 
 /// Return the declaration that multiplies a light's colour by its visibility on props that receive.
-std::string multiplicationOf(const ShadedLight& shaded, int light, const std::string& visibility)
+std::string multiplicationOf(const CastingLight& casting, int light, const std::string& visibility)
 {
-  const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
-  const std::string lit = litOf(shaded, light);
+  const std::string colour = "lightColor" + std::to_string(casting.lightInShaders.shaderIndex);
+  const std::string lit = litOf(casting, light);
   return "  vec3 " + colour + " = " + colour + " * (gnomonReceives == 0 ? " + lit + " : mix(" +
     lit + ", " + visibility + ", gnomonStrength" + std::to_string(light) + "));\n";
 }
 
 /// Return the declaration of a light's colour where receivers are in its shadow. Black as a
 /// constant saves the shader most of its second lighting.
-std::string darkeningOf(const ShadedLight& shaded, int light)
+std::string darkeningOf(const CastingLight& casting, int light)
 {
-  return shaded.light.strength < 1.0
-    ? multiplicationOf(shaded, light, "0.0")
-    : "  vec3 lightColor" + std::to_string(shaded.light.shaderIndex) + " = vec3(0.0);\n";
+  return casting.lightInShaders.strength < 1.0
+    ? multiplicationOf(casting, light, "0.0")
+    : "  vec3 lightColor" + std::to_string(casting.lightInShaders.shaderIndex) + " = vec3(0.0);\n";
 }
 
 /// Return statements before VTK's lighting for shaders that draw a solid on a sprite. They replace
@@ -140,29 +142,22 @@ constexpr int mostFetchesOneByOne = 15;
 } // namespace
 
 //------------------------------------------------------------------------------
-bool haveBits(const std::vector<ShadedLight>& lights)
+std::string litOf(const CastingLight& casting, int light)
 {
-  return std::any_of(
-    lights.begin(), lights.end(), [](const ShadedLight& shaded) { return shaded.bit != noBit; });
+  return casting.lightInShaders.texture ? "gnomonLit" + std::to_string(light)
+    : casting.plan.channels == 3        ? "vec3(1.0)"
+                                        : "1.0";
 }
 
 //------------------------------------------------------------------------------
-std::string litOf(const ShadedLight& shaded, int light)
-{
-  return shaded.light.texture ? "gnomonLit" + std::to_string(light)
-    : shaded.channels == 3    ? "vec3(1.0)"
-                              : "1.0";
-}
-
-//------------------------------------------------------------------------------
-HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& lights)
+HookGlsl::HookGlsl(const HookVariant& variant, const CastingLights& lights)
   : variant_(variant)
   , hasLights_(!lights.empty() || variant.skyLayer != noSkyLayer)
   , declarations_(std::string("#define VTK_VIEW_IS_RIGID ") +
       (variant.vtkViewIsRigid ? "1\n" : "0\n") + frameShaders().at("plugin/frame/hook.glsl"))
 {
   const bool asksAtPoints = std::any_of(lights.begin(), lights.end(),
-    [](const ShadedLight& shaded) { return shaded.pointwise != nullptr; });
+    [](const CastingLight& casting) { return casting.pointwiseOfSurfaces() != nullptr; });
   if (asksAtPoints || variant.receiverPoints)
   {
     this->uniformFlow_ = "vec3 gnomonPoint = gnomonInView(vertexVC.xyz);\n"
@@ -174,7 +169,7 @@ HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& l
   }
   if (variant.route == Route::Image)
   {
-    this->addImages(lights);
+    this->addImages();
   }
   if (asksAtPoints)
   {
@@ -207,7 +202,7 @@ HookGlsl::HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& l
 
 //------------------------------------------------------------------------------
 /// Add how shaders find a pixel's visibility in images.
-void HookGlsl::addImages(const std::vector<ShadedLight>& lights)
+void HookGlsl::addImages()
 {
   this->declarations_ += frameShaders().at("plugin/frame/hook_image.glsl");
   if (this->variant_.multisampled)
@@ -233,7 +228,7 @@ void HookGlsl::addImages(const std::vector<ShadedLight>& lights)
   {
     this->declarations_ += frameShaders().at("plugin/frame/hook_layer.glsl");
   }
-  if (haveBits(lights))
+  if (this->variant_.bits > 0)
   {
     this->declarations_ += frameShaders().at("plugin/frame/hook_bits.glsl");
     this->multiplications_ += "  gnomonFetchBits();\n";
@@ -250,32 +245,32 @@ void HookGlsl::addImages(const std::vector<ShadedLight>& lights)
 }
 
 //------------------------------------------------------------------------------
-void HookGlsl::addLights(const std::vector<ShadedLight>& lights)
+void HookGlsl::addLights(const CastingLights& lights)
 {
-  for (std::size_t i = 0; i < lights.size(); ++i)
+  int number = 0;
+  for (const CastingLight& casting : lights)
   {
-    const ShadedLight& shaded = lights[i];
-    const int number = static_cast<int>(i);
-    if (shaded.pointwise)
+    if (const PointwiseTechnique* const called = casting.pointwiseOfSurfaces())
     {
       this->declarations_ +=
-        numberedForLight(shaded.pointwise->visibilityGlsl(shaded.light), number);
+        numberedForLight(called->visibilityGlsl(casting.lightInShaders), number);
     }
-    this->declarations_ += "uniform float gnomonStrength" + std::to_string(i) + ";\n";
-    if (shaded.light.texture)
+    this->declarations_ += "uniform float gnomonStrength" + std::to_string(number) + ";\n";
+    if (casting.lightInShaders.texture)
     {
-      this->declarations_ += "uniform vec3 " + litOf(shaded, number) + ";\n";
+      this->declarations_ += "uniform vec3 " + litOf(casting, number) + ";\n";
     }
     this->multiplications_ +=
-      multiplicationOf(shaded, number, visibilityOf(this->variant_, shaded, number));
+      multiplicationOf(casting, number, visibilityOf(this->variant_, casting, number));
     if (this->variant_.route == Route::Deferred)
     {
-      this->darkenings_ += darkeningOf(shaded, number);
+      this->darkenings_ += darkeningOf(casting, number);
     }
     if (this->variant_.anyCatcher)
     {
-      this->brightenings_ += multiplicationOf(shaded, number, litOf(shaded, number));
+      this->brightenings_ += multiplicationOf(casting, number, litOf(casting, number));
     }
+    ++number;
   }
 }
 

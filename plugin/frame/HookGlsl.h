@@ -1,8 +1,6 @@
 #pragma once
 
-#include "lights/ShadowLight.h"
 #include "plugin/plan/Route.h"
-#include "shadowtech/base/Technique.h"
 #include "shadowtech/base/VisibilityLayers.h"
 
 #include <map>
@@ -11,6 +9,9 @@
 
 namespace gnomon
 {
+
+class CastingLights;
+struct CastingLight;
 
 /// HookVariant::skyLayer without a sky.
 inline constexpr int noSkyLayer = -1;
@@ -26,30 +27,16 @@ struct HookVariant
   bool vtkViewIsRigid = true;  ///< ShownView::viewFromVtkView is the identity
   bool anySeenThrough = false; ///< true if DrawnProps::seenThrough has some
   bool anyCatcher = false;     ///< DrawnProps::anyCatcher
-  int layers = 0;              ///< image route: of visibility
+  int layers = 0;              ///< image route: FramePlan::layers
+  int bits = 0;                ///< image route: FramePlan::bits
   int skyLayer = noSkyLayer;   ///< image route: the layer of the view of the sky
   int edgeBit = noBit;         ///< image route: FramePlan::edgeBit
-  bool translucent = true;     ///< translucent surfaces show shadows
-  bool volumes = false;        ///< samples of volumes show shadows (VolumeHook.h)
+  bool volumes = false;        ///< PicturePlan::shadesVolumes (VolumeHook.h)
 };
 
-/// One casting light, as the shader hook needs it.
-struct ShadedLight
-{
-  ShadowLight light;
-  int channels = 1; ///< of its visibility, a layer each (channelsOf())
-  int layer = 0;    ///< image route: its first visibility layer
-  int bit = noBit;  ///< or its bit in the image of bits
-  /// The technique that the shader calls: on the inline route for all surfaces, on the image route
-  /// for translucent ones, since the layers hold opaque ones. Null if none is needed.
-  const PointwiseTechnique* pointwise = nullptr;
-};
-
-/// True if the visibility of any light is a bit.
-bool haveBits(const std::vector<ShadedLight>& lights);
 /// Return the expression of the factor of a light's colour if nothing hides the light; a uniform if
 /// the light has a texture.
-std::string litOf(const ShadedLight& shaded, int light);
+std::string litOf(const CastingLight& casting, int light);
 
 /// The hook's code in VTK's shaders. Before VTK's light loop it puts, per casting light N,
 ///     vec3 lightColorN = lightColorN * (visibility of light N);
@@ -71,7 +58,7 @@ class HookGlsl
 {
 public:
   HookGlsl() = default;
-  HookGlsl(const HookVariant& variant, const std::vector<ShadedLight>& lights);
+  HookGlsl(const HookVariant& variant, const CastingLights& lights);
 
   bool operator==(const HookGlsl& other) const;
 
@@ -89,8 +76,8 @@ public:
   std::map<std::string, std::vector<std::string>> samplers() const;
 
 private:
-  void addImages(const std::vector<ShadedLight>& lights);
-  void addLights(const std::vector<ShadedLight>& lights);
+  void addImages();
+  void addLights(const CastingLights& lights);
   std::string lightOfSky(const std::string& fragmentShader, const std::string& view) const;
   std::string lightInShadow(const std::string& fragmentShader) const;
   std::string lightWithoutCasters(const std::string& fragmentShader) const;

@@ -31,24 +31,21 @@ Receivers& OwnReceivers::receivers()
 }
 
 //------------------------------------------------------------------------------
-/// Storing receivers takes half as long as tracing from them. From then on an image takes a third
-/// less, and there are boxes by which tiles need no rays. A map that decides whole triangles spares
-/// most receivers of the first two images.
 void OwnReceivers::prepare()
 {
-  constexpr int patience = 2; // frames
   Receivers& receivers = this->receivers();
   ReceiversValue& value = this->frame_.view->receivers;
-  int images = 0;
-  int decidedByMap = 0;
+  TracingFacts facts;
+  facts.frames = ++value.framesTraced;
   for (const CastingLight& casting : this->frame_.lights)
   {
     if (casting.isStale && casting.isOnCpu())
     {
-      ++(casting.info().conservativeMap && casting.own->usesMap() ? decidedByMap : images);
+      const bool byMap = casting.info().conservativeMap && casting.own->usesMap();
+      ++(byMap ? facts.imagesByMaps : facts.images);
     }
   }
-  if (++value.framesTraced > patience || images > 1 || images + decidedByMap > 2)
+  if (storesReceivers(facts))
   {
     const ReceiverPixels& pixels = receivers.all();
     if (!value.boxes)

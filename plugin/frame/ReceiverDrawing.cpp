@@ -76,30 +76,6 @@ struct PropAccess : vtkProp
   }
 };
 
-/// True if a predicate holds for any of a prop's parts.
-/// @param holds called with the part and its mapper, which may be null
-template <typename Predicate>
-bool anyPart(vtkProp* prop, const Predicate& holds)
-{
-  if (isPlainActor(prop))
-  {
-    return holds(prop, static_cast<vtkActor*>(prop)->GetMapper());
-  }
-  vtkNew<vtkPropCollection> actors;
-  prop->GetActors(actors);
-  vtkCollectionSimpleIterator iterator;
-  actors->InitTraversal(iterator);
-  while (vtkProp* part = actors->GetNextProp(iterator))
-  {
-    auto* actor = vtkActor::SafeDownCast(part);
-    if (holds(part, actor ? actor->GetMapper() : nullptr))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// True if a mapper may have shaders that differ from VTK's template, as its class is not listed.
 /// Derived classes write other outputs (vtkSurfaceLICMapper) or draw labels.
 bool mayHaveOwnShaders(vtkMapper* mapper)
@@ -110,6 +86,48 @@ bool mayHaveOwnShaders(vtkMapper* mapper)
     "vtkOpenGLPointGaussianMapper" };
   return std::none_of(usual.begin(), usual.end(),
     [mapper](const char* name) { return std::strcmp(name, mapper->GetClassName()) == 0; });
+}
+
+/// Facts about the shaders of a prop's parts: if any part has it, the prop has it.
+struct PartFacts
+{
+  bool ofUser = false;   ///< code of a user's own
+  bool ofMapper = false; ///< mayHaveOwnShaders()
+  bool physicallyBased = false;
+
+  /// @param actor the part; null if it is none
+  void add(vtkProp* part, vtkActor* actor)
+  {
+    vtkMapper* const mapper = actor ? actor->GetMapper() : nullptr;
+    vtkShaderProperty* const code = PropAccess::shaderProperty(part);
+    this->ofUser = this->ofUser ||
+      (code &&
+        (code->HasVertexShaderCode() || code->HasGeometryShaderCode() ||
+          code->HasFragmentShaderCode() || code->GetNumberOfShaderReplacements() > 0)) ||
+      (mapper && mapper->HasObserver(vtkCommand::UpdateShaderEvent));
+    this->ofMapper = this->ofMapper || (mapper && mayHaveOwnShaders(mapper));
+    this->physicallyBased =
+      this->physicallyBased || (actor && actor->GetProperty()->GetInterpolation() == VTK_PBR);
+  }
+};
+
+PartFacts factsOf(vtkProp* prop)
+{
+  PartFacts facts;
+  if (isPlainActor(prop))
+  {
+    facts.add(prop, static_cast<vtkActor*>(prop));
+    return facts;
+  }
+  vtkNew<vtkPropCollection> actors;
+  prop->GetActors(actors);
+  vtkCollectionSimpleIterator iterator;
+  actors->InitTraversal(iterator);
+  while (vtkProp* const part = actors->GetNextProp(iterator))
+  {
+    facts.add(part, vtkActor::SafeDownCast(part));
+  }
+  return facts;
 }
 
 bool isAssembly(vtkProp* prop)
@@ -142,66 +160,36 @@ bool isLeafDrawnByPasses(vtkProp* leaf)
 //------------------------------------------------------------------------------
 bool hasOwnShaders(vtkProp* prop)
 {
-  return anyPart(prop,
-    [](vtkProp* part, vtkMapper* mapper)
-    {
-      vtkShaderProperty* shaders = PropAccess::shaderProperty(part);
-      return (shaders &&
-               (shaders->HasVertexShaderCode() || shaders->HasGeometryShaderCode() ||
-                 shaders->HasFragmentShaderCode() ||
-                 shaders->GetNumberOfShaderReplacements() > 0)) ||
-        (mapper && mapper->HasObserver(vtkCommand::UpdateShaderEvent));
-    });
+  return factsOf(prop).ofUser;
 }
 
 //------------------------------------------------------------------------------
-std::size_t hashOfShownProps(const vtkRenderState* s, PropStamps& stamps)
+ShownProps readShownProps(const vtkRenderState* s, PropStamps& stamps)
 {
-  std::size_t seed = 0;
+  ShownProps shown;
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
-    vtkProp* prop = s->GetPropArray()[i];
+    vtkProp* const prop = s->GetPropArray()[i];
+    vtkInformation* const keys = prop->GetPropertyKeys();
+    const PartFacts facts = factsOf(prop);
+    shown.ownShaders = shown.ownShaders || facts.ofUser || facts.ofMapper ||
+      (keys && keys->Has(vtkOpenGLRenderPass::RenderPasses()));
+    shown.physicallyBased = shown.physicallyBased || facts.physicallyBased;
+    shown.partsOfBothKinds =
+      shown.partsOfBothKinds || (isAssembly(prop) && drawnByPasses(prop) == ByPasses::Some);
     // Annotations, such as a text with the frame's time, do not change the receivers.
     if (isPlainActor(prop) || (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop)))
     {
-      hashCombine(seed, stamps.of(prop, s->GetRenderer()));
-      if (hasOwnShaders(prop))
+      hashCombine(shown.hash, stamps.of(prop, s->GetRenderer()));
+      if (facts.ofUser)
       {
         static std::atomic<std::size_t> different{ 0 };
-        hashCombine(seed, ++different);
+        hashCombine(shown.hash, ++different);
       }
     }
   }
-  hashCombine(seed, vtkMapper::GetResolveCoincidentTopology()); // no prop's time includes it
-  return seed;
-}
-
-//------------------------------------------------------------------------------
-bool anyPropHasOwnShaders(const vtkRenderState* s)
-{
-  return std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
-    [](vtkProp* prop)
-    {
-      vtkInformation* keys = prop->GetPropertyKeys();
-      return (keys && keys->Has(vtkOpenGLRenderPass::RenderPasses())) || hasOwnShaders(prop) ||
-        anyPart(
-          prop, [](vtkProp*, vtkMapper* mapper) { return mapper && mayHaveOwnShaders(mapper); });
-    });
-}
-
-//------------------------------------------------------------------------------
-bool anyPropIsPhysicallyBased(const vtkRenderState* s)
-{
-  return std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
-    [](vtkProp* prop)
-    {
-      return anyPart(prop,
-        [](vtkProp* part, vtkMapper*)
-        {
-          auto* const actor = vtkActor::SafeDownCast(part);
-          return actor && actor->GetProperty()->GetInterpolation() == VTK_PBR;
-        });
-    });
+  hashCombine(shown.hash, vtkMapper::GetResolveCoincidentTopology()); // no prop's time includes it
+  return shown;
 }
 
 //------------------------------------------------------------------------------
@@ -221,13 +209,6 @@ ByPasses drawnByPasses(vtkProp* prop)
     all = all && is;
   }
   return all ? ByPasses::All : any ? ByPasses::Some : ByPasses::Nothing;
-}
-
-//------------------------------------------------------------------------------
-bool hasPartsOfBothKinds(const vtkRenderState* s)
-{
-  return std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
-    [](vtkProp* prop) { return isAssembly(prop) && drawnByPasses(prop) == ByPasses::Some; });
 }
 
 //------------------------------------------------------------------------------
@@ -266,8 +247,7 @@ void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec
     {
       const WithoutOtherPasses alone(prop, pass);
       prop->RenderOpaqueGeometry(renderer);
-      if (anyPart(
-            prop, [](vtkProp*, vtkMapper* mapper) { return mapper && mayHaveOwnShaders(mapper); }))
+      if (factsOf(prop).ofMapper)
       {
         open();
         target.bind();

@@ -19,16 +19,20 @@ namespace gnomon
 
 class PropStamps;
 
-/// Return a hash of the receivers that props in view show, with one camera and snapshot. Each call
-/// gives another number if a prop has shaders of a user's own.
+/// Facts about the props in view, from one walk before a pass is named in their keys.
+struct ShownProps
+{
+  /// Of the receivers that they show with one camera and snapshot. A prop with shaders of a user's
+  /// own makes it another number in each frame.
+  std::size_t hash = 0;
+  /// A prop has shaders of a user's own, a mapper that may have some, or shaders to which other
+  /// render passes add.
+  bool ownShaders = false;
+  bool physicallyBased = false;  ///< VTK shades a part by its physically based model
+  bool partsOfBothKinds = false; ///< of an assembly: drawnByPasses() is Some
+};
 /// @param stamps of this frame
-std::size_t hashOfShownProps(const vtkRenderState* s, PropStamps& stamps);
-
-/// True if a prop has shaders of a user's own, a mapper that may have some, or shaders to which
-/// other render passes add.
-bool anyPropHasOwnShaders(const vtkRenderState* s);
-/// True if VTK shades a part of a prop by its physically based model.
-bool anyPropIsPhysicallyBased(const vtkRenderState* s);
+ShownProps readShownProps(const vtkRenderState* s, PropStamps& stamps);
 
 /// True if a part of a prop has shaders of a user's own. They may move vertices by uniforms, whose
 /// changes VTK does not time.
@@ -42,8 +46,6 @@ enum class ByPasses
   Some     ///< an assembly of both
 };
 ByPasses drawnByPasses(vtkProp* prop);
-/// True if an assembly of a picture has parts of both kinds.
-bool hasPartsOfBothKinds(const vtkRenderState* s);
 
 /// Draw the opaque props by VTK into the target, whose size is set, each with the shaders of one
 /// pass alone.

@@ -1,6 +1,5 @@
 #include "plugin/frame/ReceiversStage.h"
 
-#include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
 
@@ -35,11 +34,11 @@ bool ReceiversStage::readsPoints() const
 }
 
 //------------------------------------------------------------------------------
-std::size_t ReceiversStage::shownProps(const vtkRenderState* s)
+const ShownProps& ReceiversStage::shownProps(const vtkRenderState* s)
 {
   if (!this->shownProps_)
   {
-    this->shownProps_ = hashOfShownProps(s, this->collector_.stamps());
+    this->shownProps_ = readShownProps(s, this->collector_.stamps());
     const std::vector<std::string> notes = this->collector_.stamps().notes();
     this->frame_.counts.notes.insert(this->frame_.counts.notes.end(), notes.begin(), notes.end());
   }
@@ -53,7 +52,7 @@ ValueKey ReceiversStage::keyOf(const vtkRenderState* s)
   const Scene& scene = this->frame_.scene;
   ValueKey key;
   key.add("the camera", scene.picture.view);
-  key.add(propsPart, this->shownProps(s));
+  key.add(propsPart, this->shownProps(s).hash);
   key.add(snapshotPart, scene.props.casters);
   key.add("what is read of receivers", this->readsPoints());
   key.add("the processes", this->frame_.ranks->serial());
@@ -136,8 +135,8 @@ NumberCheck ReceiversStage::checkNumbers(const vtkRenderState* s)
   ReceiverImages images;
   NumberTruth truth;
   // Parts without numbers may be nearer, and VTK may offset depths.
-  const bool comparesDepths =
-    !hasPartsOfBothKinds(s) && vtkMapper::GetResolveCoincidentTopology() == VTK_RESOLVE_OFF;
+  const bool comparesDepths = !this->shownProps(s).partsOfBothKinds &&
+    vtkMapper::GetResolveCoincidentTopology() == VTK_RESOLVE_OFF;
   const auto read = [&](const auto& from)
   {
     from.read(images);

@@ -4,6 +4,7 @@
 #include "plugin/frame/Frame.h"
 #include "plugin/frame/NumberCheck.h"
 #include "plugin/frame/PassPrograms.h"
+#include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/frame/ValueKey.h"
 #include "plugin/scene/OccluderCollector.h"
 
@@ -31,8 +32,8 @@ public:
     ShaderManager::StageValues& values);
 
   void beginFrame() { this->shownProps_.reset(); }
-  /// Return a hash of the props in view, from one walk a frame.
-  std::size_t shownProps(const vtkRenderState* s);
+  /// Return the facts about the props in view, from one walk a frame.
+  const ShownProps& shownProps(const vtkRenderState* s);
   /// True if anything on the GPU reads the receivers' points.
   bool readsPoints() const;
 
@@ -66,11 +67,11 @@ private:
   OccluderCollector& collector_;
   PassPrograms& programs_;
   ShaderManager::StageValues& values_;
-  std::optional<std::size_t> shownProps_; ///< this frame's, once it is asked for
-  std::optional<ValueKey> due_;           ///< the key of receivers that this frame draws
-  std::size_t numbered_ = 0;              ///< how many images of receivers were drawn
-  std::int64_t wrongByDriver_ = 0;        ///< numbers, while geometry shaders draw receivers
-  int restingFrames_ = 0;                 ///< in a row that kept their receivers
+  std::optional<ShownProps> shownProps_; ///< this frame's, once it is asked for
+  std::optional<ValueKey> due_;          ///< the key of receivers that this frame draws
+  std::size_t numbered_ = 0;             ///< how many images of receivers were drawn
+  std::int64_t wrongByDriver_ = 0;       ///< numbers, while geometry shaders draw receivers
+  int restingFrames_ = 0;                ///< in a row that kept their receivers
 };
 
 } // namespace gnomon

@@ -1,7 +1,6 @@
 #include "plugin/frame/RenderManager.h"
 
 #include "lights/Hash.h"
-#include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/scene/PlainProps.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/vtkGnomonPropKeys.h"
@@ -147,7 +146,7 @@ bool RenderManager::changes(const vtkRenderState* s)
 {
   std::size_t shown = hashOf(this->frame_.scene.lights.set, false);
   hashCombine(shown, this->frame_.scene.picture.view);
-  hashCombine(shown, this->receivers_.shownProps(s));
+  hashCombine(shown, this->receivers_.shownProps(s).hash);
   hashCombine(shown, this->frame_.scene.props.casters.first);
   hashCombine(shown, this->frame_.scene.props.casters.second);
   return std::exchange(this->frame_.view->shown, shown) != shown;
@@ -183,10 +182,11 @@ const FramePlan& RenderManager::plan(
       LightCounts ofMap; // the light's own are those of the technique that is chosen
       technique.updateMaps(map, this->mapStage(true), ofMap);
     },
-    [s]
+    [this, s]
     {
-      return DeferredFacts{ anyPropHasOwnShaders(s), hasPartsOfBothKinds(s),
-        anyPropIsPhysicallyBased(s), DeferredPicture::whyUnsupported() };
+      const ShownProps& shown = this->receivers_.shownProps(s);
+      return DeferredFacts{ shown.ownShaders, shown.partsOfBothKinds, shown.physicallyBased,
+        DeferredPicture::whyUnsupported() };
     });
   if (plan.lights.empty())
   {
@@ -208,13 +208,6 @@ void RenderManager::configureShaders(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
   this->transmittance_.attach();
-  std::vector<ShadedLight> shaded;
-  for (const CastingLight& casting : frame.lights)
-  {
-    const LightPlan& plan = casting.plan;
-    shaded.push_back(
-      { casting.lightInShaders, plan.channels, plan.layer, plan.bit, casting.pointwise() });
-  }
   bool writes = true;
   if (frame.route() != Route::Inline)
   {
@@ -225,10 +218,10 @@ void RenderManager::configureShaders(const vtkRenderState* s)
   this->programs_.shaders.configure(
     { frame.route(), this->receivers_.readsPoints(), frame.scene.picture.samples > 1, writes,
       this->stageValues_.viewFromVtkView == glm::dmat4(1.0), frame.scene.props.seenThrough,
-      frame.scene.props.catcher, frame.plan.layers,
+      frame.scene.props.catcher, frame.plan.layers, frame.plan.bits,
       frame.plan.sky ? frame.plan.sky->layer : noSkyLayer, frame.plan.edgeBit,
-      frame.scene.props.translucent, frame.scene.props.volumes && frame.plan.picture.shadesPoints },
-    shaded);
+      frame.plan.picture.shadesVolumes },
+    frame.lights);
   this->stageValues_.skyLight = frame.plan.sky ? frame.plan.sky->light : glm::vec3(0.0f);
 }
 
@@ -465,7 +458,8 @@ void RenderManager::setShaderParameters(
   drawn.catches = this->frame_.scene.props.catcher && vtkGnomonPropKeys::GetShadowCatcher(prop);
   // The layers of the image route hold what is behind.
   drawn.translucent |= this->frame_.route() == Route::Image && this->collector_.isSeenThrough(prop);
-  drawn.receives = drawn.receives && (!drawn.translucent || this->frame_.plan.picture.shadesPoints);
+  drawn.receives =
+    drawn.receives && (!drawn.translucent || this->frame_.plan.picture.shadesPoints());
   if (!this->stageValues_.receiversStage &&
     !this->shadedView_->isShown(this->frame_.route() != Route::Inline))
   {

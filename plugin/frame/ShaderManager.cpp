@@ -1,5 +1,6 @@
 #include "plugin/frame/ShaderManager.h"
 
+#include "plugin/frame/CastingLights.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
 #include <vtkOpenGLRenderWindow.h>
@@ -25,18 +26,10 @@ GLenum bindingOf(GLenum target)
 } // namespace
 
 //------------------------------------------------------------------------------
-void ShaderManager::configure(const HookVariant& variant, std::vector<ShadedLight> lights)
+void ShaderManager::configure(const HookVariant& variant, const CastingLights& lights)
 {
   VolumeHook volumes = variant.volumes ? VolumeHook(variant.vtkViewIsRigid, lights) : VolumeHook();
-  std::vector<ShadedLight> ofSurfaces = lights;
-  if (variant.route != Route::Inline && !variant.translucent)
-  {
-    for (ShadedLight& shaded : ofSurfaces)
-    {
-      shaded.pointwise = nullptr; // opaque ones fetch
-    }
-  }
-  HookGlsl glsl(variant, ofSurfaces);
+  HookGlsl glsl(variant, lights);
   if (!(glsl == this->glsl_) || !(volumes == this->volumes_))
   {
     this->volumes_ = std::move(volumes);
@@ -44,7 +37,7 @@ void ShaderManager::configure(const HookVariant& variant, std::vector<ShadedLigh
     this->samplers_ = this->glsl_.samplers();
     this->stageTime_.Modified();
   }
-  this->lights_ = std::move(lights);
+  this->lights_ = &lights;
 }
 
 //------------------------------------------------------------------------------
@@ -111,16 +104,17 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   this->stageUniforms_.push_back(
     { "gnomonNormalFromVtkView", glm::mat3(stretch * glm::transpose(glm::inverse(turn))) });
   this->stageUniforms_.push_back({ "gnomonEye", glm::vec4(values.eyeView) });
-  for (std::size_t i = 0; i < this->lights_.size(); ++i)
+  int number = 0;
+  for (const CastingLight& casting : *this->lights_)
   {
-    const ShadowLight& light = this->lights_[i].light;
+    const ShadowLight& light = casting.lightInShaders;
     this->stageUniforms_.push_back(
-      { "gnomonStrength" + std::to_string(i), static_cast<float>(light.strength) });
+      { "gnomonStrength" + std::to_string(number), static_cast<float>(light.strength) });
     if (light.texture)
     {
-      this->stageUniforms_.push_back(
-        { litOf(this->lights_[i], static_cast<int>(i)), light.texture->mean });
+      this->stageUniforms_.push_back({ litOf(casting, number), light.texture->mean });
     }
+    ++number;
   }
   values.receiversStage ? this->separateSamplers() : this->bindVisibility(values);
   // VTK binds a texture that it creates to the active unit.
@@ -156,7 +150,7 @@ void ShaderManager::bindVisibility(const StageValues& values)
     add("gnomonLayers", this->bindTexture(values.layers));
     add("gnomonLayerCount", this->glsl_.variant().layers);
     add("gnomonSkyLight", values.skyLight);
-    if (haveBits(this->lights_))
+    if (this->glsl_.variant().bits > 0)
     {
       add("gnomonBits", this->bindTexture(values.bits));
     }
@@ -169,14 +163,14 @@ void ShaderManager::bindVisibility(const StageValues& values)
       add("gnomonDepths", this->bindTexture(values.depths));
     }
   }
-  for (std::size_t i = 0; i < this->lights_.size(); ++i)
+  int number = 0;
+  for (const CastingLight& casting : *this->lights_)
   {
-    const int light = static_cast<int>(i);
-    if (this->lights_[i].pointwise)
+    if (const PointwiseTechnique* const technique = casting.pointwise())
     {
-      for (Uniform uniform : this->lights_[i].pointwise->uniforms(values.space))
+      for (Uniform uniform : technique->uniforms(values.space))
       {
-        uniform.name = numberedForLight(uniform.name, light);
+        uniform.name = numberedForLight(uniform.name, number);
         if (const auto* texture = std::get_if<TextureBinding>(&uniform.value))
         {
           uniform.value = this->bindTexture(*texture);
@@ -184,6 +178,7 @@ void ShaderManager::bindVisibility(const StageValues& values)
         this->stageUniforms_.push_back(std::move(uniform));
       }
     }
+    ++number;
   }
 }
 

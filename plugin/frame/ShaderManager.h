@@ -31,7 +31,8 @@ class ShaderManager
 public:
   /// Set the tasks of the frame's shaders. If they differ from the last frame's, VTK's mappers
   /// rebuild their shaders (stageTime() changes).
-  void configure(const HookVariant& variant, std::vector<ShadedLight> lights);
+  /// @param lights that last as long as the frame
+  void configure(const HookVariant& variant, const CastingLights& lights);
   vtkMTimeType stageTime() const { return this->stageTime_.GetMTime(); }
 
   /// The frame's GLSL.
@@ -91,7 +92,7 @@ private:
   int rebuilds_ = 0;
   std::set<std::size_t> programs_; ///< hashes of all programs' sources
 
-  std::vector<ShadedLight> lights_;
+  const CastingLights* lights_ = nullptr;
   vtkOpenGLRenderWindow* window_ = nullptr;
   glm::ivec2 layersSize_{ 0 };
   int reductionFactor_ = 1;

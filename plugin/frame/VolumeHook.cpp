@@ -1,5 +1,6 @@
 #include "plugin/frame/VolumeHook.h"
 
+#include "plugin/frame/CastingLights.h"
 #include "plugin/frame/FrameShaders.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
@@ -11,10 +12,10 @@ namespace
 {
 
 /// Return the expression of a light's share that reaches a sample: a number or a colour.
-std::string factorOf(const ShadedLight& shaded, int light)
+std::string factorOf(const CastingLight& casting, int light)
 {
   const std::string number = std::to_string(light);
-  const std::string lit = litOf(shaded, light);
+  const std::string lit = litOf(casting, light);
   return "mix(" + lit + ", " + lit + " * visibilityAt_" + number +
     "(gnomonSample), gnomonStrength" + number + ")";
 }
@@ -53,21 +54,22 @@ ShareCode codeOf(const std::vector<std::pair<int, std::string>>& factors, int ro
 } // namespace
 
 //------------------------------------------------------------------------------
-VolumeHook::VolumeHook(bool viewIsRigid, const std::vector<ShadedLight>& lights)
+VolumeHook::VolumeHook(bool viewIsRigid, const CastingLights& lights)
   : declarations_(std::string("#define VTK_VIEW_IS_RIGID ") + (viewIsRigid ? "1\n" : "0\n") +
       frameShaders().at("plugin/frame/hook.glsl"))
 {
-  for (std::size_t i = 0; i < lights.size(); ++i)
+  int number = 0;
+  for (const CastingLight& casting : lights)
   {
-    const ShadedLight& shaded = lights[i];
-    const int number = static_cast<int>(i);
-    this->declarations_ += numberedForLight(shaded.pointwise->visibilityGlsl(shaded.light), number);
-    this->declarations_ += "uniform float gnomonStrength" + std::to_string(i) + ";\n";
-    if (shaded.light.texture)
+    this->declarations_ +=
+      numberedForLight(casting.pointwise()->visibilityGlsl(casting.lightInShaders), number);
+    this->declarations_ += "uniform float gnomonStrength" + std::to_string(number) + ";\n";
+    if (casting.lightInShaders.texture)
     {
-      this->declarations_ += "uniform vec3 " + litOf(shaded, number) + ";\n";
+      this->declarations_ += "uniform vec3 " + litOf(casting, number) + ";\n";
     }
-    this->factors_.emplace_back(shaded.light.shaderIndex, factorOf(shaded, number));
+    this->factors_.emplace_back(casting.lightInShaders.shaderIndex, factorOf(casting, number));
+    ++number;
   }
   this->declarations_ += frameShaders().at("plugin/frame/hook_volume.glsl");
 }

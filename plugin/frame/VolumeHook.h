@@ -21,7 +21,7 @@ public:
   /// Construct the hook that changes nothing.
   VolumeHook() = default;
   /// @param viewIsRigid HookVariant::vtkViewIsRigid
-  VolumeHook(bool viewIsRigid, const std::vector<ShadedLight>& lights);
+  VolumeHook(bool viewIsRigid, const CastingLights& lights);
 
   bool operator==(const VolumeHook& other) const
   {

@@ -222,8 +222,10 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   for (LightPlan& light : plan.lights)
   {
     const PicturePlan& picture = plan.picture;
-    light.shadedBy = planShading(light, picture.route.route, picture.shadesPoints);
-    planFit(light, picture.route.route, picture.shadesPoints, scene.lights);
+    light.shadedBy = planShading(light, picture.route.route, picture.shadesPoints());
+    light.surfacesFetch =
+      planShading(light, picture.route.route, picture.shadesTranslucent) == ShadedBy::Fetch;
+    planFit(light, picture.route.route, picture.shadesPoints(), scene.lights);
     const bool isTimed = plan.moves && (!light.asked || wishes.isShared); // planAuto() has the rest
     const bool hasAll = scene.picture.severalViews || (wishes.isShared && !plan.moves);
     planSamples(light, hasAll,
@@ -251,6 +253,15 @@ bool writesNumbers(const NumberingFacts& facts)
   constexpr std::size_t leastTriangles = 1000;
   return facts.restingFrames < patience || facts.severalViews ||
     facts.triangles < leastTriangles * facts.surfaces;
+}
+
+//------------------------------------------------------------------------------
+bool storesReceivers(const TracingFacts& facts)
+{
+  constexpr int patience = 2;     // frames
+  constexpr int mostUnstored = 2; // images
+  return facts.frames > patience || facts.images > 1 ||
+    facts.images + facts.imagesByMaps > mostUnstored;
 }
 
 } // namespace gnomon

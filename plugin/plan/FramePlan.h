@@ -84,4 +84,16 @@ struct NumberingFacts
 /// scenes where eight frames pay for it.
 bool writesNumbers(const NumberingFacts& facts);
 
+/// Facts that decide if receivers are stored before rays start from them.
+struct TracingFacts
+{
+  int frames = 0;       ///< in a row, with this one
+  int images = 0;       ///< of lights, in this frame
+  int imagesByMaps = 0; ///< and of lights whose conservative map decides most receivers
+};
+/// True if receivers are stored before rays start from them. Storing takes half as long as tracing
+/// an image. From then on an image takes a third less, and there are boxes by which tiles need no
+/// rays. A map that decides whole triangles spares most receivers of the first two images.
+bool storesReceivers(const TracingFacts& facts);
+
 } // namespace gnomon

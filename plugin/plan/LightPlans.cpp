@@ -247,7 +247,7 @@ LightPlans planLights(const Scene& scene, const FrameWishes& wishes)
     plan.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
     plan.light = std::move(light);
     compose(plan, scene, wishes, plans.misfits);
-    plan.marches = !plan.asked && plan.light.technique == "raytraced";
+    plan.marches = !plan.asked && plan.info().marchesVolumes;
     if (scene.props.transmits)
     {
       traceSheets(plan, scene, wishes, plans);

@@ -57,6 +57,7 @@ struct LightPlan
   int edgeSamples = 1;
   bool edgesFollow = false; ///< true if a frame smooths no edges of visibility that it computes
   ShadedBy shadedBy = ShadedBy::Fetch;
+  bool surfacesFetch = true; ///< shadedBy is for volumes alone
   FitTarget fit = FitTarget::None;
   std::string fitReason; ///< LightReport::fitReason
   ///@}

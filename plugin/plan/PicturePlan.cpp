@@ -169,7 +169,8 @@ PicturePlan planPicture(
     const std::string whyNot = whyNoPoints(lights.size(), plan.route.route, wishes, picture);
     const std::string map =
       points + " show a filtered shadow map ('" + std::string(pointTechnique) + "') of ";
-    plan.shadesPoints = whyNot.empty();
+    plan.shadesTranslucent = whyNot.empty() && scene.props.translucent;
+    plan.shadesVolumes = whyNot.empty() && scene.props.volumes;
     if (!whyNot.empty())
     {
       plan.notes.push_back(points + whyNot);

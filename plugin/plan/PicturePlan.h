@@ -15,9 +15,15 @@ namespace gnomon
 struct PicturePlan
 {
   RouteChoice route;
-  bool isAsTold = true;      ///< false if a route is asked for that cannot be taken
-  bool shadesPoints = false; ///< points in no layer show shadows: translucent surfaces, volumes
+  bool isAsTold = true; ///< false if a route is asked for that cannot be taken
+  ///@{
+  /// The points in no layer that show shadows.
+  bool shadesTranslucent = false; ///< of translucent surfaces
+  bool shadesVolumes = false;     ///< samples of volumes
+  ///@}
   std::vector<std::string> notes; ///< FrameReport::notes
+
+  bool shadesPoints() const { return this->shadesTranslucent || this->shadesVolumes; }
 };
 
 /// Return the first reason against the deferred route that needs no walk over the props, as a

@@ -62,7 +62,7 @@ struct SceneProps
   bool colours = false;        ///< and colours it
 };
 
-/// Further facts for the deferred route. Reading them takes a walk over the props.
+/// Further facts for the deferred route, which a walk over the props in view finds.
 struct DeferredFacts
 {
   bool ownShaders = false;       ///< a prop may have shaders that are not VTK's

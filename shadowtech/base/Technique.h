@@ -59,6 +59,7 @@ struct TechniqueInfo
   /// True if it shows the same without its map. The map saves time if it serves several frames.
   bool mapIsOptional = false;
   bool conservativeMap = false; ///< its map is a conservative one, which the CPU bakes
+  bool marchesVolumes = false;  ///< its rays march through volumes, where others read slices
   /// The kernel's name in the report, for a technique with a filter; empty: the value of the
   /// setting `kernel`.
   std::string kernel = {};

@@ -17,6 +17,7 @@ TechniqueInfo Raytraced::info()
     &refinementSettings() };
   info.refused = { refusedSamples, refusedMovingSamples };
   info.seesTextures = true;
+  info.marchesVolumes = true;
   info.classes = classesOfTracing();
   return info;
 }

@@ -55,6 +55,7 @@ const EstimatorEntry& rays()
   static const EstimatorEntry entry = []
   {
     EstimatorEntry made = estimator("raytraced", Evaluation::ScreenCpu, true);
+    made.info.marchesVolumes = true;
     made.info.settings.push_back(&refinementSettings());
     return made;
   }();
@@ -357,22 +358,24 @@ TEST(Plan, letsTranslucentSurfacesReceive)
   FrameWishes wishes;
   Scene scene;
   scene.deferred = DeferredFacts{};
-  EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints) << "none receives";
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints()) << "none receives";
   scene.props.translucent = true;
-  EXPECT_TRUE(planPicture(one, wishes, scene).shadesPoints);
+  EXPECT_TRUE(planPicture(one, wishes, scene).shadesTranslucent);
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesVolumes);
   EXPECT_THAT(planPicture(one, wishes, scene).notes, Contains(HasSubstr("filtered shadow map")));
   scene.props.volumes = true;
   EXPECT_THAT(planPicture(one, wishes, scene).notes,
     Contains(HasSubstr("translucent surfaces and volumes show a filtered shadow map")));
   scene.props.translucent = false;
-  EXPECT_TRUE(planPicture(one, wishes, scene).shadesPoints);
-  EXPECT_FALSE(planPicture(nine, wishes, scene).shadesPoints);
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesTranslucent);
+  EXPECT_TRUE(planPicture(one, wishes, scene).shadesVolumes);
+  EXPECT_FALSE(planPicture(nine, wishes, scene).shadesPoints());
   EXPECT_THAT(planPicture(nine, wishes, scene).notes, Contains(HasSubstr("8 are the most")));
   scene.picture.drawsMaps = false;
-  EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints);
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints());
   scene.picture.drawsMaps = true;
   wishes.isShared = true;
-  EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints);
+  EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints());
 }
 
 namespace
@@ -798,6 +801,17 @@ TEST(FramePlans, writeNumbersUntilReceiversRest)
   EXPECT_FALSE(writesNumbers({ 3, false, 1000, 1 }));
   EXPECT_TRUE(writesNumbers({ 3, false, 999, 1 })) << "rebuilt shaders cost more";
   EXPECT_TRUE(writesNumbers({ 3, true, 100000, 1 })) << "another view may need them";
+}
+
+TEST(FramePlans, storeReceiversForManyImages)
+{
+  EXPECT_FALSE(storesReceivers({ 1, 1, 1 }));
+  EXPECT_FALSE(storesReceivers({ 2, 1, 0 })) << "the camera may move";
+  EXPECT_TRUE(storesReceivers({ 3, 1, 0 }));
+  EXPECT_TRUE(storesReceivers({ 1, 2, 0 }));
+  EXPECT_FALSE(storesReceivers({ 1, 0, 2 })) << "maps spare most receivers";
+  EXPECT_TRUE(storesReceivers({ 1, 0, 3 }));
+  EXPECT_TRUE(storesReceivers({ 1, 1, 2 }));
 }
 
 } // namespace gnomon

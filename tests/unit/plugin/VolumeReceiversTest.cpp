@@ -2,6 +2,7 @@
 
 #include "PassScene.h"
 
+#include "plugin/frame/CastingLights.h"
 #include "plugin/frame/VolumeHook.h"
 #include "plugin/vtk_versions/VolumeLights.h"
 
@@ -408,13 +409,18 @@ TEST_F(VolumeReceivers, headlightsOfVolumesCast)
 
 TEST(VolumeHookText, hasNoLightThatVtkHasNoRoomFor)
 {
-  const AnyTechnique technique = findEstimator("pcf")->create();
-  ShadedLight near;
-  near.pointwise = std::get<std::unique_ptr<PointwiseTechnique>>(technique).get();
-  ShadedLight far = near;
-  near.light.shaderIndex = 1;
-  far.light.shaderIndex = 6;
-  const VolumeHook hook(true, { near, far });
+  std::vector<LightPlan> plans(2);
+  for (LightPlan& plan : plans)
+  {
+    plan.estimator = plan.resting = findEstimator("pcf");
+    plan.shadedBy = ShadedBy::Own;
+    plan.light.shaderIndex = &plan == &plans.front() ? 1 : 6;
+  }
+  TechniqueCache cache;
+  CastingLights lights;
+  lights.begin(plans, cache);
+  lights.take(plans);
+  const VolumeHook hook(true, lights);
   std::string lit = "uniform vec3 in_lightDiffuseColor[6];\n"
                     "vec4 computeLighting(vec4 color, int component, float label)\n  {\n"
                     "  color.rgb *= in_lightDiffuseColor[0];\n  }\nvoid main()\n{\n";
