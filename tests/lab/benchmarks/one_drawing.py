@@ -7,9 +7,9 @@ FOLDER: scenes of `gnomon scenes --export NAME FOLDER`. Prints a line of CSV for
 and scene, with medians in plain frames, which are drawn in turns: `silhouette` and `nsm`, and three
 ways to draw without the rays. `two drawings`: `silhouette`'s, of triangle numbers and of the
 picture. `records`: that of `nsm`, where each pixel that `silhouette` leaves uncertain appends 16
-bytes a light to a buffer, which is read back. `contributions`: VTK's, into a half-float attachment
-a light and one of triangle numbers, which is read back. The last two lack the drawing that finishes
-the picture.
+bytes a light to a buffer, which is read back; it lacks the drawing that finishes the picture.
+`contributions`: VTK's, into a half-float attachment a light and one of triangle numbers, which is
+read back, and one that adds to the picture what a pixel's bits leave of these.
 """
 
 import csv
@@ -36,7 +36,11 @@ COLUMNS = "silhouette", "nsm", "two drawings", "records", "contributions"
 MOST_RECORDS = 6_000_000
 
 DRAW_FRAMEBUFFER, STORAGE, TEXTURE_2D, COLOUR_0 = 0x8CA9, 0x90D2, 0x0DE1, 0x8CE0
-HALF_RGBA, FLOAT_RG = (0x881A, 0x1908, 0x140B), (0x8230, 0x8227, 0x1406)
+HALF_RGBA, FLOAT_RG, BYTES = (0x881A, 0x1908, 0x140B), (0x8230, 0x8227, 0x1406), (
+    0x8232, 0x8D94, 0x1401)
+BLEND, DEPTH_TEST, TRIANGLES, FIRST_UNIT = 0x0BE2, 0x0B71, 4, 8
+ONE, SOURCE_ALPHA, REST_OF_ALPHA = 1, 0x302, 0x303
+SHADERS = {"vertex": 0x8B31, "fragment": 0x8B30}
 DYNAMIC_DRAW = 0x88E8
 RECORDS_GLSL = """//VTK::System::Dec
 #extension GL_ARB_shader_storage_buffer_object : require
@@ -52,8 +56,34 @@ egl.eglGetProcAddress.restype = ctypes.c_void_p
 Uint, Int, Pointer, Size = ctypes.c_uint, ctypes.c_int, ctypes.c_void_p, ctypes.c_ssize_t
 
 
-def gl(name, *types):
-    return ctypes.CFUNCTYPE(None, *types)(egl.eglGetProcAddress(name.encode()))
+def gl(name, *types, result=None):
+    return ctypes.CFUNCTYPE(result, *types)(egl.eglGetProcAddress(name.encode()))
+
+
+def image(name, size, stored, channels, number, data=None):
+    """Store a 2D texture without levels, which stays bound."""
+    gl("glBindTexture", Uint, Uint)(TEXTURE_2D, name)
+    gl("glTexImage2D", Uint, Int, Int, Int, Int, Int, Uint, Uint, Pointer)(
+        TEXTURE_2D, 0, stored, size, size, 0, channels, number, data)
+    for filtering in 0x2800, 0x2801:
+        gl("glTexParameteri", Uint, Uint, Int)(TEXTURE_2D, filtering, 0x2600)
+
+
+def program_of(**sources):
+    """Link a program of GLSL 1.50 from the sources of its shaders."""
+    program = gl("glCreateProgram", result=Uint)()
+    for kind, source in sources.items():
+        shader = gl("glCreateShader", Uint, result=Uint)(SHADERS[kind])
+        text = ctypes.c_char_p(("#version 150\n" + source).encode())
+        gl("glShaderSource", Uint, Int, Pointer, Pointer)(shader, 1, ctypes.byref(text), None)
+        gl("glCompileShader", Uint)(shader)
+        gl("glAttachShader", Uint, Uint)(program, shader)
+    gl("glLinkProgram", Uint)(program)
+    linked = Int(0)
+    gl("glGetProgramiv", Uint, Uint, Pointer)(program, 0x8B82, ctypes.byref(linked))
+    if not linked.value:
+        raise RuntimeError("the program that finishes the picture does not link")
+    return program
 
 
 def add_glsl(actor, tag, text):
@@ -100,14 +130,23 @@ class Contributions:
     """Attachments beside the picture's: one a sun, and one of triangle numbers."""
 
     def __init__(self, renderer, _share, suns):
-        self.names = (Uint * (suns + 1))()
+        self.names, self.bits, self.corners = (Uint * (suns + 1))(), Uint(0), Uint(0)
         self.numbers = (ctypes.c_float * (2 * SIZE * SIZE))()
+        self.hidden = bytes(pixel // 64 % 2**suns for pixel in range(SIZE)) * SIZE
         gl("glGenTextures", Int, Pointer)(suns + 1, self.names)
+        gl("glGenTextures", Int, Pointer)(1, ctypes.byref(self.bits))
+        gl("glGenVertexArrays", Int, Pointer)(1, ctypes.byref(self.corners))
         for i, name in enumerate(self.names):
-            stored, channels, number = HALF_RGBA if i < suns else FLOAT_RG
-            gl("glBindTexture", Uint, Uint)(TEXTURE_2D, name)
-            gl("glTexImage2D", Uint, Int, Int, Int, Int, Int, Uint, Uint, Pointer)(
-                TEXTURE_2D, 0, stored, SIZE, SIZE, 0, channels, number, None)
+            image(name, SIZE, *(HALF_RGBA if i < suns else FLOAT_RG))
+        self.program = program_of(
+            vertex="void main() { gl_Position = vec4(4.0 * float(gl_VertexID & 1) - 1.0,"
+            " 4.0 * float(gl_VertexID >> 1) - 1.0, 0.0, 1.0); }",
+            fragment="uniform usampler2D bits; out vec4 colour; "
+            + "".join(f"uniform sampler2D ofSun{sun}; " for sun in range(suns))
+            + "void main() { ivec2 pixel = ivec2(gl_FragCoord.xy); colour = vec4(0.0);"
+            " uint hidden = texelFetch(bits, pixel, 0).r;\n"
+            + "".join(f"colour.rgb += float(1u - (hidden >> {sun}u & 1u)) *"
+                      f" texelFetch(ofSun{sun}, pixel, 0).rgb;\n" for sun in range(suns)) + "}")
         outputs = "".join(
             f"gl_FragData[{sun + 1}] = vec4(max(0.0, dot(normalVCVSOutput, -lightDirectionVC{sun}))"
             f" * lightColor{sun} * diffuseColor, 1.0);\n" for sun in range(suns))
@@ -119,7 +158,7 @@ class Contributions:
             actor.GetMapper().AddObserver(
                 "UpdateShaderEvent", lambda *_: self.select(len(self.names) + 1))
         renderer.AddObserver("StartEvent", self.attach)
-        renderer.AddObserver("EndEvent", self.read)
+        renderer.AddObserver("EndEvent", self.finish)
 
     def select(self, count):
         first = range(COLOUR_0, COLOUR_0 + count)
@@ -130,13 +169,43 @@ class Contributions:
             gl("glFramebufferTexture2D", Uint, Uint, Uint, Uint, Int)(
                 DRAW_FRAMEBUFFER, COLOUR_0 + 1 + i, TEXTURE_2D, name, 0)
 
-    def read(self, *_):
+    def finish(self, *_):
         gl("glFinish")()
         gl("glBindTexture", Uint, Uint)(TEXTURE_2D, self.names[-1])
         gl("glGetTexImage", Uint, Int, Uint, Uint, Pointer)(
             TEXTURE_2D, 0, *FLOAT_RG[1:], self.numbers)
-        gl("glBindTexture", Uint, Uint)(TEXTURE_2D, 0)
         self.select(1)
+        self.add()
+
+    def add(self):
+        """Add the contributions that bits leave. VTK's state stays as it was."""
+        before = {name: Int(0) for name in (0x8B8D, 0x85B5)}  # program, vertex array
+        for name, value in before.items():
+            gl("glGetIntegerv", Uint, Pointer)(name, ctypes.byref(value))
+        gl("glUseProgram", Uint)(self.program)
+        images = [*((f"ofSun{i}", name) for i, name in enumerate(self.names[:-1])), ("bits", None)]
+        for unit, (name, texture) in enumerate(images, FIRST_UNIT):
+            gl("glActiveTexture", Uint)(0x84C0 + unit)
+            if texture is None:
+                image(self.bits, SIZE, *BYTES, self.hidden)
+            else:
+                gl("glBindTexture", Uint, Uint)(TEXTURE_2D, texture)
+            at = gl("glGetUniformLocation", Uint, Pointer, result=Int)(self.program, name.encode())
+            gl("glUniform1i", Int, Int)(at, unit)
+        gl("glEnable", Uint)(BLEND)
+        gl("glDisable", Uint)(DEPTH_TEST)
+        gl("glBlendFunc", Uint, Uint)(ONE, ONE)
+        gl("glBindVertexArray", Uint)(self.corners)
+        gl("glDrawArrays", Uint, Int, Int)(TRIANGLES, 0, 3)
+        gl("glBindVertexArray", Uint)(before[0x85B5].value)
+        gl("glUseProgram", Uint)(before[0x8B8D].value)
+        gl("glBlendFuncSeparate", Uint, Uint, Uint, Uint)(
+            SOURCE_ALPHA, REST_OF_ALPHA, ONE, REST_OF_ALPHA)
+        gl("glEnable", Uint)(DEPTH_TEST)
+        for unit in range(FIRST_UNIT + len(images) - 1, FIRST_UNIT - 1, -1):
+            gl("glActiveTexture", Uint)(0x84C0 + unit)
+            gl("glBindTexture", Uint, Uint)(TEXTURE_2D, 0)
+        gl("glActiveTexture", Uint)(0x84C0)
 
     def begin(self):
         pass
