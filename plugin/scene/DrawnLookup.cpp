@@ -93,6 +93,7 @@ void DrawnLookup::clear()
   this->held_.clear();
   this->heldAt_.clear();
   this->plain_.clear();
+  this->plainAt_.clear();
   this->answers_.clear();
   this->taken_.clear();
 }
@@ -102,7 +103,7 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   const glm::dmat4& worldFromModel, std::vector<HeldSurface> held, bool isPlain)
 {
   const std::size_t number = this->held_.size();
-  const auto place = this->heldAt_.emplace(Place{ actor, worldFromModel }, number).first;
+  this->heldAt_.emplace(Place{ actor, worldFromModel }, number);
   const bool isGlyph = held.front().isGlyph;
   if (isGlyph || !isPlainActor(actor))
   {
@@ -113,11 +114,13 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   {
     std::sort(held.begin(), held.end(), isBefore);
   }
-  if (isPlain && held.size() == 1)
+  if (isPlain && held.size() == 1 && this->plainAt_.emplace(actor, this->plain_.size()).second)
   {
-    PlainDrawing& plain = this->plain_[actor];
+    PlainDrawing& plain = this->plain_.emplace_back();
+    plain.prop = actor;
     plain.mapper = mapper;
-    plain.worldFromModel = &place->first.worldFromModel;
+    const glm::dmat4 columns = glm::transpose(worldFromModel);
+    std::copy_n(glm::value_ptr(columns), 16, plain.worldFromModel.begin());
   }
   this->held_.push_back(std::move(held));
 }
@@ -150,9 +153,10 @@ bool DrawnLookup::isAmong(vtkProp* prop, const std::unordered_set<const void*>& 
 //------------------------------------------------------------------------------
 std::size_t DrawnLookup::bytes() const
 {
-  return bytesOf(this->held_) + bytesOfTable(this->heldAt_) + bytesOfTable(this->plain_) +
-    bytesOfTable(this->answers_) + bytesOfTable(this->translucentReceivers_) +
-    bytesOfTable(this->seenThrough_) + bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_) +
+  return bytesOf(this->held_) + bytesOfTable(this->heldAt_) + bytesOf(this->plain_) +
+    bytesOfTable(this->plainAt_) + bytesOfTable(this->answers_) +
+    bytesOfTable(this->translucentReceivers_) + bytesOfTable(this->seenThrough_) +
+    bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_) +
     bytesOfAll(this->held_, bytesOf<HeldSurface>) +
     bytesOfAll(
       this->drawnSurfaces_, [](const DrawnSurface& drawn) { return bytesOf(drawn.blocks); });
@@ -210,16 +214,21 @@ const DrawnLookup::HeldSurface* DrawnLookup::match(
 DrawnLookup::PlainDrawing* DrawnLookup::plainDrawing(
   vtkAbstractMapper* mapper, vtkProp* prop, SurfaceCells cells)
 {
-  const auto known = this->plain_.find(prop);
-  if (known == this->plain_.end() || known->second.mapper != mapper ||
-    cells != SurfaceCells::Polygons)
+  if (this->nextPlain_ >= this->plain_.size() || this->plain_[this->nextPlain_].prop != prop)
   {
-    return nullptr;
+    const auto known = this->plainAt_.find(prop);
+    if (known == this->plainAt_.end())
+    {
+      return nullptr;
+    }
+    this->nextPlain_ = known->second;
   }
+  PlainDrawing& plain = this->plain_[this->nextPlain_++];
   // An assembly that has the actor, too, moves it while it draws.
-  const glm::dmat4 columns = glm::transpose(*known->second.worldFromModel);
-  const double* const first = glm::value_ptr(columns);
-  return std::equal(first, first + 16, prop->GetMatrix()->GetData()) ? &known->second : nullptr;
+  const bool isHere = plain.mapper == mapper && cells == SurfaceCells::Polygons &&
+    std::equal(
+      plain.worldFromModel.begin(), plain.worldFromModel.end(), prop->GetMatrix()->GetData());
+  return isHere ? &plain : nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -121,11 +122,12 @@ private:
   /// A plain prop's polygons, which its mapper draws in the same way until the next clear().
   struct PlainDrawing
   {
+    const vtkProp* prop = nullptr;
     const vtkMapper* mapper = nullptr;
-    const glm::dmat4* worldFromModel = nullptr; ///< in heldAt_
-    DrawnSurface::Block block;                  ///< empty until it is drawn first
-    std::uint32_t frame = 0;                    ///< number of the last one that has drawn it
-    int index = -1;                             ///< into that frame's drawnSurfaces()
+    std::array<double, 16> worldFromModel{}; ///< as VTK has it, row by row
+    DrawnSurface::Block block;               ///< empty until it is drawn first
+    std::uint32_t frame = 0;                 ///< number of the last one that has drawn it
+    int index = -1;                          ///< into that frame's drawnSurfaces()
   };
 
   static bool isAmong(vtkProp* prop, const std::unordered_set<const void*>& drawers);
@@ -138,8 +140,10 @@ private:
 
   std::vector<HeldSurfaces> held_;
   std::unordered_map<Place, std::size_t, PlaceHash> heldAt_; ///< indices into held_
-  std::unordered_map<const vtkProp*, PlainDrawing> plain_;
-  std::uint32_t frame_ = 0; ///< number of the present one
+  std::vector<PlainDrawing> plain_;
+  std::unordered_map<const vtkProp*, std::size_t> plainAt_; ///< indices into plain_
+  std::size_t nextPlain_ = 0; ///< if VTK draws in the order of the snapshot
+  std::uint32_t frame_ = 0;   ///< number of the present one
   std::unordered_map<Question, HookedSurface, QuestionHash> answers_;
   std::unordered_set<const void*> translucentReceivers_;
   std::unordered_set<const void*> seenThrough_;
