@@ -104,6 +104,26 @@ TEST_F(AutoPlans, restingPicturesAreExact)
   EXPECT_THAT(planned.choice, HasSubstr("rests: exact"));
 }
 
+TEST_F(AutoPlans, motionsAfterARestProveTheirChoicesAgain)
+{
+  for (const std::size_t wrong : { 0, 3000 })
+  {
+    SCOPED_TRACE(wrong > 0 ? "maps wait" : "a map is proved");
+    this->picture.moves = true;
+    this->planWith(ofMap(30000, wrong));
+    EXPECT_FALSE(this->plan().needs);
+    EXPECT_GT(wrong > 0 ? this->history.byRays : this->history.byMaps, 0);
+    this->history.lights.at(0).probe.looks = 3; // of a proof that had not ended
+    this->picture.moves = false;
+    this->plan();
+    EXPECT_EQ(this->history.byRays + this->history.byMaps + this->history.patience, 0);
+    this->picture.moves = true;
+    const AutoPlan planned = this->plan();
+    ASSERT_TRUE(planned.needs);
+    EXPECT_EQ(planned.needs->before.looks, 0);
+  }
+}
+
 TEST_F(AutoPlans, mapsAreProvedBeforeTheyAreShown)
 {
   const AutoPlan first = this->plan();

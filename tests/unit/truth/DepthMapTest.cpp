@@ -146,10 +146,8 @@ TEST_F(DepthMap, constantBiasIsAddedInWorldUnits)
 TEST_F(DepthMap, slopeBiasIsAFactorOnWhatASlopeSpans)
 {
   // Only a floor; its depth has one slope.
-  const ShadowLight plain = directionalLight({ 0.6, 0.0, -1.0 });
-  const auto pushedBy = [&](double factor)
+  const auto pushedBy = [](double factor, ShadowLight light = directionalLight({ 0.6, 0.0, -1.0 }))
   {
-    ShadowLight light = plain;
     light.depthMap.biasSlope = factor;
     light.depthMap.biasConstant = 1e-9; // the shader then pushes in all cases
     const BakedDepths<Compare> baked(light, { { makePlane(6.0) } });
@@ -158,6 +156,11 @@ TEST_F(DepthMap, slopeBiasIsAFactorOnWhatASlopeSpans)
   const double once = pushedBy(1.0) - pushedBy(0.0);
   EXPECT_GT(once, 1e-4);
   EXPECT_NEAR(pushedBy(3.0) - pushedBy(0.0), 3.0 * once, 1e-6);
+  ShadowLight below = directionalLight({ 0.6, 0.0, 1.0 });
+  const double first = pushedBy(0.0, below);
+  below.depthMap.surface = DepthSurface::Second;
+  EXPECT_NEAR(first - pushedBy(0.0, below), once, 1e-6)
+    << "what faces away hides no light from itself";
 }
 
 TEST_F(DepthMap, holdsTheSurfaceThatIsAskedFor)
