@@ -204,8 +204,7 @@ public:
   virtual void bake(const MapInput&) {}
   /// Drop the light's maps. Called if they are stale and not baked (TechniqueInfo::mapIsOptional).
   virtual void dropMaps() {}
-  /// Return the bytes on the GPU of the baked maps, and of everything that the technique caches for
-  /// the light.
+  /// Return the bytes of the baked maps, and of everything that the technique caches for the light.
   virtual std::size_t bytesOfMaps() const { return 0; }
 };
 

@@ -15,6 +15,7 @@ public:
   static TechniqueInfo info();
   void computeVisibility(
     const ScreenInput& input, std::vector<float>& visibility, LightCounts& counts) override;
+  std::size_t bytesOfMaps() const override { return this->tree_.bytes(); }
 
 private:
   EdgeTree tree_;

@@ -222,6 +222,15 @@ TEST_F(MemoryBudgetOfPass, theReportSaysWhatIsLeft)
   EXPECT_EQ(this->pass->GetMemoryBudget(), 0.0);
 }
 
+TEST_F(MemoryBudgetOfPass, theReportCountsTheEdgesBetweenAnAreaAndItsReceivers)
+{
+  this->addLamp(0.0, 1.0);
+  this->pass->SetTechnique("penumbra");
+  this->pass->SetSetting("light_radius", "0.5");
+  this->render();
+  EXPECT_GT(this->report().bytesMaps, 0u);
+}
+
 // Memory of lights with named techniques is not available to `auto`.
 TEST_F(MemoryBudgetOfPass, automaticLightsTakeWhatOthersLeave)
 {
