@@ -144,8 +144,7 @@ vtkGnomonAreaLight* addDisk(PassScene& scene, const glm::dvec3& position, const 
   double radius, double coneAngleDegrees)
 {
   vtkNew<vtkGnomonAreaLight> light;
-  light->SetPosition(position.x, position.y, position.z);
-  light->SetFocalPoint(target.x, target.y, target.z);
+  aim(light, position, target);
   light->SetConeAngle(coneAngleDegrees);
   light->SetExponent(0.0);
   light->SetShapeToDisk();

@@ -13,10 +13,6 @@ struct AreaLight
   bool isTextured = false;
   bool followsCamera = false;
 };
-inline std::ostream& operator<<(std::ostream& stream, const AreaLight& light)
-{
-  return stream << light.name;
-}
 /// Return lights of all kinds and shapes.
 const std::vector<AreaLight>& areaLights();
 /// Return those whose place and colour are their own.

@@ -129,8 +129,7 @@ TEST_P(CastingLights, lightsThatFollowTheCameraAreWhereVtkHasThem)
   const glm::dvec3 target = glm::make_vec3(light->GetTransformedFocalPoint());
   light->SetLightTypeToSceneLight();
   light->SetTransformMatrix(nullptr);
-  light->SetPosition(position.x, position.y, position.z);
-  light->SetFocalPoint(target.x, target.y, target.z);
+  aim(light, position, target);
   EXPECT_LE(differingPixels(follows, this->scene.render(), 2), 4u);
   EXPECT_GT(differingPixels(follows, this->scene.renderPlain(), 64), 300u);
 }

@@ -41,11 +41,7 @@ struct Kind
   const char* name;
   vtkLight* (*add)(PassScene&);
 };
-class FittingOfKinds
-  : public Fitting
-  , public testing::WithParamInterface<Kind>
-{
-};
+using FittingOfKinds = PassTestOf<Kind, Fitting>;
 INSTANTIATE_TEST_SUITE_P(Kinds, FittingOfKinds,
   testing::Values(Kind{ "sun",
                     [](PassScene& scene) {

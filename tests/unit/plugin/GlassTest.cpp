@@ -40,11 +40,7 @@ protected:
   vtkLight* sun;
 };
 
-struct TracedGlass
-  : Glass
-  , testing::WithParamInterface<const char*>
-{
-};
+using TracedGlass = PassTestOf<const char*, Glass>;
 
 TEST_P(TracedGlass, LeavesTheProductOfWhatPanesLetThrough)
 {
@@ -79,8 +75,7 @@ TEST_F(Glass, AreaLightsLoseLightSampleBySample)
 {
   this->scene.renderer->RemoveAllLights();
   vtkNew<vtkGnomonAreaLight> lamp;
-  lamp->SetPosition(0.0, 0.0, 8.0);
-  lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  aim(lamp, { 0.0, 0.0, 8.0 });
   lamp->SetPositional(true);
   lamp->SetRadius(2.0);
   this->scene.renderer->AddLight(lamp);
@@ -174,8 +169,7 @@ TEST_F(Glass, ReceiversFollowItsChanges)
 
 TEST_F(Glass, TakesItsShareOfTheSky)
 {
-  this->sun->SetPosition(0.0, 0.0, -1.0); // from below
-  this->sun->SetFocalPoint(0.0, 0.0, 0.0);
+  aim(this->sun, { 0.0, 0.0, -1.0 }); // from below
   this->scene.pass->SetSkyIntensity(1.0);
   this->scene.pass->SetSkyDirections(64);
   EXPECT_EQ(this->scene.redAt(this->scene.render(), 0.0, 0.0), 255);

@@ -27,8 +27,7 @@ protected:
     this->scene.choose(GetParam());
     this->scene.lookDown(4.5);
     this->light = this->scene.addSun(this->travel);
-    this->light->SetPosition(this->start.x, this->start.y, this->start.z);
-    this->light->SetFocalPoint(0.0, 0.0, 0.0);
+    aim(this->light, this->start);
   }
 
   void addCaster(const Box& caster)

@@ -43,8 +43,7 @@ class LightTextures : public PassTest
 protected:
   LightTextures()
   {
-    this->lamp->SetPosition(0.0, 0.0, 10.0);
-    this->lamp->SetFocalPoint(0.0, 0.0, 0.0);
+    aim(this->lamp, { 0.0, 0.0, 10.0 });
     this->lamp->SetConeAngle(50.0);
     this->lamp->SetExponent(0.0);
     this->lamp->SetShapeToRectangle();
@@ -205,8 +204,7 @@ TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
   // The lowest quarter of a lamp beside the floor (green) is below it. The highest quarter (red)
   // counts twice there.
   this->addFloor();
-  this->lamp->SetPosition(-5.0, 0.0, 0.5);
-  this->lamp->SetFocalPoint(0.0, 0.0, 0.5);
+  aim(this->lamp, { -5.0, 0.0, 0.5 }, { 0.0, 0.0, 0.5 });
   this->lamp->SetUp(0.0, 0.0, 1.0);
   this->lamp->SetTexture(
     makeImage(1, 4, [](int, int y) { return y == 0 ? green

@@ -129,11 +129,7 @@ private:
   Pass top_;
 };
 
-class PassChains
-  : public ChainedScene
-  , public testing::WithParamInterface<std::tuple<std::size_t, Way>>
-{
-};
+using PassChains = PassTestOf<std::tuple<std::size_t, Way>, ChainedScene>;
 
 std::string nameOfChain(const testing::TestParamInfo<std::tuple<std::size_t, Way>>& info)
 {

@@ -2,7 +2,6 @@
 
 #include "shadowtech/base/Gl.h"
 
-#include <vtkCommand.h>
 #include <vtkRenderPass.h>
 #include <vtkTrivialProducer.h>
 
@@ -95,8 +94,7 @@ vtkLight* PassScene::addSun(const glm::dvec3& direction)
 {
   vtkNew<vtkLight> light;
   light->SetLightTypeToSceneLight();
-  light->SetPosition(-direction.x, -direction.y, -direction.z);
-  light->SetFocalPoint(0.0, 0.0, 0.0);
+  aim(light, -direction);
   this->renderer->AddLight(light);
   return light;
 }
@@ -106,8 +104,7 @@ vtkLight* PassScene::addSpot(
 {
   vtkNew<vtkLight> light;
   light->SetLightTypeToSceneLight();
-  light->SetPosition(position.x, position.y, position.z);
-  light->SetFocalPoint(target.x, target.y, target.z);
+  aim(light, position, target);
   light->SetPositional(true);
   light->SetConeAngle(coneAngleDegrees);
   light->SetExponent(0.0); // no fall-off inside the cone
@@ -212,10 +209,10 @@ Picture PassScene::render(const Way& way)
   return this->render();
 }
 
-Picture PassScene::renderPlain()
+Picture PassScene::renderBy(vtkRenderPass* by)
 {
   const vtkSmartPointer<vtkRenderPass> before = this->renderer->GetPass();
-  this->usePlain();
+  this->renderer->SetPass(by);
   Picture picture = this->render();
   this->renderer->SetPass(before);
   return picture;
@@ -257,11 +254,14 @@ FloorCheck BoxScene::check(const Picture& picture, double band) const
   return checkFloor(*this, picture, floorUnderSun(this->box, this->extent), band);
 }
 
-SunAndSpotScene::SunAndSpotScene(int width, int height)
+SphereUnderSun::SphereUnderSun(int width, int height)
   : PassScene(width, height)
 {
-  this->addSphereOverFloor();
-  this->addSun({ 1.0, 0.3, -1.5 });
+}
+
+SunAndSpotScene::SunAndSpotScene(int width, int height)
+  : SphereUnderSun(width, height)
+{
   this->addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
 }
 
@@ -307,27 +307,22 @@ FloorCheck checkFloor(
   return check;
 }
 
+std::pair<double, double> spanIn(
+  const Box& box, const glm::dvec3& start, const glm::dvec3& ray, double end)
+{
+  // Along a face, quotients are infinite, of unlike signs between both faces.
+  const glm::dvec3 a = (box.lower - start) / ray;
+  const glm::dvec3 b = (box.upper - start) / ray;
+  const glm::dvec3 enter = glm::min(a, b);
+  const glm::dvec3 leave = glm::max(a, b);
+  return { std::max({ 0.0, enter.x, enter.y, enter.z }),
+    std::min({ end, leave.x, leave.y, leave.z }) };
+}
+
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
   const glm::dvec3& upper, double end)
 {
-  const glm::dvec3 origin(floor, 0.0);
-  double first = 0.0;
-  double last = end;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (toLight[axis] == 0.0)
-    {
-      if (origin[axis] < lower[axis] || origin[axis] > upper[axis])
-      {
-        return false;
-      }
-      continue;
-    }
-    const double a = (lower[axis] - origin[axis]) / toLight[axis];
-    const double b = (upper[axis] - origin[axis]) / toLight[axis];
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
-  }
+  const auto [first, last] = spanIn({ lower, upper }, glm::dvec3(floor, 0.0), toLight, end);
   return first <= last;
 }
 
@@ -415,13 +410,6 @@ Acne countAcneOfLamp(const VisibilityImages& kept, const glm::dvec3& lightWorld,
     kept, [&](const glm::dvec3& position) { return lightWorld - position; }, leastCosine);
 }
 
-void listenToProgress(vtkObject* teller, std::vector<double>& told)
-{
-  onEvent(teller, vtkCommand::ProgressEvent,
-    [&told](void* progress) { told.push_back(*static_cast<double*>(progress)); });
-  onEvent(teller, vtkCommand::EndEvent, [&told](void*) { told.push_back(2.0); });
-}
-
 Agreement compareVisibility(const VisibilityImages& a, const VisibilityImages& b, std::size_t light)
 {
   Agreement result;
@@ -477,6 +465,12 @@ std::size_t countBetween(const std::vector<float>& visibility)
 {
   return static_cast<std::size_t>(std::count_if(
     visibility.begin(), visibility.end(), [](float v) { return v > 0.0f && v < 1.0f; }));
+}
+
+void aim(vtkLight* light, const glm::dvec3& position, const glm::dvec3& target)
+{
+  light->SetPosition(position.x, position.y, position.z);
+  light->SetFocalPoint(target.x, target.y, target.z);
 }
 
 vtkLight* lightOf(vtkRenderer* renderer, int index)

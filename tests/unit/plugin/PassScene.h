@@ -137,8 +137,11 @@ public:
   Picture render(const char* text);
   Picture render(const Way& way);
   ///@}
-  /// Draw a frame without a pass, which the renderer then gets back.
-  Picture renderPlain();
+  ///@{
+  /// Draw a frame by another pass, or without one. The renderer then gets its pass back.
+  Picture renderBy(vtkRenderPass* pass);
+  Picture renderPlain() { return this->renderBy(nullptr); }
+  ///@}
 
   ///@{
   /// Draw by Gnomon's pass or without a pass.
@@ -218,8 +221,17 @@ struct BoxScene : PassScene
   vtkLight* sun;
 };
 
-/// A sphere over a floor, under a sun and a spot light.
-struct SunAndSpotScene : PassScene
+/// A sphere over a floor, under a sun.
+struct SphereUnderSun : PassScene
+{
+  SphereUnderSun(int width, int height);
+
+  vtkActor* sphere = this->addSphereOverFloor();
+  vtkLight* sun = this->addSun({ 1.0, 0.3, -1.5 });
+};
+
+/// The same with a spot light.
+struct SunAndSpotScene : SphereUnderSun
 {
   SunAndSpotScene(int width, int height);
 };
@@ -232,13 +244,14 @@ ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& dir
 FloorCheck checkFloor(
   const PassScene& scene, const Picture& picture, const ExactFloor& exact, double band);
 
+/// Return the first and last t from 0 to `end` at which start + t * ray is in the box; the last is
+/// the smaller one if there is none.
+std::pair<double, double> spanIn(
+  const Box& box, const glm::dvec3& start, const glm::dvec3& ray, double end = 1e300);
 /// True if the ray from a floor point towards the light, p + t * toLight for t from 0 to `end`,
 /// meets the box.
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
   const glm::dvec3& upper, double end = 1e300);
-
-/// Append the progress that a pass reports to `told`, and 2 at its end.
-void listenToProgress(vtkObject* teller, std::vector<double>& told);
 
 /// The cone angle of a light that shines in all directions, in degrees.
 inline constexpr double allDirections = 180.0;
@@ -343,6 +356,8 @@ inline void set(vtkLight* light, const char* name, const char* value)
 {
   vtkGnomonLightKeys::SetSetting(light, name, value);
 }
+/// Put a light at a position, looking at a target.
+void aim(vtkLight* light, const glm::dvec3& position, const glm::dvec3& target = glm::dvec3(0.0));
 /// Return the light with this place among the renderer's.
 vtkLight* lightOf(vtkRenderer* renderer, int index = 0);
 
@@ -357,9 +372,9 @@ protected:
   tool::VtkMessages messages_;
   std::size_t errorsTaken_ = 0;
 };
-template <typename Parameter>
+template <typename Parameter, typename Fixture = PassTest>
 class PassTestOf
-  : public PassTest
+  : public Fixture
   , public testing::WithParamInterface<Parameter>
 {
 };

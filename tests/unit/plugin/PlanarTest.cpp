@@ -251,11 +251,7 @@ const PlanarScene planarScenes[] = {
     } },
 };
 
-class PlanarScenes
-  : public Planar
-  , public testing::WithParamInterface<PlanarScene>
-{
-};
+using PlanarScenes = PassTestOf<PlanarScene, Planar>;
 
 INSTANTIATE_TEST_SUITE_P(All, PlanarScenes, testing::ValuesIn(planarScenes), byName);
 

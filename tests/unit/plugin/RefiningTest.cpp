@@ -8,6 +8,7 @@
 #include "vtkGnomonShadowSettings.h"
 
 #include <vtkCollectionRange.h>
+#include <vtkCommand.h>
 #include <vtkHardwareSelector.h>
 #include <vtkLookupTable.h>
 #include <vtkScalarBarActor.h>
@@ -28,17 +29,12 @@ struct Refiner
   const char* setting; ///< of the pass; null for vtkGnomonLightSamplingPass
   bool startsHard;     ///< true if the first frame shows the centre's shadow, by `nsm`
 };
-std::ostream& operator<<(std::ostream& stream, const Refiner& refiner)
-{
-  return stream << refiner.name;
-}
 const Refiner refiners[] = { { "sampled", "sampled", "progressive", true },
   { "raytraced", "raytraced", "moving_samples", false },
   { "penumbra", "penumbra", "moving_samples", false }, { "lightSampling", "nsm", nullptr, true } };
 
-class Refining : public PassTestOf<Refiner>
+struct Refining : PassTestOf<Refiner>
 {
-protected:
   Refining()
   {
     this->scene.addThings();
@@ -68,10 +64,6 @@ protected:
   double progress() const
   {
     return this->isSampling() ? this->sampling->GetProgress() : this->scene.pass->GetProgress();
-  }
-  vtkObject* teller() const
-  {
-    return this->isSampling() ? static_cast<vtkObject*>(this->sampling) : this->scene.pass;
   }
   void finish()
   {
@@ -243,7 +235,10 @@ TEST_P(Refining, tellsOfItsProgress)
 {
   constexpr double end = 2.0;
   std::vector<double> told;
-  listenToProgress(this->teller(), told);
+  vtkRenderPass* const teller = this->scene.renderer->GetPass();
+  onEvent(teller, vtkCommand::ProgressEvent,
+    [&](void* progress) { told.push_back(*static_cast<double*>(progress)); });
+  onEvent(teller, vtkCommand::EndEvent, [&](void*) { told.push_back(end); });
   this->takeEachFrame(0);
   this->scene.render();
   EXPECT_TRUE(told.empty()) << "in one frame";

@@ -31,9 +31,7 @@ protected:
   vtkLight* sun;
 };
 
-class SettingsOfWay
-  : public Settings
-  , public testing::WithParamInterface<Way>
+class SettingsOfWay : public PassTestOf<Way, Settings>
 {
 protected:
   SettingsOfWay() { this->scene.choose(GetParam()); }

@@ -57,11 +57,7 @@ std::ostream& operator<<(std::ostream& stream, const MapsOf& maps)
   return stream << maps.name;
 }
 
-class MapsWithoutRoom
-  : public TextureMemory
-  , public testing::WithParamInterface<MapsOf>
-{
-};
+using MapsWithoutRoom = PassTestOf<MapsOf, TextureMemory>;
 
 constexpr const char* sixDepths =
   " in 6 layers needs 6442 MB of texture memory, which is not available; ";
