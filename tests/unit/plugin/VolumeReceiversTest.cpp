@@ -79,6 +79,10 @@ struct VolumeReceivers : PassTest
     this->scene.renderer->AddVolume(this->volume);
   }
   void addSlab() { this->addSlab(this->mapper); }
+  vtkLight* addLamp(double coneAngleDegrees)
+  {
+    return this->scene.addSpot({ -1.5, 0.2, 6.0 }, { 0.4, 0.0, 0.5 }, coneAngleDegrees);
+  }
 
   /// Return the red value of a ray through the slab, by the samples that VTK takes.
   /// @param shadows true if the card hides lights that cast
@@ -90,15 +94,7 @@ struct VolumeReceivers : PassTest
     const glm::dvec3 start(slabFromWorld * glm::dvec4(place, 10.0, 1.0));
     const glm::dvec3 ray(slabFromWorld * glm::dvec4(0.0, 0.0, -1.0, 0.0));
     const glm::dvec3 normal = glm::normalize(glm::dvec3(worldFromSlab[2]));
-    double enter = 0.0;
-    double leave = 20.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double a = (this->slab.lower[axis] - start[axis]) / ray[axis];
-      const double b = (this->slab.upper[axis] - start[axis]) / ray[axis];
-      enter = std::max(enter, std::min(a, b));
-      leave = std::min(leave, std::max(a, b));
-    }
+    const auto [enter, leave] = spanIn(this->slab, start, ray);
     double value = 0.0;
     double through = 1.0;
     const double left = std::pow(1.0 - unitOpacity, step / 0.1);
@@ -126,9 +122,13 @@ struct VolumeReceivers : PassTest
   bool meetsCard(const glm::dvec3& from, const glm::dvec3& along, double end) const
   {
     const double at = (this->cardBox.lower.z - from.z) / along.z;
-    const glm::dvec3 met = from + at * along;
-    return at > 0.0 && at < end && met.x > this->cardBox.lower.x && met.x < this->cardBox.upper.x &&
-      met.y > this->cardBox.lower.y && met.y < this->cardBox.upper.y;
+    return at > 0.0 && at < end && isUnder(from + at * along, this->cardBox);
+  }
+
+  /// True if the camera sees the card, or nearly.
+  bool isUnderCard(const glm::dvec2& place) const
+  {
+    return isUnder(place, { this->cardBox.lower - 0.05, this->cardBox.upper + 0.05 });
   }
 
   /// Compare the picture with the march, away from the card and from the slab's border.
@@ -141,26 +141,23 @@ struct VolumeReceivers : PassTest
     vtkGnomonPropKeys::SetCasts(this->card, false);
     const Picture lit = this->scene.render();
     vtkGnomonPropKeys::SetCasts(this->card, true);
-    std::size_t counted = 0;
     std::size_t shaded = 0;
     std::size_t changed = 0;
     double squares = 0.0;
     double worst = 0.0;
-    for (int y = 0; y < picture.height; ++y)
-    {
-      for (int x = 0; x < picture.width; ++x)
+    const std::size_t counted = countPixels(picture,
+      [&](int x, int y)
       {
         const glm::dvec2 place = this->scene.floorAt(x, y);
         const double without = this->march(place, false);
-        if (isUnder(place, { this->cardBox.lower - 0.05, this->cardBox.upper + 0.05 }) ||
+        if (this->isUnderCard(place) ||
           glm::any(glm::greaterThan(glm::abs(place), glm::dvec2(isTurned ? 0.6 : 0.85))))
         {
-          continue;
+          return false;
         }
         const double expected = this->march(place, true);
         const double scale = isTurned ? lit.red(x, y) / without : 1.0;
         const double difference = picture.red(x, y) - scale * expected;
-        ++counted;
         shaded += expected < 0.8 * without ? 1 : 0;
         squares += difference * difference;
         worst = std::max(worst, std::abs(difference));
@@ -173,8 +170,8 @@ struct VolumeReceivers : PassTest
           isClear = isClear && this->march(near, true) == this->march(near, false);
         }
         changed += isClear && picture.red(x, y) != lit.red(x, y) ? 1 : 0;
-      }
-    }
+        return true;
+      });
     const double rms = std::sqrt(squares / static_cast<double>(counted));
     EXPECT_GT(counted, 500u) << what;
     EXPECT_GT(shaded, counted / 20) << what;
@@ -212,19 +209,11 @@ TEST_F(VolumeReceivers, samplesBehindACardAreDarkByAllLightsAndRoutes)
   this->addSlab();
   vtkActor* const floor = this->scene.addFloor(1.5, -0.5);
   floor->GetProperty()->SetColor(0.0, 1.0, 0.0);
-  const auto useSun = [&] { return this->scene.addSun({ 0.5, 0.1, -1.0 }); };
-  const auto useSpot = [&] {
-    return this->scene.addSpot({ -1.5, 0.2, 6.0 }, { 0.4, 0.0, 0.5 }, 30.0);
-  };
-  const auto useLamp = [&] {
-    return this->scene.addSpot({ -1.5, 0.2, 6.0 }, { 0.4, 0.0, 0.5 }, 180.0);
-  };
-  const std::vector<std::pair<std::string, std::function<vtkLight*()>>> kinds = { { "sun", useSun },
-    { "spot", useSpot }, { "lamp", useLamp } };
-  for (const auto& [name, add] : kinds)
+  for (const auto& [name, cone] :
+    { std::pair("sun", 0.0), { "spot", 30.0 }, { "lamp", allDirections } })
   {
     this->scene.renderer->RemoveAllLights();
-    this->lights = { add() };
+    this->lights = { cone > 0.0 ? this->addLamp(cone) : this->scene.addSun({ 0.5, 0.1, -1.0 }) };
     for (const auto& [technique, route, taken] :
       { std::tuple("nsm", vtkGnomonShadowPass::ROUTE_INLINE, "inline"),
         std::tuple("nsm", vtkGnomonShadowPass::ROUTE_IMAGE, "image"),
@@ -248,8 +237,7 @@ TEST_F(VolumeReceivers, samplesBehindGlassAreDimmed)
   for (const bool isLamp : { false, true })
   {
     this->scene.renderer->RemoveAllLights();
-    isLamp ? this->scene.addSpot({ -1.5, 0.2, 6.0 }, { 0.4, 0.0, 0.5 }, 180.0)
-           : this->scene.addSun({ 0.5, 0.1, -1.0 });
+    isLamp ? this->addLamp(allDirections) : this->scene.addSun({ 0.5, 0.1, -1.0 });
     vtkProperty* const property = this->card->GetProperty();
     property->SetOpacity(1.0);
     const Picture dark = this->scene.render();
@@ -269,7 +257,7 @@ TEST_F(VolumeReceivers, samplesBehindGlassAreDimmed)
         [&](int x, int y)
         {
           const glm::dvec2 place = this->scene.floorAt(x, y);
-          if (isUnder(place, { this->cardBox.lower - 0.05, this->cardBox.upper + 0.05 }))
+          if (this->isUnderCard(place))
           {
             return false;
           }
@@ -302,7 +290,7 @@ TEST_F(VolumeReceivers, lightsKeepTheirNumbers)
   this->lights[0]->SetIntensity(0.3); // VTK clamps the sum of all lights
   this->lights[1]->SetIntensity(0.5);
   this->expectLikeMarch("two suns");
-  this->lights.push_back(this->scene.addSpot({ -1.5, 0.2, 6.0 }, { 0.4, 0.0, 0.5 }, 180.0));
+  this->lights.push_back(this->addLamp(allDirections));
   this->lights[2]->SetIntensity(0.2);
   this->mapper->Modified(); // else VTK takes the lamp for a sun
   this->expectLikeMarch("and a lamp");
