@@ -84,9 +84,8 @@ std::vector<glm::dvec3> shineByHand(
 }
 
 /// A box, a shining sphere and a floor, lit by an area light and shaded from each of its points.
-class LightSamplingScene : public PassTest
+struct LightSamplingScene : PassTest
 {
-protected:
   LightSamplingScene()
   {
     this->floor = this->scene.addFloor(4.0);
@@ -112,14 +111,7 @@ protected:
     EXPECT_EQ(differingPixels(picture, hard, area && area->GetTexture() ? 1 : 0), 0u);
   }
 
-  Picture pictureOf(vtkRenderPass* pass)
-  {
-    vtkSmartPointer<vtkRenderPass> before = this->scene.renderer->GetPass();
-    this->scene.renderer->SetPass(pass);
-    Picture picture = this->scene.render();
-    this->scene.renderer->SetPass(before);
-    return picture;
-  }
+  Picture pictureOf(vtkRenderPass* pass) { return this->scene.renderBy(pass); }
 
   /// Draw a picture of a pass for each point of the light, by a VTK light placed there by hand.
   /// @param add called with each picture
@@ -151,8 +143,7 @@ protected:
       const glm::dvec3 place = area.positionWorld + (sun ? glm::dvec3(0.0) : offset);
       const glm::dvec3 target =
         place + 3.0 * (sun ? area.directionWorld - offset : area.directionWorld);
-      point->SetPosition(place.x, place.y, place.z);
-      point->SetFocalPoint(target.x, target.y, target.z);
+      aim(point, place, target);
       add(this->pictureOf(pass));
     }
     this->scene.renderer->RemoveLight(point);
@@ -198,11 +189,8 @@ protected:
   vtkActor* sphere = nullptr;
 };
 
-class LightSamplingOf
-  : public LightSamplingScene
-  , public testing::WithParamInterface<AreaLight>
+struct LightSamplingOf : PassTestOf<AreaLight, LightSamplingScene>
 {
-protected:
   LightSamplingOf() { this->light = GetParam().add(this->scene); }
 };
 
@@ -264,9 +252,8 @@ TEST_P(LightSamplingOf, lightsAreAsTheyWere)
   EXPECT_EQ(this->pictureOf(nullptr), plain);
 }
 
-class LightSampling : public LightSamplingScene
+struct LightSampling : LightSamplingScene
 {
-protected:
   LightSampling()
   {
     this->light = addRectangle(this->scene, { -2.0, -2.5, 4.0 }, glm::dvec3(0.0), 2.0, 50.0);
@@ -508,8 +495,7 @@ TEST_F(LightSampling, channelsThatNoPointHasStayDark)
 {
   auto* lamp = vtkGnomonAreaLight::SafeDownCast(this->light);
   vtkNew<vtkLight> other;
-  other->SetPosition(3.0, -4.0, 5.0);
-  other->SetFocalPoint(0.0, 0.0, 0.0);
+  aim(other, { 3.0, -4.0, 5.0 });
   other->SetIntensity(0.6);
   this->scene.renderer->AddLight(other);
   this->sampling->SetSamples(2);
@@ -530,16 +516,9 @@ TEST_F(LightSampling, channelsThatNoPointHasStayDark)
 
 TEST_F(LightSampling, asksForRoomFirst)
 {
-  try
-  {
-    gnomon::requireRoomForPicture(1 << 20, 1 << 20, 8);
-    ADD_FAILURE() << "176 TB";
-  }
-  catch (const gnomon::TextureMemoryError& error)
-  {
-    EXPECT_THAT(error.what(),
-      testing::AllOf(HasSubstr("8 samples of a pixel of 1048576 x 1048576"), HasSubstr("MB")));
-  }
+  EXPECT_THAT([] { gnomon::requireRoomForPicture(1 << 20, 1 << 20, 8); }, // 176 TB
+    testing::ThrowsMessage<gnomon::TextureMemoryError>(
+      testing::AllOf(HasSubstr("8 samples of a pixel of 1048576 x 1048576"), HasSubstr("MB"))));
 }
 
 /// A thousand and one pictures are added up in the memory of two.
