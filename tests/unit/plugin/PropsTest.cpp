@@ -35,13 +35,12 @@ namespace
 
 /// A floor from straight above, under a sun at 45 degrees that travels along +x. A caster at height
 /// z shades the floor z further along x.
-class Props : public PassTestOf<Way>
+struct Props : PassTestOf<Way>
 {
-protected:
   Props()
   {
-    this->floor = this->scene.addFloor(8.0);
-    this->sun = this->scene.addSun({ 1.0, 0.0, -1.0 });
+    this->scene.addFloor(8.0);
+    this->scene.addSun(slantingSun);
     this->scene.choose(GetParam());
     this->scene.lookDown(6.0);
   }
@@ -57,8 +56,6 @@ protected:
   }
 
   PassScene scene{ 120, 120 };
-  vtkActor* floor;
-  vtkLight* sun;
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, Props, allWays, nameOf);
@@ -317,7 +314,7 @@ TEST_P(Props, oneThatBindsItsOwnFramebufferLeavesOthersRight)
   mapper->SetInputConnection(squareOf(0.5)->GetOutputPort());
   const auto elsewhere = actorOf(mapper);
   vtkGnomonPropKeys::SetCasts(elsewhere, false);
-  for (const vtkSmartPointer<vtkActor> later : { this->floor, square })
+  for (const vtkSmartPointer<vtkActor> later : { this->scene.floor(), square })
   {
     this->scene.renderer->RemoveActor(later);
     this->scene.renderer->AddActor(elsewhere); // again: it stays the first
@@ -433,12 +430,10 @@ TEST_P(Props, seenThroughOnesHideNoReceiver)
   const auto square = outputOf(squareOf(1.0, 2.0));
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetNumberOfComponents(4);
-  for (int i = 0; i < 4; ++i)
-  {
-    colours->InsertNextTuple4(255, 255, 255, 128);
-  }
-  vtkNew<vtkPolyData> coloured;
-  coloured->ShallowCopy(square);
+  colours->SetNumberOfTuples(4);
+  colours->Fill(255.0);
+  colours->FillComponent(3, 128.0);
+  const auto coloured = copyOf(squareOf(1.0, 2.0));
   coloured->GetPointData()->SetScalars(colours);
   const auto blocks = blocksOf({ square });
   enum
@@ -464,7 +459,7 @@ TEST_P(Props, seenThroughOnesHideNoReceiver)
     }
     else
     {
-      mapper->SetInputDataObject(opacity == ByScalars ? coloured.Get() : square.Get());
+      mapper->SetInputDataObject(opacity == ByScalars ? coloured : square);
     }
     const auto veil = actorOf(mapper);
     veil->ForceOpaqueOn();
