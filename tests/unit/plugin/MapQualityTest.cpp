@@ -18,9 +18,9 @@ using testing::HasSubstr;
 namespace
 {
 
-bool hasNoKernelSize(const Variant& variant)
+bool names(const Variant& variant, const char* setting)
 {
-  return variant.text.find("kernel_") == std::string::npos;
+  return variant.text.find(setting) != std::string::npos;
 }
 
 using HardMaps = PassTestOf<Variant>;
@@ -34,8 +34,8 @@ INSTANTIATE_TEST_SUITE_P(All, BakedMaps,
   testing::ValuesIn(variantsThat(
     [](const Variant& variant)
     {
-      return variant.info().bakesMap() && hasNoKernelSize(variant) &&
-        variant.text.find("light_radius") == std::string::npos;
+      return variant.info().bakesMap() && !names(variant, "kernel_") &&
+        !names(variant, "light_radius");
     })),
   testing::PrintToStringParamName());
 
@@ -44,8 +44,8 @@ INSTANTIATE_TEST_SUITE_P(Layouts, MomentMaps,
   testing::ValuesIn(variantsThat(
     [](const Variant& variant)
     {
-      return variant.isMoments() && variant.text.find("kernel_size") == std::string::npos &&
-        variant.text.find("map_samples") == std::string::npos;
+      return variant.isMoments() && !names(variant, "kernel_size") &&
+        !names(variant, "map_samples");
     })),
   testing::PrintToStringParamName());
 
@@ -59,9 +59,8 @@ std::ostream& operator<<(std::ostream& stream, const Kernel& kernel)
   return stream << kernel.name << kernel.texels;
 }
 
-class Pcf : public PassTestOf<Kernel>
+struct Pcf : PassTestOf<Kernel>
 {
-protected:
   /// Give a light the test's kernel, and the pass the technique.
   static void choose(PassScene& scene, vtkLight* light)
   {
@@ -221,7 +220,7 @@ TEST_P(MomentMaps, severalSamplesOfATexelAreNearerToItsMean)
   scene.lookFrom({ 0.0, -9.0, 7.0 });
   const auto draw = [&](const char* settings, int samples)
   {
-    std::vector<float> visibility = drawKept(scene, settings).visibility[0];
+    std::vector<float> visibility = scene.visibilityBy(settings);
     EXPECT_EQ(scene.report().mapBakes, 1);
     EXPECT_EQ(scene.report().lights[0].mapSamples, samples);
     return visibility;
@@ -240,14 +239,9 @@ TEST_P(MomentMaps, severalSamplesOfATexelAreNearerToItsMean)
 namespace
 {
 
-/// A sphere over a floor under a sun.
-class MapSettings : public PassTest
+struct MapSettings : PassTest
 {
-protected:
-  MapSettings() { this->scene.addSphereOverFloor(); }
-
-  PassScene scene{ 100, 80 };
-  vtkLight* sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
+  SphereUnderSun scene{ 100, 80 };
 };
 
 } // namespace
@@ -267,7 +261,7 @@ TEST_F(MapSettings, kernelsOfTechniquesThatHaveTheirOwnAreReported)
 TEST_F(MapSettings, unknownKernelIsAnErrorThatNamesTheOthers)
 {
   this->scene.choose("pcf");
-  set(this->sun, "kernel", "magic");
+  set(this->scene.sun, "kernel", "magic");
   EXPECT_THAT(
     this->takeErrors(), HasSubstr("'kernel', expected one of: bilinear, box, poisson, castano"));
   this->scene.render();
@@ -275,7 +269,7 @@ TEST_F(MapSettings, unknownKernelIsAnErrorThatNamesTheOthers)
   // Bypass the function that refuses it.
   for (const char* part : { "kernel", "magic" })
   {
-    this->sun->GetInformation()->Append(vtkGnomonLightKeys::SETTINGS(), part);
+    this->scene.sun->GetInformation()->Append(vtkGnomonLightKeys::SETTINGS(), part);
   }
   this->scene.render();
   EXPECT_EQ(this->scene.report().route, "none");
@@ -316,17 +310,14 @@ TEST_F(PassTest, tablesBlurAllMapsAlike)
   scene.lookFrom({ 0.0, -24.0, 5.0 }, { 0.0, -10.0, 0.0 });
   scene.choose("vsm kernel_size=9");
   const std::vector<float> fine =
-    drawKept(scene, "projection=uniform fit=off blur=sat kernel_width=0.7 map_size=2048")
-      .visibility[0];
-  const double boxes = meanDifference(fine,
-    drawKept(scene, "projection=lispsm fit=off blur=box kernel_width=0 map_size=512")
-      .visibility[0]);
+    scene.visibilityBy("projection=uniform fit=off blur=sat kernel_width=0.7 map_size=2048");
+  const double boxes = meanDifference(
+    fine, scene.visibilityBy("projection=lispsm fit=off blur=box kernel_width=0 map_size=512"));
   scene.choose("fit=frame blur=sat kernel_width=0.7");
   for (const char* projection :
     { "projection=uniform", "projection=lispsm", "projection=tsm", "projection=pssm" })
   {
-    EXPECT_LE(meanDifference(fine, drawKept(scene, projection).visibility[0]), 0.3 * boxes)
-      << projection;
+    EXPECT_LE(meanDifference(fine, scene.visibilityBy(projection)), 0.3 * boxes) << projection;
   }
 }
 
