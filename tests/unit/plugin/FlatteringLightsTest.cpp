@@ -105,10 +105,6 @@ struct Case
   glm::dvec3 from; ///< the camera's direction, +z up
   bool hasGround;
 };
-std::ostream& operator<<(std::ostream& stream, const Case& of)
-{
-  return stream << of.name;
-}
 
 /// A case in a renderer without a window.
 struct LitScene
@@ -317,7 +313,7 @@ INSTANTIATE_TEST_SUITE_P(Table, FlatteringLightsOf,
     Case{ "TerrainFromAbove", terrain, { 0.0, 0.0, 1.0 }, false },
     Case{ "Scan", scan, { 1.0, -1.0, 0.8 }, false },
     Case{ "ScanOnGround", scan, { 0.5, -1.0, 0.6 }, true }),
-  [](const auto& of) { return std::string(of.param.name); });
+  byName);
 
 Case ballOnGround()
 {
