@@ -43,9 +43,8 @@ std::ostream& operator<<(std::ostream& stream, const Work& work)
 }
 
 /// A sphere over a floor.
-class StaleScene : public PassTest
+struct StaleScene : PassTest
 {
-protected:
   StaleScene()
   {
     this->scene.addFloor(4.0);
@@ -86,11 +85,8 @@ protected:
   Picture picture; ///< the last frame's picture
 };
 
-class Staleness
-  : public StaleScene
-  , public testing::WithParamInterface<Way>
+struct Staleness : PassTestOf<Way, StaleScene>
 {
-protected:
   Staleness()
   {
     this->scene.set("edge_samples", "auto");
@@ -210,9 +206,9 @@ TEST_P(Staleness, withoutACastingLightNothingIsDone)
     vtkNew<vtkGnomonShadowPass> pass;
     pass->SmoothTerminatorsOff();
     test::choose(pass, GetParam());
-    this->scene.renderer->SetPass(isNew ? pass.Get() : this->scene.pass.Get());
-    const Picture gnomon = this->scene.render();
-    const FrameReport& report = isNew ? pass->GetReport() : this->scene.report();
+    vtkGnomonShadowPass* const by = isNew ? pass : this->scene.pass;
+    const Picture gnomon = this->scene.renderBy(by);
+    const FrameReport& report = by->GetReport();
     EXPECT_EQ(report.route, "none");
     EXPECT_EQ(report.routeReason, "no light casts a shadow");
     ASSERT_EQ(report.lights.size(), 1u);
@@ -224,17 +220,14 @@ TEST_P(Staleness, withoutACastingLightNothingIsDone)
       EXPECT_EQ(report.bytesMaps + report.bytesBvh + report.bytesImages, 0u);
       EXPECT_EQ(report.bytesOccluders, 0u);
     }
-    this->scene.usePlain();
-    EXPECT_EQ(differingPixels(gnomon, this->scene.render()), 0u);
+    EXPECT_EQ(differingPixels(gnomon, this->scene.renderPlain()), 0u);
   }
 }
 
 /// A light with contradictory settings gets the plain technique, and the others reuse their maps.
 TEST_F(PassTest, aLightThatCannotBeServedLeavesTheOthersMapsAsTheyAre)
 {
-  PassScene scene(200, 150);
-  scene.addSphereOverFloor();
-  scene.addSun({ 1.0, 0.3, -1.5 });
+  SphereUnderSun scene(200, 150);
   vtkLight* const second = scene.addSun({ -1.0, 0.3, -1.5 });
   const Picture plain = scene.renderPlain();
   scene.choose("pcf kernel=castano");
@@ -260,24 +253,23 @@ TEST_F(PassTest, aLightThatCannotBeServedLeavesTheOthersMapsAsTheyAre)
 /// Settings of maps bake once; those of lookups bake nothing.
 TEST_F(StaleScene, settingsOfMapsBakeOnce)
 {
-  const std::tuple<const char*, const char*, const char*, int> settings[] = { { "adaptive", "depth",
-                                                                                "midpoint", 1 },
-    { "adaptive", "early_out", "ring", 1 }, { "adaptive", "disc_grid", "5", 1 },
-    { "adaptive", "disc_sets", "3", 1 }, { "adaptive", "bias_constant", "0.1", 1 },
-    { "adaptive", "bias_slope", "1", 1 }, { "adaptive", "metric", "euclidean", 1 },
-    { "adaptive", "kernel_width", "0.1", 1 }, { "pcf", "kernel", "poisson", 1 },
-    { "pcf", "kernel_size", "32", 1 }, { "vsm", "bleeding", "0.5", 0 },
-    { "vsm", "kernel_size", "1", 1 }, { "msm", "bleeding", "0.4", 0 },
-    { "msm", "kernel_size", "4", 1 }, { "evsm", "bleeding", "0.3", 0 },
-    { "pssm", "split_lambda", "0.9", 1 }, { "nsm", "snap", "off", 1 } };
-  for (const auto& [technique, name, value, bakes] : settings)
+  const std::tuple<const char*, const char*, int> settings[] = {
+    { "adaptive", "depth=midpoint", 1 }, { "adaptive", "early_out=ring", 1 },
+    { "adaptive", "disc_grid=5", 1 }, { "adaptive", "disc_sets=3", 1 },
+    { "adaptive", "bias_constant=0.1", 1 }, { "adaptive", "bias_slope=1", 1 },
+    { "adaptive", "metric=euclidean", 1 }, { "adaptive", "kernel_width=0.1", 1 },
+    { "pcf", "kernel=poisson", 1 }, { "pcf", "kernel_size=32", 1 }, { "vsm", "bleeding=0.5", 0 },
+    { "vsm", "kernel_size=1", 1 }, { "msm", "bleeding=0.4", 0 }, { "msm", "kernel_size=4", 1 },
+    { "evsm", "bleeding=0.3", 0 }, { "pssm", "split_lambda=0.9", 1 }, { "nsm", "snap=off", 1 }
+  };
+  for (const auto& [technique, setting, bakes] : settings)
   {
-    SCOPED_TRACE(std::string(technique) + " " + name);
-    this->scene.pass->SetTechnique(technique);
+    SCOPED_TRACE(std::string(technique) + " " + setting);
+    this->scene.choose(technique);
     this->scene.set("fit", "frame");
     this->settle();
     const Picture before = this->picture;
-    this->scene.set(name, value);
+    this->scene.choose(setting);
     EXPECT_EQ(this->render().bakes, bakes);
     EXPECT_TRUE(bakes == 1 || differingPixels(before, this->picture) > 0);
     const Work again = this->render();
@@ -289,17 +281,13 @@ TEST_F(StaleScene, settingsOfMapsBakeOnce)
 namespace
 {
 
-class RenderManager : public StaleScene
+struct RenderManagerByTechnique : PassTestOf<Variant, StaleScene>
 {
-protected:
-  RenderManager() { this->scene.choose("map_size=128 light_samples=4 light_radius=2 mc_rays=2"); }
-};
-class RenderManagerByTechnique
-  : public RenderManager
-  , public testing::WithParamInterface<Variant>
-{
-protected:
-  RenderManagerByTechnique() { GetParam().choose(this->scene); }
+  RenderManagerByTechnique()
+  {
+    this->scene.choose("map_size=128 light_samples=4 light_radius=2 mc_rays=2");
+    GetParam().choose(this->scene);
+  }
   /// Expect a frame like the last one to compute nothing, and to show the same.
   void expectRest()
   {
@@ -386,9 +374,7 @@ TEST(ValueKey, NamesWhatChanged)
 /// has the order of frames.
 TEST(OptionalMaps, areBakedOnceNothingMoves)
 {
-  PassScene scene(200, 150);
-  scene.addSphereOverFloor();
-  vtkLight* const sun = scene.addSun({ 1.0, 0.3, -1.5 });
+  SphereUnderSun scene(200, 150);
   scene.choose("silhouette bake=settled");
   std::vector<Picture> pictures;
   // Two cameras take turns: from a camera at rest, no visibility would be computed.
@@ -416,7 +402,7 @@ TEST(OptionalMaps, areBakedOnceNothingMoves)
   EXPECT_GT(scene.report().bytesMaps, std::size_t(1) << 24); // a million texels
   EXPECT_EQ(differingPixels(pictures.back(), pictures[pictures.size() - 3]), 0u);
   render(0);
-  sun->SetPosition(1.0, 2.0, 5.0);
+  scene.sun->SetPosition(1.0, 2.0, 5.0);
   expectTraced(1);
   scene.choose("bake=always");
   render(1);
@@ -424,9 +410,7 @@ TEST(OptionalMaps, areBakedOnceNothingMoves)
 
 TEST(OptionalMaps, areNotBakedByAutoWhileThePictureMoves)
 {
-  PassScene scene(100, 75);
-  scene.addSphereOverFloor();
-  scene.addSun({ 1.0, 0.3, -1.5 });
+  SphereUnderSun scene(100, 75);
   scene.choose("auto bake=settled");
   scene.pass->SetMaximumError(1e-5); // no probe shows it: rays
   scene.pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
