@@ -282,8 +282,6 @@ TEST_P(FlatteringLightsOf, sceneShowItAndItsShadow)
   LitScene scene(GetParam());
   ASSERT_TRUE(scene.make());
   const Shares shares = count(scene);
-  RecordProperty("lit", std::to_string(shares.lit));
-  RecordProperty("in_shadow", std::to_string(shares.inShadow));
   EXPECT_GE(shares.lit, 0.5) << scene.lights->GetNote();
   EXPECT_GE(shares.inShadow, 0.05) << scene.lights->GetNote();
   EXPECT_NEAR(scene.lights->GetLitShare(), shares.lit, 0.04);
