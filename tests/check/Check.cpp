@@ -79,19 +79,6 @@ struct Point
   Vec3 normal; ///< unit
 };
 
-/// How a light's visibility is decided.
-enum class Lighting
-{
-  Unlit, ///< turned away, or outside the cone or box
-  Open   ///< a ray decides
-};
-
-struct ShadowRay
-{
-  Lighting lighting = Lighting::Unlit;
-  Ray ray;
-};
-
 /// Offset of the shadow ray's start from the surface: above the rounding of double precision, and
 /// much less than a pixel.
 double offsetOf(const Point& point)
@@ -99,40 +86,46 @@ double offsetOf(const Point& point)
   return 1e-13 * point.hit.position.length() + 1e-10 * point.hit.distance;
 }
 
-ShadowRay shadowRay(const Light& light, const Point& point)
+/// Return the ray that decides whether the light arrives; none for points that are turned away or
+/// outside the cone or box.
+std::optional<Ray> shadowRay(const Light& light, const Point& point)
 {
   const Vec3 origin = point.hit.position + offsetOf(point) * point.normal;
-  ShadowRay result;
-  result.ray = { origin, -light.direction };
+  Ray ray{ origin, -light.direction };
   const Vec3 toLight = light.position - origin;
   if (light.kind != Light::Kind::Directional)
   {
-    result.ray.direction = toLight.normalized();
-    result.ray.length = toLight.length();
+    ray.direction = toLight.normalized();
+    ray.length = toLight.length();
   }
   if (light.kind == Light::Kind::Spot &&
-    -result.ray.direction.dot(light.direction) < std::cos(light.coneAngleDegrees * pi / 180.0))
+    -ray.direction.dot(light.direction) < std::cos(light.coneAngleDegrees * pi / 180.0))
   {
-    return result;
+    return std::nullopt;
   }
   if (light.box)
   {
     const Vec3 right = light.box->up.cross(light.direction).normalized();
     const Vec3 up = light.direction.cross(right);
-    result.ray.length = -toLight.dot(light.direction); // to the near face, where the light begins
+    ray.length = -toLight.dot(light.direction); // to the near face, where the light begins
     if (std::abs(toLight.dot(right)) > 0.5 * light.box->width ||
-      std::abs(toLight.dot(up)) > 0.5 * light.box->height || result.ray.length < 0.0 ||
-      result.ray.length > light.box->depth)
+      std::abs(toLight.dot(up)) > 0.5 * light.box->height || ray.length < 0.0 ||
+      ray.length > light.box->depth)
     {
-      return result;
+      return std::nullopt;
     }
   }
-  if (point.normal.dot(result.ray.direction) > tolerance::facingCosine)
-  {
-    result.lighting = Lighting::Open;
-  }
-  return result;
+  return point.normal.dot(ray.direction) > tolerance::facingCosine ? std::optional(ray)
+                                                                   : std::nullopt;
 }
+
+/// Findings about one light in one pixel.
+struct LightVerdict
+{
+  bool isReached = false; ///< a ray decides
+  bool isLit = false;     ///< in truth
+  bool isWrong = false;
+};
 
 /// Findings about one pixel.
 struct PixelResult
@@ -143,15 +136,7 @@ struct PixelResult
   bool otherSurface = false;
   bool otherFace = false;
   bool normalDiffers = false;
-  enum class Light : unsigned char
-  {
-    Right,
-    FalseLight,
-    FalseShadow,
-    Unlit,
-    UnlitWrong
-  };
-  std::vector<Light> lights;
+  std::vector<LightVerdict> lights;
 };
 
 /// Compares pixel by pixel.
@@ -319,23 +304,15 @@ private:
     return drawn && (result.otherSurface || result.otherFace) ? *drawn : truth;
   }
 
-  PixelResult::Light compareLight(std::size_t light, std::size_t pixel, const Point& drawn) const
+  LightVerdict compareLight(std::size_t light, std::size_t pixel, const Point& drawn) const
   {
     const double value = static_cast<double>((*this->visibility_[light])[pixel]);
-    const auto isWrong = [value](double expected)
-    { return !(std::abs(value - expected) <= tolerance::visibilityDifference); };
-    const ShadowRay shadow = shadowRay(this->scene_.lights[light], drawn);
+    const std::optional<Ray> ray = shadowRay(this->scene_.lights[light], drawn);
     const bool receives = this->scene_.surfaces[drawn.hit.surface].receives;
-    if (shadow.lighting == Lighting::Unlit)
-    {
-      return receives && isWrong(0.0) ? PixelResult::Light::UnlitWrong : PixelResult::Light::Unlit;
-    }
-    const bool lit = !receives || !this->tracer_.blocked(shadow.ray);
-    if (!isWrong(lit ? 1.0 : 0.0))
-    {
-      return PixelResult::Light::Right;
-    }
-    return lit ? PixelResult::Light::FalseShadow : PixelResult::Light::FalseLight;
+    const bool isLit = ray && (!receives || !this->tracer_.blocked(*ray));
+    const bool isRight =
+      std::abs(value - (isLit ? 1.0 : 0.0)) <= tolerance::visibilityDifference; // false for NaN
+    return { ray.has_value(), isLit, !isRight && (ray || receives) };
   }
 
   const Scene& scene_;
@@ -348,61 +325,37 @@ private:
 
 void add(Result& result, std::size_t pixel, const PixelResult& found)
 {
-  if (found.coverageDiffers)
+  const auto listIf = [pixel](bool isListed, Pixels& list)
   {
-    result.coverage.push_back(pixel);
-  }
+    if (isListed)
+    {
+      list.push_back(pixel);
+    }
+  };
+  listIf(found.coverageDiffers, result.coverage);
   if (!found.covered)
   {
     return;
   }
   ++result.covered;
-  if (found.otherSurface)
+  listIf(found.otherSurface, result.otherSurface);
+  if (!found.otherSurface)
   {
-    result.otherSurface.push_back(pixel);
-  }
-  else
-  {
-    if (found.positionError > tolerance::positionError)
-    {
-      result.position.push_back(pixel);
-    }
+    listIf(found.positionError > tolerance::positionError, result.position);
     if (found.positionError > result.positionError)
     {
       result.positionError = found.positionError;
       result.positionErrorAt = pixel;
     }
   }
-  if (found.otherFace)
-  {
-    result.otherFace.push_back(pixel);
-  }
-  if (found.normalDiffers)
-  {
-    result.normal.push_back(pixel);
-  }
+  listIf(found.otherFace, result.otherFace);
+  listIf(found.normalDiffers, result.normal);
   for (std::size_t i = 0; i < found.lights.size(); ++i)
   {
+    const auto& [isReached, isLit, isWrong] = found.lights[i];
     LightResult& light = result.lights[i];
-    switch (found.lights[i])
-    {
-      case PixelResult::Light::Right:
-        ++light.counted;
-        break;
-      case PixelResult::Light::FalseLight:
-        ++light.counted;
-        light.falseLight.push_back(pixel);
-        break;
-      case PixelResult::Light::FalseShadow:
-        ++light.counted;
-        light.falseShadow.push_back(pixel);
-        break;
-      case PixelResult::Light::Unlit:
-        break;
-      case PixelResult::Light::UnlitWrong:
-        light.unlit.push_back(pixel);
-        break;
-    }
+    light.counted += isReached ? 1 : 0;
+    listIf(isWrong, !isReached ? light.unlit : isLit ? light.falseShadow : light.falseLight);
   }
 }
 

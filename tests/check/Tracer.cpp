@@ -1,7 +1,6 @@
 #include "Tracer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace gnomon::check
