@@ -21,12 +21,7 @@ const Bounds scene{ { -3.0, -2.0, 0.0 }, { 3.0, 4.0, 2.5 } };
 
 ViewFitting fittingTo(const Bounds& bounds)
 {
-  ViewFitting fitting;
-  fitting.centreWorld = placesCentre;
-  fitting.castersCentred = bounds;
-  fitting.receiversCentred = bounds;
-  fitting.texels = { 64, 1 };
-  return fitting;
+  return { placesCentre, bounds, bounds, { 64, 1 }, {} };
 }
 
 ShadowLight lightTowards(

@@ -58,8 +58,8 @@ ReceiverPixels levelReceivers(const Occluders& occluders, const std::vector<doub
   receivers.resize(64, static_cast<int>(x.size() / 64));
   for (std::size_t i = 0; i < x.size(); ++i)
   {
-    place(receivers, i,
-      { glm::dvec3(x[i], 0.0, 0.0) - occluders.frame.centre, { 0.0f, 0.0f, 1.0f }, 1e-5f });
+    receivers.put(
+      i, glm::dvec3(x[i], 0.0, 0.0) - occluders.frame.centre, { 0.0f, 0.0f, 1.0f }, 1e-5f, 0);
   }
   return receivers;
 }

@@ -1,7 +1,7 @@
 // The layers of `montecarlo`, against rays along the light through the texels' centres.
 
 #include "EstimatorGlsl.h"
-#include "SyntheticScene.h"
+#include "RandomScenes.h"
 
 #include "lights/LightViews.h"
 #include "shadowtech/base/GlState.h"
@@ -40,8 +40,7 @@ public:
   {
     light.mapSizeTexels = side;
     light.monteCarlo.layers = kind;
-    LightViews views = fitLightViews(lightOfMap(light),
-      { this->occluders_.frame.centre, this->occluders_.castersCentred, {}, { side, 1 }, {} });
+    const LightViews views = viewsOf(lightOfMap(light), this->occluders_);
     this->view_ = views.views.at(0);
     if (this->view_.rays.positional)
     {
@@ -81,15 +80,6 @@ public:
       all.begin(), all.end(), [](const glm::dvec2& slab) { return slab == glm::dvec2(2.0, -2.0); });
   }
 
-  /// Return the ray at a place of the map, in the view's space.
-  void ray(const glm::dvec2& texel, glm::dvec3& origin, glm::dvec3& direction) const
-  {
-    const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view_, this->side_));
-    const glm::dvec2 across = mapped(acrossFromTexel, texel);
-    const bool positional = this->view_.rays.positional;
-    origin = positional ? glm::dvec3(0.0) : glm::dvec3(across, 0.0);
-    direction = positional ? glm::dvec3(across, 1.0) : glm::dvec3(0.0, 0.0, 1.0);
-  }
   /// Return the depth in ray space of a distance along the view.
   double depthAt(double z) const
   {
@@ -124,44 +114,22 @@ private:
   std::vector<Hit> hitsAt(const glm::dvec2& texel) const
   {
     std::vector<Hit> hits;
-    for (const glm::uvec3& triangle : this->occluders_.triangles)
+    for (const CastingTriangle& triangle : this->triangles_)
     {
-      glm::dvec3 corners[3];
-      for (int i = 0; i < 3; ++i)
+      const auto meetAt = [&](const glm::dvec2& place)
       {
-        corners[i] = glm::dvec3(this->view_.rays.viewFromCentred *
-          glm::dvec4(glm::dvec3(this->occluders_.positionsCentred[triangle[i]]), 1.0));
-      }
-      const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-      const auto distance = [&](const glm::dvec2& place, glm::dvec3& at)
-      {
-        glm::dvec3 origin;
-        glm::dvec3 direction;
-        this->ray(place, origin, direction);
-        at = origin +
-          (glm::dot(normal, corners[0] - origin) / glm::dot(normal, direction)) * direction;
-        return at.z;
+        const LightRay ray = rayAt(this->view_, this->side_, place); // 1 long along the view
+        return meet(triangle, ray.origin, ray.direction);
       };
-      glm::dvec3 at;
-      const double z = distance(texel, at);
-      const auto isInside = [&](int i)
+      const auto hit = meetAt(texel);
+      if (hit && hit->isInside())
       {
-        const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
-        return glm::dot(glm::cross(edge, at - corners[i]), normal) >= 0.0;
-      };
-      if (!isInside(0) || !isInside(1) || !isInside(2))
-      {
-        continue;
+        const double depth = this->depthAt(hit->at);
+        const double span =
+          std::abs(this->depthAt(meetAt(texel + glm::dvec2(1.0, 0.0))->at) - depth) +
+          std::abs(this->depthAt(meetAt(texel + glm::dvec2(0.0, 1.0))->at) - depth);
+        hits.push_back({ depth, span, hit->cosine < 0.0 });
       }
-      glm::dvec3 beside;
-      const double depth = this->depthAt(z);
-      const double span =
-        std::abs(this->depthAt(distance(texel + glm::dvec2(1.0, 0.0), beside)) - depth) +
-        std::abs(this->depthAt(distance(texel + glm::dvec2(0.0, 1.0), beside)) - depth);
-      glm::dvec3 origin;
-      glm::dvec3 direction;
-      this->ray(texel, origin, direction);
-      hits.push_back({ depth, span, glm::dot(normal, direction) < 0.0 });
     }
     std::sort(
       hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.depth < b.depth; });
@@ -170,6 +138,7 @@ private:
 
   int side_;
   Occluders occluders_;
+  std::vector<CastingTriangle> triangles_ = castingTriangles(occluders_);
   LightView view_;
   double nearest_ = 1.0;
   std::vector<std::vector<glm::dvec2>> slabs_;

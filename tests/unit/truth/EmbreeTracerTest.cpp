@@ -90,7 +90,7 @@ std::size_t countReached(
         {
           const std::uint32_t surface = receivers.surface[i];
           return surface != ReceiverPixels::notCovered && occluders.surfaces[surface].receives &&
-            makeRay(positionOf(receivers, i), normalOf(receivers, i), receivers.offset[i]).traced;
+            makeRay(receivers.position(i), receivers.normal(i), receivers.offset[i]).traced;
         });
     });
 }
@@ -190,11 +190,11 @@ std::ptrdiff_t expectFacingPixelsLit(
   {
     const bool spot = light.kind == LightKind::Spot;
     const glm::dvec3 toLight = spot ? glm::normalize(light.positionWorld - occluders.frame.centre -
-                                        glm::dvec3(positionOf(receivers, i)))
+                                        glm::dvec3(receivers.position(i)))
                                     : -light.directionWorld;
     const bool inCone = !spot || glm::dot(-toLight, light.directionWorld) > cosineOfCone + 1e-6;
     const bool counts = receivers.surface[i] == 0 && inCone &&
-      glm::dot(glm::dvec3(normalOf(receivers, i)), toLight) > 2e-6;
+      glm::dot(glm::dvec3(receivers.normal(i)), toLight) > 2e-6;
     facing += counts ? 1 : 0;
     dark += counts && visibility[i] != 1.0f ? 1 : 0;
   }

@@ -56,14 +56,10 @@ struct BothViews
 void makeBoth(ShadowLight light, const Occluders& occluders, const CameraView& camera,
   int borderTexels, BothViews& both)
 {
-  ViewFitting fitting;
-  fitting.centreWorld = occluders.frame.centre;
-  fitting.castersCentred = occluders.allCentred;
-  fitting.receiversCentred = occluders.allCentred;
-  fitting.texels = { fittedSide, borderTexels };
-  fitting.camera = camera;
   light.fittedToReceivers = true;
-  both.awaiting = fitLightViews(light, fitting);
+  both.awaiting = fitLightViews(light,
+    { occluders.frame.centre, occluders.allCentred, occluders.allCentred,
+      { fittedSide, borderTexels }, camera });
   both.fitted = both.awaiting;
   both.fitted.awaitFit = false;
   const std::size_t count = both.awaiting.views.size();
@@ -97,11 +93,8 @@ Occluders floorAndBoxes()
 
 CameraView cameraAbove()
 {
-  CameraView camera;
-  camera.viewFromCentred =
-    glm::lookAt(glm::dvec3(-1.0, -5.0, 3.0), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
-  camera.clipFromView = glm::perspective(glm::radians(60.0), 1.3, 0.5, 50.0);
-  return camera;
+  return { glm::lookAt(glm::dvec3(-1.0, -5.0, 3.0), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0)),
+    glm::perspective(glm::radians(60.0), 1.3, 0.5, 50.0) };
 }
 
 /// Return lights whose views have all layouts.

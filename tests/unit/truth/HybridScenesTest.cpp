@@ -339,14 +339,14 @@ std::size_t uncertainUnder(HybridScene& scene, const MapRule& rule, int size, do
     const glm::dvec3 centred = glm::dvec3(0.8 * (static_cast<double>(i % count) / count - 0.5),
                                  0.8 * (static_cast<double>(i / count) / count - 0.5), 0.0) -
       scene.occluders().frame.centre;
-    place(receivers, i, { centred, { 0.0f, 0.0f, 1.0f }, 1e-6f });
+    receivers.put(i, centred, { 0.0f, 0.0f, 1.0f }, 1e-6f, 0);
   }
   const Verdict verdict = scene.ask(rule, size);
   EXPECT_EQ(verdict.wrong(), 0u);
   return countBelow(receivers.size(),
     [&](std::size_t i)
     {
-      const glm::dvec3 at = glm::dvec3(positionOf(receivers, i)) + scene.occluders().frame.centre;
+      const glm::dvec3 at = glm::dvec3(receivers.position(i)) + scene.occluders().frame.centre;
       return glm::distance(glm::dvec2(at), { 0.013, 0.021 }) <= within &&
         verdict.is(i, TracedClass::Traced);
     });

@@ -48,11 +48,11 @@ TEST(Instances, ReceiversAreThoseOfTheirTriangles)
       {
         continue;
       }
-      const glm::vec3 off = positionOf(receivers, i) - positionOf(expected, i);
-      const glm::vec3 normal = normalOf(expected, i);
+      const glm::vec3 off = receivers.position(i) - expected.position(i);
+      const glm::vec3 normal = expected.normal(i);
       ASSERT_LT(glm::length(off), 2e-3f) << "rays meet silhouettes at a flat angle";
       ASSERT_LT(std::abs(glm::dot(off, normal)), 4e-6f);
-      ASSERT_GT(glm::dot(normalOf(receivers, i), normal), 0.9999f);
+      ASSERT_GT(glm::dot(receivers.normal(i), normal), 0.9999f);
       ASSERT_GE(
         receivers.offset[i], expected.offset[i] * (receivers.surface[i] == 0 ? 1.0f : 0.99f));
       ASSERT_LT(receivers.offset[i], expected.offset[i] + 2e-4f);

@@ -20,16 +20,12 @@ TEST_F(GlslTest, splitsOfPointsAreTheFirstThatHoldThemAndTheirBorder)
   ShadowLight light;
   light.directionWorld = { 0.0, -1.0, 0.0 };
   light.projection = Projection::Splits;
-  ViewFitting fitting;
-  fitting.castersCentred = { glm::dvec3(-1.0, -0.2, -1.0), glm::dvec3(1.0, 0.1, 1.0) };
-  fitting.receiversCentred = fitting.castersCentred;
-  fitting.texels = { size, 2 };
-  CameraView camera;
-  camera.viewFromCentred =
-    glm::lookAt(glm::dvec3(0.3, 0.3, 1.2), glm::dvec3(0.0), glm::dvec3(0.0, 1.0, 0.0));
-  camera.clipFromView = glm::perspective(glm::radians(60.0), 1.3, 0.05, 50.0);
-  fitting.camera = camera;
-  const LightViews views = fitLightViews(light, fitting);
+  const Bounds floor{ { -1.0, -0.2, -1.0 }, { 1.0, 0.1, 1.0 } };
+  const CameraView camera{ glm::lookAt(
+                             glm::dvec3(0.3, 0.3, 1.2), glm::dvec3(0.0), glm::dvec3(0.0, 1.0, 0.0)),
+    glm::perspective(glm::radians(60.0), 1.3, 0.05, 50.0) };
+  const LightViews views =
+    fitLightViews(light, { glm::dvec3(0.0), floor, floor, { size, 2 }, camera });
   ASSERT_EQ(views.views.size(), 4u);
 
   std::mt19937 random(8);

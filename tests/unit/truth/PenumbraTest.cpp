@@ -115,9 +115,8 @@ ReceiverPixels startingAt(const Next& next)
   {
     const std::size_t square = i / 64, in = i % 64;
     const Start start = next(in == 0);
-    place(receivers, (square / 8 * 8 + in / 8) * 64 + square % 8 * 8 + in % 8,
-      { glm::vec3(start.at - start.offset * start.normal), glm::vec3(start.normal),
-        static_cast<float>(start.offset) });
+    receivers.put((square / 8 * 8 + in / 8) * 64 + square % 8 * 8 + in % 8,
+      start.at - start.offset * start.normal, start.normal, static_cast<float>(start.offset), 0);
   }
   return receivers;
 }

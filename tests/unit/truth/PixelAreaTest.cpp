@@ -1,10 +1,10 @@
 // The number of a map's texels that shaders compute for a pixel, against the pixel's corners on the
 // map.
 
+#include "../lights/ViewPoints.h"
 #include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
 
-#include "lights/LightSpace.h"
 #include "lights/SettingsTable.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/LightViewsGlsl.h"
@@ -64,7 +64,7 @@ double texelsOf(const LightView& view, const std::array<glm::dvec3, 4>& corners)
   for (std::size_t i = 0; i < 4; ++i)
   {
     const glm::dvec3 p(view.rays.viewFromCentred * glm::dvec4(corners[i], 1.0));
-    places[i] = mapped(texels, view.rays.positional ? glm::dvec2(p) / p.z : glm::dvec2(p));
+    places[i] = mapped(texels, view.rays.across(p));
   }
   const glm::dvec2 a = places[2] - places[0];
   const glm::dvec2 b = places[3] - places[1];
@@ -78,11 +78,10 @@ TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
   const Plane plane{ { 0.0, 0.0, 0.0 }, glm::normalize(glm::dvec3(0.2, -0.3, 1.0)) };
   for (const bool parallel : { false, true })
   {
-    CameraView camera;
-    camera.viewFromCentred =
-      glm::lookAt(glm::dvec3(-1.0, -6.0, 4.0), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
-    camera.clipFromView = parallel ? glm::ortho(-2.0, 2.0, -1.4, 1.4, 0.5, 50.0)
-                                   : glm::perspective(glm::radians(30.0), 1.4, 0.5, 50.0);
+    const CameraView camera{ glm::lookAt(glm::dvec3(-1.0, -6.0, 4.0), glm::dvec3(0.0),
+                               glm::dvec3(0.0, 0.0, 1.0)),
+      parallel ? glm::ortho(-2.0, 2.0, -1.4, 1.4, 0.5, 50.0)
+               : glm::perspective(glm::radians(30.0), 1.4, 0.5, 50.0) };
     for (const char* projection : { "uniform", "lispsm", "tsm" })
     {
       std::vector<ShadowLight> lights = { directionalLight({ 0.7, 0.2, -1.0 }),
@@ -97,12 +96,9 @@ TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
           std::to_string(static_cast<int>(light.kind)) + (parallel ? ", parallel" : ""));
         findSetting("projection")->set(light, projection);
         light.mapSizeTexels = areaSide;
-        ViewFitting fitting;
-        fitting.castersCentred = { glm::dvec3(-5.0, -5.0, -2.5), glm::dvec3(5.0, 5.0, 2.8) };
-        fitting.receiversCentred = fitting.castersCentred;
-        fitting.texels = { areaSide, 2 };
-        fitting.camera = camera;
-        const LightViews views = fitLightViews(light, fitting);
+        const Bounds scene{ { -5.0, -5.0, -2.5 }, { 5.0, 5.0, 2.8 } };
+        const LightViews views =
+          fitLightViews(light, { glm::dvec3(0.0), scene, scene, { areaSide, 2 }, camera });
         ASSERT_FALSE(views.views.empty());
 
         std::mt19937 random(3);
@@ -114,19 +110,14 @@ TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
           const double x = below(pictureSize.x);
           const glm::dvec2 pixel(x, below(pictureSize.y));
           const glm::dvec3 middle = seenAt(camera, pixel + 0.5, plane);
-          const glm::dvec3 inLight(views.lightFromCentred * glm::dvec4(middle, 1.0));
-          const int view = views.layout == ViewLayout::Cube
-            ? views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(inLight))]
-            : 0;
-          if (view == LightViews::noView)
+          if (const LightView* const view = viewOf(views, middle))
           {
-            continue;
+            pointsView.emplace_back(camera.viewFromCentred * glm::dvec4(middle, 1.0));
+            expected.push_back(texelsOf(*view,
+              { seenAt(camera, pixel, plane), seenAt(camera, pixel + glm::dvec2(1.0, 0.0), plane),
+                seenAt(camera, pixel + 1.0, plane),
+                seenAt(camera, pixel + glm::dvec2(0.0, 1.0), plane) }));
           }
-          pointsView.emplace_back(camera.viewFromCentred * glm::dvec4(middle, 1.0));
-          expected.push_back(texelsOf(views.views[static_cast<std::size_t>(view)],
-            { seenAt(camera, pixel, plane), seenAt(camera, pixel + glm::dvec2(1.0, 0.0), plane),
-              seenAt(camera, pixel + 1.0, plane),
-              seenAt(camera, pixel + glm::dvec2(0.0, 1.0), plane) }));
         }
         const ReceiverSpace space{ glm::inverse(camera.viewFromCentred),
           camera.pixelSide(pictureSize) };

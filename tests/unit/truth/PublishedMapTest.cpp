@@ -127,11 +127,7 @@ ReceiverPixels receiversAt(
     const glm::dvec2 texel(i % width + 0.5, i / width + 0.5);
     const glm::dvec4 point =
       centredFromView * glm::dvec4(mapped(acrossFromTexel, texel), depthAt(texel), 1.0);
-    const auto at = static_cast<std::size_t>(i);
-    receivers.positionX[at] = static_cast<float>(point.x);
-    receivers.positionY[at] = static_cast<float>(point.y);
-    receivers.positionZ[at] = static_cast<float>(point.z);
-    receivers.surface[at] = 0;
+    receivers.put(static_cast<std::size_t>(i), point, glm::vec3(0.0f), 0.0f, 0);
   }
   return receivers;
 }
@@ -141,7 +137,6 @@ ReceiverPixels receiversAt(
 struct Flaps
 {
   Occluders occluders;
-  ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
   LightView view;
 
   explicit Flaps(const SharedSides& away)
@@ -157,9 +152,8 @@ struct Flaps
       flap = away[k] ? flap : glm::uvec3(flap.y, flap.x, flap.z);
     }
     this->occluders = makeOccluders({ { mesh } });
-    this->view = fitLightViews(this->light,
-      { this->occluders.frame.centre, this->occluders.castersCentred, {}, { width, 1 },
-        {} }).views.front();
+    this->view =
+      viewsOf(withMap(directionalLight({ 0.0, 0.0, -1.0 }), width), this->occluders).views.front();
   }
 
   MapPolygon polygon(std::uint32_t triangle) const
@@ -233,9 +227,7 @@ struct Askew
     mesh.points = { { -1.0, -0.9, 0.0 }, { 0.1, 1.0, 0.7 }, { 1.0, -0.8, 0.3 } };
     mesh.triangles = { { 0, 1, 2 } };
     this->occluders = makeOccluders({ { mesh } });
-    this->view = fitLightViews(light,
-      { this->occluders.frame.centre, this->occluders.castersCentred, {}, { width, 1 },
-        {} }).views.front();
+    this->view = viewsOf(withMap(light, width), this->occluders).views.front();
     const glm::dmat3 texels = texelFromAcross(this->view, width);
     for (std::size_t k = 0; k < 3; ++k)
     {

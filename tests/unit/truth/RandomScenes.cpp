@@ -1,6 +1,6 @@
 #include "RandomScenes.h"
 
-#include "lights/LightViews.h"
+#include "lights/LightSpace.h"
 #include "lights/SettingsTable.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -9,6 +9,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <map>
+#include <utility>
 
 namespace gnomon::test
 {
@@ -163,10 +165,20 @@ std::string lettersOf(std::string name)
 //------------------------------------------------------------------------------
 std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
 {
-  std::vector<Prop> props{ { makePlane(6.0, 1 + static_cast<int>(random() % 4)) } };
-  const auto add = [&](Mesh mesh, double scale) {
-    props.push_back({ std::move(mesh), placed(random, 1.2, scale) });
+  // Each scene has four such bodies, of this scale.
+  using Make = Mesh (*)(Random & random, int number);
+  static const std::map<std::string, std::pair<Make, double>> scattered = {
+    { "spheres",
+      { [](Random&, int i) { return makeSphere(6 + 5 * i, 12 + 10 * i, 0.2 * i); }, 0.3 } },
+    { "soup", { [](Random& of, int) { return makeTriangleSoup(60, of()); }, 1.0 } },
+    { "needles", { [](Random& of, int) { return makeNeedles(of, 40); }, 0.8 } },
+    { "cups", { [](Random&, int) { return makeCup(12, 16); }, 0.4 } },
+    { "folds", { [](Random&, int i) { return makeFolds(8 + i); }, 0.9 } },
+    { "junctions", { [](Random&, int) { return makeTJunctions(); }, 0.6 } },
+    { "duplicates", { [](Random& of, int) { return makeDuplicates(of, 30); }, 1.0 } },
+    { "one-sided", { [](Random&, int) { return makeSphere(8, 12); }, 0.4 } },
   };
+  std::vector<Prop> props{ { makePlane(6.0, 1 + static_cast<int>(random() % 4)) } };
   if (name == "one triangle")
   {
     props.clear();
@@ -177,42 +189,16 @@ std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
   }
   for (int i = 0; i < 4; ++i)
   {
-    if (name == "spheres")
+    if (const auto bodies = scattered.find(name); bodies != scattered.end())
     {
-      add(makeSphere(6 + 5 * i, 12 + 10 * i, 0.2 * i), 0.3);
-    }
-    else if (name == "soup")
-    {
-      add(makeTriangleSoup(60, random()), 1.0);
-    }
-    else if (name == "needles")
-    {
-      add(makeNeedles(random, 40), 0.8);
-    }
-    else if (name == "cups")
-    {
-      add(makeCup(12, 16), 0.4);
-    }
-    else if (name == "folds")
-    {
-      add(makeFolds(8 + i), 0.9);
-    }
-    else if (name == "junctions")
-    {
-      add(makeTJunctions(), 0.6);
-    }
-    else if (name == "duplicates")
-    {
-      add(makeDuplicates(random, 30), 1.0);
+      const auto& [make, scale] = bodies->second;
+      Mesh mesh = make(random, i);
+      props.push_back({ std::move(mesh), placed(random, 1.2, scale) });
+      props.back().oneSided = name == "one-sided";
     }
     else if (name == "perforated")
     {
       props.push_back(makePerforatedPlane(1.2, 1 + i, placed(random, 0.8, 1.0)));
-    }
-    else if (name == "one-sided")
-    {
-      add(makeSphere(8, 12), 0.4);
-      props.back().oneSided = true;
     }
     else if (name == "sheets")
     {
@@ -346,14 +332,11 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
   const int sizes[] = { 16, 64, 129, 512 };
   light.mapSizeTexels = sizes[random() % 4];
 
-  ViewFitting fitting;
-  fitting.centreWorld = picture.occluders.frame.centre;
-  fitting.castersCentred = picture.occluders.castersCentred;
-  fitting.receiversCentred = picture.occluders.allCentred;
-  fitting.texels = { light.mapSizeTexels, 1 };
+  const glm::dvec3 centre = picture.occluders.frame.centre;
+  ViewFitting fitting{ centre, picture.occluders.castersCentred, picture.occluders.allCentred,
+    { light.mapSizeTexels, 1 }, {} };
   if (isFittedToCamera(light))
   {
-    const glm::dvec3 centre = picture.occluders.frame.centre;
     const glm::dmat4 viewFromCentred =
       glm::lookAt(camera.position - centre, camera.target - centre, camera.up);
     fitting.camera = CameraView{ viewFromCentred,
@@ -372,6 +355,16 @@ LightViews viewsOf(const ShadowLight& light, const Occluders& occluders)
 {
   return fitLightViews(light,
     { occluders.frame.centre, occluders.castersCentred, {}, { light.mapSizeTexels, 1 }, {} });
+}
+
+//------------------------------------------------------------------------------
+LightRay rayAt(const LightView& view, int sizeTexels, const glm::dvec2& texels)
+{
+  const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
+  const glm::dvec2 across = mapped(glm::inverse(texelFromAcross(view, sizeTexels)), texels);
+  const glm::dvec4 from(view.rays.positional ? glm::dvec2(0.0) : across, 0.0, 1.0);
+  const glm::dvec4 along(view.rays.positional ? across : glm::dvec2(0.0), 1.0, 0.0);
+  return { glm::dvec3(centredFromView * from), glm::dvec3(centredFromView * along) };
 }
 
 //------------------------------------------------------------------------------

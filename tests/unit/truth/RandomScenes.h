@@ -57,6 +57,15 @@ RandomPicture makeRandomPicture(
 /// Return the views of a light's map, fitted to all casters.
 LightViews viewsOf(const ShadowLight& light, const Occluders& occluders);
 
+/// A ray of the light, centred, of any length: from the light, or parallel to its direction.
+struct LightRay
+{
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+};
+/// Return the ray of a view's map at a place, in texels.
+LightRay rayAt(const LightView& view, int sizeTexels, const glm::dvec2& texels);
+
 /// Return the number of pictures of each kind: GNOMON_EXACT_RUNS, or `few` if that is not set.
 unsigned int exactRuns(unsigned int few = 24);
 

@@ -10,8 +10,9 @@
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/ShadowRay.h"
 
+#include "../lights/ViewPoints.h"
 #include "EstimatorGlsl.h"
-#include "SyntheticScene.h"
+#include "RandomScenes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -201,12 +202,9 @@ struct Ground
 
   LightViews views(const ShadowLight& light) const
   {
-    ViewFitting fitting;
-    fitting.castersCentred = { glm::dvec3(-100.0, -100.0, 0.0), glm::dvec3(100.0, 100.0, 5.0) };
-    fitting.receiversCentred = fitting.castersCentred;
-    fitting.texels = { light.mapSizeTexels, 1 };
-    fitting.camera = this->camera;
-    return fitLightViews(light, fitting);
+    const Bounds scene{ { -100.0, -100.0, 0.0 }, { 100.0, 100.0, 5.0 } };
+    return fitLightViews(
+      light, { glm::dvec3(0.0), scene, scene, { light.mapSizeTexels, 1 }, this->camera });
   }
 
   CameraView camera;
@@ -472,18 +470,17 @@ TEST_F(ReceiverFitTest, distancesSplitTheReceivers)
 TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
 {
   const Bounds scene{ glm::dvec3(-1.0, -0.8, -0.6), glm::dvec3(1.0, 0.9, 0.7) };
+  const Bounds receivers{ glm::dvec3(-1.5), glm::dvec3(1.5) };
   const glm::dvec3 below(0.1, -0.05, -3.0);
   std::vector<ShadowLight> lights = { directionalLight({ 1.0, 0.4, -1.5 }),
     boxLight({ 0.0, 0.1, -1.0 }, { 0.0, 0.0, 0.7 }, { 1.1, 1.3, 2.2 }),
     spotLight({ 0.3, 0.2, 3.0 }, below, 12.0), spotLight({ 0.1, 0.0, 0.9 }, below, 80.0),
     pointLight({ 0.1, -0.1, 0.05 }) };
-  std::mt19937 random(46);
-  std::uniform_real_distribution<double> uniform(-1.5, 1.5);
-  CameraView camera; // sees all of it
-  camera.viewFromCentred =
+  Random random(46);
+  const glm::dmat4 viewFromCentred =
     glm::lookAt(glm::dvec3(3.0, -4.0, 2.0), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
-  camera.clipFromView = glm::ortho(-9.0, 9.0, -9.0, 9.0, -9.0, 9.0);
-  const glm::dmat4& viewFromCentred = camera.viewFromCentred;
+  // Sees all of it.
+  const CameraView camera{ viewFromCentred, glm::ortho(-9.0, 9.0, -9.0, 9.0, -9.0, 9.0) };
   const glm::dmat4 centredFromView = glm::inverse(viewFromCentred);
   std::size_t viewsSeen = 0;
   for (ShadowLight& light : lights)
@@ -493,21 +490,15 @@ TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
     light.projection = Projection::Uniform;
     light.mapSizeTexels = 512;
     light.fit = ViewFit::Frame;
-    ViewFitting fitting;
-    fitting.castersCentred = scene;
-    fitting.receiversCentred = { glm::dvec3(-1.5), glm::dvec3(1.5) };
-    fitting.texels = { 512, 1 };
-    fitting.camera = camera;
-    const LightViews views = fitLightViews(light, fitting);
+    const LightViews views =
+      fitLightViews(light, { glm::dvec3(0.0), scene, receivers, { 512, 1 }, camera });
     ASSERT_FALSE(views.views.empty());
     Image image(200, 150);
     for (std::size_t i = 0; i < image.points.size(); ++i)
     {
-      const glm::dvec3 p(uniform(random), uniform(random), uniform(random));
-      const glm::dvec3 n =
-        glm::normalize(glm::dvec3(uniform(random), uniform(random), uniform(random)));
-      image.set(
-        i, glm::dvec3(viewFromCentred * glm::dvec4(p, 1.0)), glm::dmat3(viewFromCentred) * n);
+      const glm::dvec3 p = inCube(random, 1.5);
+      image.set(i, glm::dvec3(viewFromCentred * glm::dvec4(p, 1.0)),
+        glm::dmat3(viewFromCentred) * unitVector(random));
     }
     ReceiverFit fit;
     this->compute(fit, light, views, image, centredFromView);
@@ -522,20 +513,17 @@ TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
       const glm::dvec3 n = glm::dmat3(centredFromView) * glm::dvec3(image.normal(i));
       const bool reached = visitShadowRays(
         rayLight, [&](const auto& rayFrom, float) { return rayFrom(p, n, 0.0f).traced; });
-      const glm::dvec3 pLight(views.lightFromCentred * glm::dvec4(p, 1.0));
-      const int view = views.layout == ViewLayout::Cube
-        ? views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(pLight))]
-        : 0;
-      if (!reached || view == LightViews::noView)
+      const LightView* const view = viewOf(views, p);
+      if (!reached || !view)
       {
         continue;
       }
-      const LightView& seenBy = views.views[static_cast<std::size_t>(view)];
-      const glm::dvec3 pView(seenBy.rays.viewFromCentred * glm::dvec4(p, 1.0));
-      const glm::dvec2 map = mapped(seenBy.mapFromAcross, seenBy.rays.across(pView));
+      const glm::dvec3 pView(view->rays.viewFromCentred * glm::dvec4(p, 1.0));
+      const glm::dvec2 map = mapped(view->mapFromAcross, view->rays.across(pView));
       if (glm::all(glm::lessThanEqual(glm::abs(map), glm::dvec2(outermost))))
       {
-        expected[static_cast<std::size_t>(view)].add(glm::dvec3((map + 1.0) * 256.0, pView.z));
+        expected[static_cast<std::size_t>(view - views.views.data())].add(
+          glm::dvec3((map + 1.0) * 256.0, pView.z));
       }
     }
     const std::vector<Bounds> bounds = readBounds(fit);

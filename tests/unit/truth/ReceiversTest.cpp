@@ -126,7 +126,7 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
       const std::array<glm::dvec3, 3> corners = drawnCorners(view, occluders, i);
       const glm::dvec3 normal =
         glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-      const glm::dvec3 position = glm::dvec3(positionOf(receivers, i));
+      const glm::dvec3 position = glm::dvec3(receivers.position(i));
 
       // On the triangle, to within the rounding of the position.
       const glm::dvec3 rounding = std::ldexp(1.0, -24) * glm::abs(position);
@@ -139,7 +139,7 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
       ASSERT_LT(off, (0.5 * std::sqrt(2.0) + 1.0) / 256.0 + 1e-4);
       clamped += off > 1e-4 ? 1 : 0;
 
-      const glm::dvec3 facing = glm::dvec3(normalOf(receivers, i));
+      const glm::dvec3 facing = glm::dvec3(receivers.normal(i));
       ASSERT_NEAR(std::abs(glm::dot(facing, normal)), 1.0, 1e-6);
       ASSERT_NEAR(glm::length(facing), 1.0, 1e-6);
       const PixelRays& rays = view.images.rays;
@@ -186,7 +186,7 @@ TEST(Receivers, AreTheClosestPointsOfTrianglesBesideTheRay)
         continue;
       }
       const std::array<glm::dvec3, 3> corners = drawnCorners(view, occluders, i);
-      const glm::dvec3 position = glm::dvec3(positionOf(receivers, i));
+      const glm::dvec3 position = glm::dvec3(receivers.position(i));
       ASSERT_GE(inside(corners, position), -std::ldexp(1.0, -24) * glm::length(position));
       const double off = offRay(view, i, position);
       ASSERT_LT(off, std::sqrt(5.0) + 0.01);
@@ -301,11 +301,11 @@ TEST(Receivers, TrianglesWithoutAreaFaceTheCamera)
   const ReceiverPixels receivers = project(view, occluders);
   EXPECT_EQ(receivers.surface[middle], 1u);
   const glm::dvec3 toCamera = -glm::normalize(view.images.rays.direction(128.0, 128.0));
-  EXPECT_LT(glm::length(glm::dvec3(normalOf(receivers, middle)) - toCamera), 1e-6);
+  EXPECT_LT(glm::length(glm::dvec3(receivers.normal(middle)) - toCamera), 1e-6);
   EXPECT_GT(receivers.offset[middle], 0.0f);
   // The triangle is reduced to a line: the receiver is its closest point.
   const std::array<glm::dvec3, 3> corners = drawnCorners(view, occluders, middle);
-  const double off = offRay(view, middle, glm::dvec3(positionOf(receivers, middle)));
+  const double off = offRay(view, middle, glm::dvec3(receivers.position(middle)));
   for (int step = 0; step <= 100; ++step)
   {
     EXPECT_GE(offRay(view, middle, glm::mix(corners[0], corners[1], step / 100.0)), off - 1e-4);
@@ -336,9 +336,8 @@ TEST(Receivers, TilesAreThePicture)
           const std::size_t row = n / tile.columns;
           const std::size_t column = n % tile.columns;
           const std::size_t i = tile.at(column, row);
-          place(picture, (tile.firstRow + row) * receivers.width() + tile.firstColumn + column,
-            { positionOf(tile.receivers, i), normalOf(tile.receivers, i),
-              tile.receivers.offset[i] },
+          picture.put((tile.firstRow + row) * receivers.width() + tile.firstColumn + column,
+            tile.receivers.position(i), tile.receivers.normal(i), tile.receivers.offset[i],
             tile.receivers.surface[i]);
         }
       });

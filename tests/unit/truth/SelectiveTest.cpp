@@ -6,13 +6,11 @@
 #include "shadowtech/selective/StatusContour.h"
 
 #include "RandomScenes.h"
-#include "SyntheticScene.h"
 
 #include "lights/LightSpace.h"
 #include "lights/ShadowSettings.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -215,23 +213,6 @@ FirstHit firstHit(
     }
   }
   return first;
-}
-
-/// A ray of the light, centred, of any length: from the light, or parallel to its direction.
-struct LightRay
-{
-  glm::dvec3 origin;
-  glm::dvec3 direction;
-};
-
-/// Return the ray of a view's map at a place, in texels.
-LightRay rayAt(const LightView& view, int sizeTexels, const glm::dvec2& texels)
-{
-  const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
-  const glm::dvec2 across = mapped(glm::inverse(texelFromAcross(view, sizeTexels)), texels);
-  const glm::dvec4 from(view.rays.positional ? glm::dvec2(0.0) : across, 0.0, 1.0);
-  const glm::dvec4 along(view.rays.positional ? across : glm::dvec2(0.0), 1.0, 0.0);
-  return { glm::dvec3(centredFromView * from), glm::dvec3(centredFromView * along) };
 }
 
 TEST(TriangleMap, hasTheFirstTriangleAtEveryTexelsCentre)

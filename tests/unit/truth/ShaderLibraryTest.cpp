@@ -7,9 +7,6 @@
 
 #include <gmock/gmock.h>
 
-#include <functional>
-#include <string>
-
 namespace gnomon::test
 {
 namespace
@@ -18,18 +15,11 @@ namespace
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Return the error of a call that has to fail.
-std::string errorOf(const std::function<void()>& call)
+/// Match a call that fails with an error like this.
+template <typename Matcher>
+auto fails(const Matcher& error)
 {
-  try
-  {
-    call();
-  }
-  catch (const ShaderError& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return testing::ThrowsMessage<ShaderError>(error);
 }
 
 using ShaderLibraryTest = GlslTest;
@@ -41,9 +31,9 @@ TEST_F(ShaderLibraryTest, saysWhatDoesNotCompileEachTimeThatItIsAskedFor)
   { ScreenPass::use(library, "out float v;\nvoid main()\n{\n  v = MISSING;\n}\n", { "GIVEN 3" }); };
   for (int attempt = 0; attempt < 2; ++attempt)
   {
-    EXPECT_THAT(errorOf(broken),
-      AllOf(HasSubstr("a shader does not compile"), HasSubstr("MISSING"),
-        HasSubstr("#define GIVEN 3")));
+    EXPECT_THAT(broken,
+      fails(AllOf(HasSubstr("a shader does not compile"), HasSubstr("MISSING"),
+        HasSubstr("#define GIVEN 3"))));
   }
   EXPECT_EQ(library.compiles(), 0);
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
@@ -54,20 +44,19 @@ TEST_F(ShaderLibraryTest, saysWhatDoesNotCompileEachTimeThatItIsAskedFor)
 TEST_F(ShaderLibraryTest, saysWhatDoesNotLink)
 {
   ShaderLibrary library;
-  EXPECT_THAT(errorOf(
-                [&]
-                {
-                  ScreenPass::use(library,
-                    "float missing();\nout float v;\nvoid main()\n{\n  v = missing();\n}\n");
-                }),
-    AllOf(HasSubstr("a program does not link"), HasSubstr("missing")));
+  const auto broken = [&]
+  {
+    ScreenPass::use(
+      library, "float missing();\nout float v;\nvoid main()\n{\n  v = missing();\n}\n");
+  };
+  EXPECT_THAT(broken, fails(AllOf(HasSubstr("a program does not link"), HasSubstr("missing"))));
   EXPECT_EQ(library.compiles(), 0);
 }
 
 TEST_F(ShaderLibraryTest, namesASourceThatIsNotThere)
 {
-  EXPECT_THAT(errorOf([] { ShaderLibrary::source("shadowtech/none.glsl"); }),
-    HasSubstr("shadowtech/none.glsl"));
+  EXPECT_THAT([] { ShaderLibrary::source("shadowtech/none.glsl"); },
+    fails(HasSubstr("shadowtech/none.glsl")));
 }
 
 } // namespace

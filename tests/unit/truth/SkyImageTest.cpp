@@ -1,14 +1,12 @@
 // A picture's view of the sky against rays in double.
 
 #include "RandomScenes.h"
-#include "SyntheticScene.h"
 
 #include "shadowtech/sky/SkyImage.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/constants.hpp>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -106,26 +104,51 @@ struct SkyScene
 std::vector<SkyScene> skyScenes()
 {
   const Prop ground{ makePlane(20.0) };
-  const auto looks = [](const glm::dvec3& from, const glm::dvec3& target)
-  {
-    Camera camera;
-    camera.position = from;
-    camera.target = target;
-    camera.width = 32;
-    camera.height = 24;
-    return camera;
-  };
   const Prop box{ makeBox({ -1, -1, 0 }, { 1, 1, 2 }) };
   const Prop roof{ makeBox({ -3, -3, 2.5 }, { 3, 1, 2.6 }) };
   const Prop room{ makeBox({ -4, -4, -0.1 }, { 4, 4, 3 }) };
   const Prop ball{ makeSphere(8, 12), at({ 0.3, 0.2, 1.1 }) };
-  return { { "a box on the ground", { ground, box }, looks({ 5, 4, 5 }, { 0, 0, 0.5 }) },
-    { "below a roof", { ground, box, roof }, looks({ 6, 7, 2 }, { 0, 0, 0.5 }) },
-    { "a closed room", { ground, room, ball }, looks({ 3, 3, 2 }, { 0, 0, 0.5 }) },
-    { "a ball above the ground", { ground, ball }, looks({ 4, 1, 3 }, { 0, 0, 0.5 }) },
-    { "hills", { { makeTerrain(6.0, 5, 1.5) } }, looks({ 4, 3, 4 }, { 0, 0, 0 }) },
+  return { { "a box on the ground", { ground, box }, { { 5, 4, 5 }, { 0, 0, 0.5 } } },
+    { "below a roof", { ground, box, roof }, { { 6, 7, 2 }, { 0, 0, 0.5 } } },
+    { "a closed room", { ground, room, ball }, { { 3, 3, 2 }, { 0, 0, 0.5 } } },
+    { "a ball above the ground", { ground, ball }, { { 4, 1, 3 }, { 0, 0, 0.5 } } },
+    { "hills", { { makeTerrain(6.0, 5, 1.5) } }, { { 4, 3, 4 }, { 0, 0, 0 } } },
     { "triangles", { { makeTriangleSoup(40, 3), at(glm::dvec3(0), 3.0) } },
-      looks({ 6, 6, 6 }, { 1.5, 1.5, 1.5 }) } };
+      { { 6, 6, 6 }, { 1.5, 1.5, 1.5 } } } };
+}
+
+/// A scene's receivers in a picture, ready for rays.
+struct SeenScene
+{
+  Occluders occluders;
+  ReceiverPixels receivers;
+  EmbreeTracer tracer;
+
+  /// @param width of the picture, whose sides are as 4 to 3
+  explicit SeenScene(const SkyScene& scene, int width = 32)
+    : occluders(makeOccluders(scene.props))
+  {
+    Camera camera = scene.camera;
+    camera.width = width;
+    camera.height = 3 * width / 4;
+    this->receivers = makeReceivers(this->occluders, camera);
+    this->tracer.update(this->occluders);
+  }
+  std::size_t trace(SkyImage& image, SkyModel model, std::size_t batches = SkyDirections::batches)
+  {
+    return image.trace(skyOf(model), this->receivers, this->occluders, this->tracer, batches);
+  }
+  std::size_t traceFew(SkyImage& image, SkyModel model)
+  {
+    return image.traceFew(skyOf(model), this->receivers, this->occluders, this->tracer);
+  }
+};
+
+std::vector<float> viewOf(const SkyImage& image)
+{
+  std::vector<float> view;
+  image.view(view);
+  return view;
 }
 
 /// Return the views by rays in double: a stratified direction for each of side * side parts.
@@ -141,9 +164,9 @@ std::vector<double> viewsInDouble(
       {
         return;
       }
-      const glm::dvec3 normal = normalOf(receivers, i);
+      const glm::dvec3 normal = receivers.normal(i);
       const glm::dvec3 origin =
-        glm::dvec3(positionOf(receivers, i)) + double(receivers.offset[i]) * normal;
+        glm::dvec3(receivers.position(i)) + double(receivers.offset[i]) * normal;
       views[i] = viewInDouble(sky, normal, side,
         [&](const glm::dvec3& direction)
         {
@@ -178,30 +201,31 @@ SkyErrors errorsOf(
 
 /// Keep the pixels at most 8 away from two neighbours whose normals differ by more than 25 degrees:
 /// surfaces meet there, or one ends before another.
-void keepPixelsNearCreases(ReceiverPixels& receivers, const Camera& camera)
+void keepPixelsNearCreases(ReceiverPixels& receivers)
 {
   constexpr int reach = 8;
-  const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * camera.width + x); };
+  const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * receivers.width + x); };
   const auto isCovered = [&](std::size_t pixel)
   { return receivers.surface[pixel] != ReceiverPixels::notCovered; };
   std::vector<char> isNear(receivers.size(), 0);
-  for (int y = 0; y + 1 < camera.height; ++y)
+  for (int y = 0; y + 1 < receivers.height; ++y)
   {
-    for (int x = 0; x + 1 < camera.width; ++x)
+    for (int x = 0; x + 1 < receivers.width; ++x)
     {
       const std::size_t pixel = at(x, y);
       const auto turns = [&](std::size_t other)
       {
         return isCovered(pixel) && isCovered(other) &&
-          glm::dot(normalOf(receivers, pixel), normalOf(receivers, other)) < 0.906;
+          glm::dot(receivers.normal(pixel), receivers.normal(other)) < 0.906;
       };
       if (turns(at(x + 1, y)) || turns(at(x, y + 1)))
       {
-        for (int row = std::max(y - reach, 0); row <= std::min(y + reach, camera.height - 1); ++row)
+        for (int row = std::max(y - reach, 0); row <= std::min(y + reach, receivers.height - 1);
+             ++row)
         {
           const auto first = isNear.begin() + static_cast<std::ptrdiff_t>(at(0, row));
-          std::fill(
-            first + std::max(x - reach, 0), first + std::min(x + reach + 1, camera.width), char(1));
+          std::fill(first + std::max(x - reach, 0),
+            first + std::min(x + reach + 1, receivers.width), char(1));
         }
       }
     }
@@ -217,43 +241,34 @@ void keepPixelsNearCreases(ReceiverPixels& receivers, const Camera& camera)
 
 TEST(SkyImage, ErrsLittleNearCreases)
 {
-  for (SkyScene& scene : skyScenes())
+  for (const SkyScene& scene : skyScenes())
   {
     SCOPED_TRACE(scene.name);
     if (scene.name == "triangles")
     {
       continue; // they hang apart from each other
     }
-    scene.camera.width = 160;
-    scene.camera.height = 120;
-    const Occluders occluders = makeOccluders(scene.props);
-    const ReceiverPixels all = makeReceivers(occluders, scene.camera);
-    ReceiverPixels near = all;
-    keepPixelsNearCreases(near, scene.camera);
-    ASSERT_GT(countCovered(near), 500u);
-    EmbreeTracer tracer;
-    tracer.update(occluders);
+    SeenScene all(scene, 160), near(scene, 160);
+    keepPixelsNearCreases(near.receivers);
+    ASSERT_GT(countCovered(near.receivers), 500u);
     const auto viewBy = [&](int directions)
     {
-      std::vector<float> view;
       SkyImage image(directions);
-      image.trace(skyOf(SkyModel::Uniform), near, occluders, tracer, SkyDirections::batches);
-      image.view(view);
-      return view;
+      near.trace(image, SkyModel::Uniform);
+      return viewOf(image);
     };
     const std::vector<float> many = viewBy(4096);
     const std::vector<double> truth(many.begin(), many.end());
-    const double rms = errorsOf(viewBy(256), truth, near).rms;
+    const double rms = errorsOf(viewBy(256), truth, near.receivers).rms;
     EXPECT_LT(rms, 0.015);
     SkyImage image(256);
-    std::vector<float> few;
-    image.traceFew(skyOf(SkyModel::Uniform), all, occluders, tracer);
-    image.view(few);
+    all.traceFew(image, SkyModel::Uniform);
+    std::vector<float> few = viewOf(image);
     for (std::size_t i = 0; i < few.size(); ++i)
     {
-      few[i] = near.surface[i] == ReceiverPixels::notCovered ? many[i] : few[i];
+      few[i] = near.receivers.surface[i] == ReceiverPixels::notCovered ? many[i] : few[i];
     }
-    const double moving = errorsOf(few, truth, near).rms;
+    const double moving = errorsOf(few, truth, near.receivers).rms;
     EXPECT_LT(moving, 0.08);
     RecordProperty(scene.name.substr(0, scene.name.find(" on")),
       std::to_string(rms) + " of 256 directions, " + std::to_string(moving) + " in motion");
@@ -265,26 +280,21 @@ TEST(SkyImage, ConvergesToRaysInDouble)
   double bias = 0.0;
   for (const SkyScene& scene : skyScenes())
   {
-    const Occluders occluders = makeOccluders(scene.props);
-    const ReceiverPixels receivers = makeReceivers(occluders, scene.camera);
-    EmbreeTracer tracer;
-    tracer.update(occluders);
+    SeenScene seen(scene);
     for (const SkyModel model : { SkyModel::Uniform, SkyModel::Overcast })
     {
       if (model != SkyModel::Uniform && scene.name != "below a roof")
       {
         continue; // radiance does not depend on the scene
       }
-      const Sky sky = skyOf(model);
-      const std::vector<double> truth = viewsInDouble(sky, occluders, receivers, 48);
+      const std::vector<double> truth =
+        viewsInDouble(skyOf(model), seen.occluders, seen.receivers, 48);
       for (const int directions : { 64, 256 })
       {
         SkyImage image(directions);
-        EXPECT_EQ(image.trace(sky, receivers, occluders, tracer, SkyDirections::batches),
-          countCovered(receivers) * static_cast<std::size_t>(directions));
-        std::vector<float> view;
-        image.view(view);
-        const SkyErrors errors = errorsOf(view, truth, receivers);
+        EXPECT_EQ(seen.trace(image, model),
+          countCovered(seen.receivers) * static_cast<std::size_t>(directions));
+        const SkyErrors errors = errorsOf(viewOf(image), truth, seen.receivers);
         EXPECT_LT(errors.rms, directions == 64 ? 0.02 : 0.008) << scene.name << " " << directions;
         if (directions == 256)
         {
@@ -299,48 +309,33 @@ TEST(SkyImage, ConvergesToRaysInDouble)
 
 TEST(SkyImage, StepsEndAsOneImage)
 {
-  const SkyScene scene = skyScenes().front();
-  const Occluders occluders = makeOccluders(scene.props);
-  const ReceiverPixels receivers = makeReceivers(occluders, scene.camera);
-  EmbreeTracer tracer;
-  tracer.update(occluders);
+  SeenScene seen(skyScenes().front());
   for (const SkyModel model : { SkyModel::Uniform, SkyModel::Dome, SkyModel::Overcast })
   {
-    std::vector<float> once, view;
-    SkyImage whole(64);
-    whole.trace(skyOf(model), receivers, occluders, tracer, SkyDirections::batches);
-    whole.view(once);
-    SkyImage image(64);
-    image.traceFew(skyOf(model), receivers, occluders, tracer); // of a moving picture
+    SkyImage whole(64), image(64);
+    seen.trace(whole, model);
+    seen.traceFew(image, model); // of a moving picture
     for (std::size_t batches = 1; batches <= SkyDirections::batches; batches += 3)
     {
-      image.trace(skyOf(model), receivers, occluders, tracer, batches);
+      seen.trace(image, model, batches);
       EXPECT_EQ(image.batches(), batches);
     }
-    image.view(view);
-    EXPECT_EQ(view, once);
+    EXPECT_EQ(viewOf(image), viewOf(whole));
   }
 }
 
 TEST(SkyImage, FewDirectionsAndNeighboursComeNear)
 {
-  for (SkyScene& scene : skyScenes())
+  for (const SkyScene& scene : skyScenes())
   {
-    scene.camera.width = 512;
-    scene.camera.height = 384;
-    const Occluders occluders = makeOccluders(scene.props);
-    const ReceiverPixels receivers = makeReceivers(occluders, scene.camera);
-    EmbreeTracer tracer;
-    tracer.update(occluders);
+    SeenScene seen(scene, 512);
     SkyImage image(256);
-    std::vector<float> few, view;
-    const std::size_t rays = image.traceFew(skyOf(SkyModel::Uniform), receivers, occluders, tracer);
-    image.view(few);
-    EXPECT_EQ(rays, 2 * countCovered(receivers));
-    image.trace(skyOf(SkyModel::Uniform), receivers, occluders, tracer, SkyDirections::batches);
-    image.view(view);
+    EXPECT_EQ(seen.traceFew(image, SkyModel::Uniform), 2 * countCovered(seen.receivers));
+    const std::vector<float> few = viewOf(image);
+    seen.trace(image, SkyModel::Uniform);
+    const std::vector<float> view = viewOf(image);
     const SkyErrors errors =
-      errorsOf(few, std::vector<double>(view.begin(), view.end()), receivers);
+      errorsOf(few, std::vector<double>(view.begin(), view.end()), seen.receivers);
     // Facets with few pixels have few neighbours.
     EXPECT_LT(errors.rms, scene.name == "hills" ? 0.035 : 0.03) << scene.name;
     RecordProperty(scene.name.substr(scene.name.rfind(' ') + 1), std::to_string(errors.rms));
@@ -351,27 +346,20 @@ TEST(SkyImage, FewDirectionsAndNeighboursComeNear)
 /// Every ray leaves a convex body, whether its curve's normal or its facet's leads.
 TEST(SkyImage, ConvexBodiesSeeAll)
 {
-  const Occluders occluders = makeOccluders({ { makeSphere(8, 12) } });
-  Camera camera;
-  camera.position = { 4, 3, 2 };
-  ReceiverPixels receivers = makeReceivers(occluders, camera);
+  SeenScene seen({ "ball", { { makeSphere(8, 12) } }, { { 4, 3, 2 } } }, 256);
+  ReceiverPixels& receivers = seen.receivers;
   receivers.curves.resize(receivers.size());
   for (std::size_t i = 0; i < receivers.size(); ++i)
   {
     receivers.curved[i] = receivers.surface[i] != ReceiverPixels::notCovered ? 1 : 0;
-    receivers.curves[i].normal = glm::normalize(positionOf(receivers, i) + glm::vec3(1e-9f));
+    receivers.curves[i].normal = glm::normalize(receivers.position(i) + glm::vec3(1e-9f));
   }
-  EmbreeTracer tracer;
-  tracer.update(occluders);
-  SkyImage image(64);
-  image.trace(skyOf(SkyModel::Uniform), receivers, occluders, tracer, SkyDirections::batches);
-  std::vector<float> view;
-  image.view(view);
-  EXPECT_THAT(view, testing::Each(1.0f));
+  SkyImage even(64), dome(64);
+  seen.trace(even, SkyModel::Uniform);
+  EXPECT_THAT(viewOf(even), testing::Each(1.0f));
   // Facets do not show in a sky that is not even.
-  SkyImage dome(64);
-  dome.trace(skyOf(SkyModel::Dome), receivers, occluders, tracer, SkyDirections::batches);
-  dome.view(view);
+  seen.trace(dome, SkyModel::Dome);
+  const std::vector<float> view = viewOf(dome);
   for (std::size_t i = 0; i < receivers.size(); ++i)
   {
     const float expected =

@@ -337,40 +337,14 @@ ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera)
 }
 
 //------------------------------------------------------------------------------
-void place(
-  ReceiverPixels& pixels, std::size_t pixel, const PlacedReceiver& receiver, std::uint32_t surface)
-{
-  const auto& [position, normal, offset] = receiver;
-  pixels.positionX[pixel] = position.x;
-  pixels.positionY[pixel] = position.y;
-  pixels.positionZ[pixel] = position.z;
-  pixels.normalX[pixel] = normal.x;
-  pixels.normalY[pixel] = normal.y;
-  pixels.normalZ[pixel] = normal.z;
-  pixels.offset[pixel] = offset;
-  pixels.surface[pixel] = surface;
-}
-
-//------------------------------------------------------------------------------
-glm::vec3 positionOf(const ReceiverPixels& pixels, std::size_t pixel)
-{
-  return { pixels.positionX[pixel], pixels.positionY[pixel], pixels.positionZ[pixel] };
-}
-
-//------------------------------------------------------------------------------
-glm::vec3 normalOf(const ReceiverPixels& pixels, std::size_t pixel)
-{
-  return { pixels.normalX[pixel], pixels.normalY[pixel], pixels.normalZ[pixel] };
-}
-
-//------------------------------------------------------------------------------
 ReceiverPixels rowOf(const std::vector<PlacedReceiver>& receivers, std::uint32_t surface)
 {
   ReceiverPixels pixels;
   pixels.resize(static_cast<int>(receivers.size()), 1);
   for (std::size_t i = 0; i < receivers.size(); ++i)
   {
-    place(pixels, i, receivers[i], surface);
+    const auto& [position, normal, offset] = receivers[i];
+    pixels.put(i, position, normal, offset, surface);
   }
   return pixels;
 }
@@ -499,7 +473,7 @@ std::vector<float> traceBruteForce(
           if (surface != ReceiverPixels::notCovered && occluders.surfaces[surface].receives)
           {
             const ShadowRay ray =
-              makeRay(positionOf(receivers, i), normalOf(receivers, i), receivers.offset[i]);
+              makeRay(receivers.position(i), receivers.normal(i), receivers.offset[i]);
             const bool lit = ray.traced &&
               std::none_of(triangles.begin(), triangles.end(),
                 [&](const CastingTriangle& triangle) { return stops(triangle, ray, rayFar); });

@@ -94,10 +94,6 @@ struct PlacedReceiver
   glm::vec3 normal;
   float offset; ///< of its shadow ray
 };
-void place(ReceiverPixels& pixels, std::size_t pixel, const PlacedReceiver& receiver,
-  std::uint32_t surface = 0);
-glm::vec3 positionOf(const ReceiverPixels& pixels, std::size_t pixel);
-glm::vec3 normalOf(const ReceiverPixels& pixels, std::size_t pixel);
 /// Return a row of receivers of one surface.
 ReceiverPixels rowOf(const std::vector<PlacedReceiver>& receivers, std::uint32_t surface = 0);
 

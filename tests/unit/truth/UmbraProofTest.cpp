@@ -20,11 +20,6 @@ namespace gnomon::test
 namespace
 {
 
-glm::dvec3 randomPoint(Random& random)
-{
-  return { uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0) };
-}
-
 /// Return a light of any kind at some distance, with an area or none.
 ShadowLight farLight(Random& random, const glm::dvec3& towards)
 {
@@ -60,7 +55,7 @@ std::vector<glm::dvec3> polygonAround(
 {
   const glm::dvec3 towards =
     glm::normalize(ends.isDirectional ? ends.corners[0] : ends.corners[0] - box.centre());
-  const glm::dvec3 normal = glm::normalize(towards + 0.5 * randomPoint(random));
+  const glm::dvec3 normal = glm::normalize(towards + 0.5 * inCube(random));
   const glm::dvec3 onPlane = uniform(random, 2.0, 5.0) * towards;
   const glm::dvec3 x = glm::normalize(glm::cross(normal, glm::dvec3(0.3, 0.5, 0.8)));
   const glm::dvec3 y = glm::cross(normal, x);
@@ -139,7 +134,7 @@ Blocked makeBlocked(Random& random, int corners, double more)
 {
   Blocked blocked;
   blocked.light = farLight(random, uniform(random, 7.0, 12.0) * unitVector(random));
-  const glm::dvec3 half = 0.4 * glm::abs(randomPoint(random));
+  const glm::dvec3 half = 0.4 * glm::abs(inCube(random));
   const Bounds box{ -half, half };
   const std::vector<glm::dvec3> polygon =
     polygonAround(box, RayEnds(blocked.light, Occluders()), corners, more, random);
