@@ -74,7 +74,6 @@ bool showsBackgroundBelow(const Picture& picture)
   return std::all_of(pixel, pixel + 3, [](unsigned char value) { return value == 255; });
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, VisibilityWithoutCastingLightsHoldsTheReceivers)
 {
   ChannelImage lit = this->visibilityOf("cube");
@@ -91,7 +90,6 @@ TEST_F(RenderCommand, VisibilityWithoutCastingLightsHoldsTheReceivers)
   EXPECT_GT(std::count(coverage.begin(), coverage.end(), 1.0f), 500);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, ShowsAModelOnAGroundUnderAKeyLightAndALittleAmbient)
 {
   const Picture picture = this->pictureOf(this->model);
@@ -100,7 +98,6 @@ TEST_F(RenderCommand, ShowsAModelOnAGroundUnderAKeyLightAndALittleAmbient)
   EXPECT_LT(darkest(picture), 80);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, PlacesTheKeyLightOfModelsForTheCamera)
 {
   // From each side, half of the model's visible pixels are lit.
@@ -128,7 +125,6 @@ TEST_F(RenderCommand, PlacesTheKeyLightOfModelsForTheCamera)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, GroundIsThereIfAskedFor)
 {
   EXPECT_TRUE(showsBackgroundBelow(this->pictureOf(this->model, "--no-ground")));
@@ -139,7 +135,6 @@ TEST_F(RenderCommand, GroundIsThereIfAskedFor)
   EXPECT_TRUE(showsBackgroundBelow(this->pictureOf(this->sceneFile(), "--no-ground")));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, AmbientIsTheShareOfColourInShadow)
 {
   // The darkest colour is the ground's blue, 0.72.
@@ -149,7 +144,6 @@ TEST_F(RenderCommand, AmbientIsTheShareOfColourInShadow)
   EXPECT_NEAR(darkest(this->pictureOf(this->sceneFile())), 0.5 * 0.8 * 255, 1.0);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, TheSkyBrightensShadows)
 {
   const int black = darkest(this->pictureOf(this->model, "--ambient 0"));
@@ -167,7 +161,6 @@ TEST_F(RenderCommand, TheSkyBrightensShadows)
   EXPECT_EQ(this->pictureOf(this->sceneFile(), "--sky 0").rgb, dark.rgb);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, GlassLeavesTranslucentModelsTheirLight)
 {
   writeBytes(this->folder / "glass.mtl", "newmtl glass\nKd 0.5 0.5 0.5\nd 0.25\n");
@@ -180,7 +173,6 @@ TEST_F(RenderCommand, GlassLeavesTranslucentModelsTheirLight)
   EXPECT_GT(darkest(this->pictureOf(pane, options + " --glass")), 40);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, VolumesCastIfAsked)
 {
   const auto seenOf = [this](const std::string& options)
@@ -193,7 +185,6 @@ TEST_F(RenderCommand, VolumesCastIfAsked)
   EXPECT_LT(seenOf(options + " --volumes"), seenOf(options) - 1.0);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, TellsHowPixelsWereDecided)
 {
   const ChannelImage image = this->visibilityOf("cube",
@@ -214,7 +205,6 @@ TEST_F(RenderCommand, TellsHowPixelsWereDecided)
   EXPECT_EQ(pixels, 64 * 64);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, ParallelCameraShowsSizesAsTheyAre)
 {
   // The picture is 4 high: the pyramid, 2 wide where it stands, takes half of a row there.
@@ -234,7 +224,6 @@ TEST_F(RenderCommand, ParallelCameraShowsSizesAsTheyAre)
   EXPECT_EQ(this->visibilityOf(this->sceneFile()).channels.at("coverage"), coverage);
 }
 
-//------------------------------------------------------------------------------
 /// The picture's file is a pipe that is full until the reader begins, so the work takes that long.
 TEST_F(RenderCommand, SaysAfterTwoSecondsWhatItDoes)
 {
@@ -264,7 +253,6 @@ TEST_F(RenderCommand, SaysAfterTwoSecondsWhatItDoes)
   EXPECT_NE(said.find(" s\n"), std::string::npos) << said;
 }
 
-//------------------------------------------------------------------------------
 TEST_F(RenderCommand, DrawsASettingsFileOfTheViewer)
 {
   const Scene scene = loadScene("cube");

@@ -28,7 +28,6 @@ SceneModel makeBox(const Vec3& low, const Vec3& high)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(VisibleDepths, AreOfWhatIsInThePicture)
 {
   const SceneModel ground = makePlane(origin, 200.0);

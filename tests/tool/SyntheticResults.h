@@ -4,8 +4,6 @@
 
 #include "plugin/vtkGnomonVisibilityImages.h"
 
-#include <vector>
-
 namespace gnomon::tool
 {
 

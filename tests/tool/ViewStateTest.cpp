@@ -5,11 +5,9 @@
 #include "view/ViewKeys.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <set>
 
 using testing::HasSubstr;
@@ -72,7 +70,6 @@ std::string refusalOf(const std::string& key, const nlohmann::json& value)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(ViewState, ComesBackFromItsTextToTheLastBit)
 {
   const std::string text = textOf(unusualState());
@@ -87,7 +84,6 @@ TEST(ViewState, ComesBackFromItsTextToTheLastBit)
   EXPECT_EQ(json.size(), 16u);
 }
 
-//------------------------------------------------------------------------------
 TEST(ViewState, RefusesWhatItCannotShowAndNamesThePlace)
 {
   EXPECT_EQ(refusalOf("map_size", 512), "(nothing was thrown)");
@@ -102,7 +98,6 @@ TEST(ViewState, RefusesWhatItCannotShowAndNamesThePlace)
   EXPECT_THAT(refusalOf("colour", "red"), HasSubstr("colour"));
 }
 
-//------------------------------------------------------------------------------
 TEST(ViewState, LightsGrowInTheirProportions)
 {
   Scene scene = lightsScene();
@@ -128,7 +123,6 @@ TEST(ViewState, LightsGrowInTheirProportions)
   EXPECT_LE(state.lights[0].size, 90.0);
 }
 
-//------------------------------------------------------------------------------
 TEST(SunTime, GoesOverTheEndsOfDaysMonthsAndYears)
 {
   const auto after = [](const char* time, int minutes)
@@ -145,7 +139,6 @@ TEST(SunTime, GoesOverTheEndsOfDaysMonthsAndYears)
   EXPECT_EQ(after("2024-06-21T12:00", -7 * 1440), "2024-06-14T12:00");
 }
 
-//------------------------------------------------------------------------------
 TEST(ViewKeys, EachIsThereOnceAndLeavesVtksAlone)
 {
   std::set<char> codes;
@@ -163,7 +156,6 @@ TEST(ViewKeys, EachIsThereOnceAndLeavesVtksAlone)
   EXPECT_EQ(findKey('\0'), nullptr);
 }
 
-//------------------------------------------------------------------------------
 TEST(ViewKeys, TheHelpSaysTheStates)
 {
   ViewState state = unusualState();

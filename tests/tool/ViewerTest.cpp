@@ -10,7 +10,6 @@
 #include "shadowtech/base/Gl.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
@@ -161,7 +160,6 @@ protected:
   std::unique_ptr<Viewer> viewer;
 };
 
-//------------------------------------------------------------------------------
 TEST_F(ViewerTest, SwitchesTechniqueTruthAndErrorInPlace)
 {
   this->view("bunny", { "nsm", "raytraced" });
@@ -203,7 +201,6 @@ TEST_F(ViewerTest, SwitchesTechniqueTruthAndErrorInPlace)
   EXPECT_EQ(this->state().technique, "raytraced");
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ViewerTest, TheHandleComesBackWithItsBall)
 {
   this->view("bunny", { "nsm" });
@@ -211,7 +208,6 @@ TEST_F(ViewerTest, TheHandleComesBackWithItsBall)
   EXPECT_TRUE(below(this->viewer->view().still()) == below(back));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ViewerTest, SavesWhatTheHeadlessProgramDrawsByteForByte)
 {
   this->view("bunny", { "pssm", "silhouette", "auto" });
@@ -222,7 +218,6 @@ TEST_F(ViewerTest, SavesWhatTheHeadlessProgramDrawsByteForByte)
   EXPECT_EQ(this->drawAgain(), 8);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ViewerTest, ARestingSceneDrawsNothing)
 {
   this->view("bunny", { "auto", "penumbra" });
@@ -245,7 +240,6 @@ TEST_F(ViewerTest, ARestingSceneDrawsNothing)
   EXPECT_EQ(this->viewer->view().framesDrawn(), frames + 1);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ViewerTest, TheProbeSaysWhatIsInTheWay)
 {
   this->view("bunny", { "silhouette" });
@@ -265,7 +259,6 @@ TEST_F(ViewerTest, TheProbeSaysWhatIsInTheWay)
   EXPECT_THAT(this->corner(), Not(HasSubstr("light 0")));
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ViewerTest, TheHandleMovesTheLightAndTheWheelSizesIt)
 {
   this->view("bunny", { "raytraced" });
@@ -306,7 +299,6 @@ TEST_F(ViewerTest, TheHandleMovesTheLightAndTheWheelSizesIt)
   EXPECT_EQ(this->drawAgain(), 2);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ViewerTest, KeysOfVtkKeepTheirMeaning)
 {
   this->view("cube", { "raytraced" });
@@ -337,7 +329,6 @@ TEST_F(ViewerTest, KeysOfVtkKeepTheirMeaning)
   EXPECT_EQ(this->drawAgain(), 2);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(ViewerTest, TheSunShinesByDateAndPlace)
 {
   Scene scene = loadScene("bunny");
@@ -358,7 +349,6 @@ TEST_F(ViewerTest, TheSunShinesByDateAndPlace)
   EXPECT_THAT(this->corner(), HasSubstr("sun 2024-06-14T14:14+02:00"));
 }
 
-//------------------------------------------------------------------------------
 /// Slow: every mode on larger scenes, with several lights and with areas.
 class ViewerScenes
   : public ViewerTest

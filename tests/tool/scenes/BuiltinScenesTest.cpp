@@ -128,7 +128,6 @@ INSTANTIATE_TEST_SUITE_P(BuiltinScenes, BuiltinSceneTest, testing::ValuesIn(smal
     return name;
   });
 
-//------------------------------------------------------------------------------
 TEST(BuiltinScenes, AreListedOnceEach)
 {
   std::set<std::string> names;
@@ -147,7 +146,6 @@ TEST(BuiltinScenes, AreListedOnceEach)
   EXPECT_EQ(builtinScenes().size(), 40u);
 }
 
-//------------------------------------------------------------------------------
 /// The literature's hard cases: apelles N1 to N29, crsm N1 to N15, and so on. Those without a scene
 /// are rows of tests/acceptance.tsv.
 TEST(BuiltinScenes, EveryHardCaseHasASceneOrATest)
@@ -183,7 +181,6 @@ TEST(BuiltinScenes, EveryHardCaseHasASceneOrATest)
   EXPECT_EQ(named, expected);
 }
 
-//------------------------------------------------------------------------------
 TEST_P(BuiltinSceneTest, IsFiniteInFrontOfItsCameraAndTheSameEveryTime)
 {
   const Scene scene = loadScene(GetParam());
@@ -207,7 +204,6 @@ TEST_P(BuiltinSceneTest, IsFiniteInFrontOfItsCameraAndTheSameEveryTime)
   EXPECT_GT(depths.farthest, depths.nearest);
 }
 
-//------------------------------------------------------------------------------
 TEST(BuiltinScenes, HaveTheTrianglesThatTheyPromise)
 {
   for (const auto& [name, count] : std::map<std::string, vtkIdType>{ { "bunny", 69668 },
@@ -224,7 +220,6 @@ TEST(BuiltinScenes, HaveTheTrianglesThatTheyPromise)
   }
 }
 
-//------------------------------------------------------------------------------
 // Cosines between the cameras' directions and the light's, of Moderno's table 3.
 TEST(BuiltinScenes, PrimitivesAreSeenAcrossWithAndAgainstTheLight)
 {
@@ -238,7 +233,6 @@ TEST(BuiltinScenes, PrimitivesAreSeenAcrossWithAndAgainstTheLight)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(BuiltinScenes, ModelsStandOnAPlaneOfFourTimesTheirSize)
 {
   for (const char* name : { "bunny", "horse", "cat" })
@@ -253,7 +247,6 @@ TEST(BuiltinScenes, ModelsStandOnAPlaneOfFourTimesTheirSize)
   }
 }
 
-//------------------------------------------------------------------------------
 // The front of every triangle, counter-clockwise, is the side that its normals show, and no
 // triangle is without area.
 TEST(BuiltinScenes, TrianglesFaceTheWayOfTheirNormals)
@@ -284,7 +277,6 @@ TEST(BuiltinScenes, TrianglesFaceTheWayOfTheirNormals)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(BuiltinScenes, TheTerrainIsSeenFromTwoMetresAboveTheGround)
 {
   const Scene scene = loadScene("terrain");
@@ -302,7 +294,6 @@ TEST(BuiltinScenes, TheTerrainIsSeenFromTwoMetresAboveTheGround)
   EXPECT_NEAR(nearest.second, 2.0, 0.7);
 }
 
-//------------------------------------------------------------------------------
 TEST(BuiltinScenes, SolidsAreClosedAndSheetsAreOpen)
 {
   struct Case
@@ -343,7 +334,6 @@ TEST(BuiltinScenes, SolidsAreClosedAndSheetsAreOpen)
   }
 }
 
-//------------------------------------------------------------------------------
 // No background in any picture of the garden: the rays through the corners of pictures up to 16:9
 // meet the lawn. The corners see farthest. In Morais' views of the trees, only their shadows show.
 TEST(BuiltinScenes, TheGardensLawnFillsEveryView)
@@ -379,7 +369,6 @@ TEST(BuiltinScenes, TheGardensLawnFillsEveryView)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(BuiltinScenes, TheHalfPlanesShadowEndsAtTheKnownLine)
 {
   Scene scene = loadScene("half-plane");
@@ -413,7 +402,6 @@ TEST(BuiltinScenes, TheHalfPlanesShadowEndsAtTheKnownLine)
   EXPECT_GT(std::min(counts[0], counts[1]), 9000);
 }
 
-//------------------------------------------------------------------------------
 // With what it takes to hold them: coordinates shared along walls, no normals, indices of 32 bits.
 TEST(BuiltinScenes, TheCityHasTenMillionTrianglesOfLessThan30BytesEach)
 {
@@ -429,7 +417,6 @@ TEST(BuiltinScenes, TheCityHasTenMillionTrianglesOfLessThan30BytesEach)
   EXPECT_GT(scene.models.size(), 100u);
 }
 
-//------------------------------------------------------------------------------
 TEST(BuiltinScenes, AMissingPackageIsNamed)
 {
   TestFolder folder;

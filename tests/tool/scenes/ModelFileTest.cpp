@@ -35,22 +35,26 @@ Scene sceneOf(const Model& model)
   return scene;
 }
 
-Model readModel(const TestFolder& folder, const std::string& name, const std::string& bytes)
+class ModelFile : public testing::Test
 {
-  writeBytes(folder / name, bytes);
-  return readModelFile(folder / name);
-}
+protected:
+  Model read(const std::string& name, const std::string& bytes)
+  {
+    writeBytes(this->folder / name, bytes);
+    return readModelFile(this->folder / name);
+  }
 
-//------------------------------------------------------------------------------
-TEST(ModelFile, ReadsTheSamePyramidFromEveryType)
-{
   TestFolder folder;
+};
+
+TEST_F(ModelFile, ReadsTheSamePyramidFromEveryType)
+{
   std::map<std::string, std::string> models = sampleModels();
   models["CAPITALS.OBJ"] = sampleFile("model.obj");
   for (const auto& [name, bytes] : models)
   {
     SCOPED_TRACE(name);
-    const Model model = readModel(folder, name, bytes);
+    const Model model = this->read(name, bytes);
     EXPECT_EQ(countTriangles(model), 6);
     // The glTF document moves its mesh by a unit.
     const double shift = name.find("model.gl") == 0 ? 1.0 : 0.0;
@@ -68,15 +72,13 @@ TEST(ModelFile, ReadsTheSamePyramidFromEveryType)
   }
 }
 
-//------------------------------------------------------------------------------
-TEST(ModelFile, ObjMaterialsBecomeSurfacesWithColourAndTexture)
+TEST_F(ModelFile, ObjMaterialsBecomeSurfacesWithColourAndTexture)
 {
-  TestFolder folder;
-  writeBytes(folder / "t.png", sampleFile("picture.png"));
-  writeBytes(folder / "m.mtl",
+  writeBytes(this->folder / "t.png", sampleFile("picture.png"));
+  writeBytes(this->folder / "m.mtl",
     "newmtl red\nKd 1 0.25 0\nmap_Kd t.png\n\nnewmtl glass\nKd 0 0 1\nKs 0.5 0.5 0.5\nNs 20\nd "
     "0.5");
-  const Model model = readModel(folder, "m.obj",
+  const Model model = this->read("m.obj",
     "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
     "usemtl red\nf 1/1 2/2 3/3\nusemtl glass\nf -4/-3 -2/-2 -1/-1\nf 1/1 2/2 4/3\n");
   ASSERT_EQ(model.surfaces.size(), 2u);
@@ -95,11 +97,9 @@ TEST(ModelFile, ObjMaterialsBecomeSurfacesWithColourAndTexture)
   EXPECT_TRUE(model.notes.empty());
 }
 
-//------------------------------------------------------------------------------
-TEST(ModelFile, GltfMaterialAndTextureAreKept)
+TEST_F(ModelFile, GltfMaterialAndTextureAreKept)
 {
-  TestFolder folder;
-  const Model model = readModel(folder, "m.glb", makeGlb(sampleGltf(), sampleFile("buffer.bin")));
+  const Model model = this->read("m.glb", makeGlb(sampleGltf(), sampleFile("buffer.bin")));
   ASSERT_EQ(model.surfaces.size(), 1u);
   vtkProperty* property = model.surfaces[0].property;
   EXPECT_EQ(property->GetInterpolation(), VTK_PBR);
@@ -117,11 +117,9 @@ TEST(ModelFile, GltfMaterialAndTextureAreKept)
     1.0f);
 }
 
-//------------------------------------------------------------------------------
-TEST(ModelFile, GltfCameraAndLightsStandWhereTheirNodesAre)
+TEST_F(ModelFile, GltfCameraAndLightsStandWhereTheirNodesAre)
 {
-  TestFolder folder;
-  const Model model = readModel(folder, "m.gltf", sampleGltfWithBuffer().dump());
+  const Model model = this->read("m.gltf", sampleGltfWithBuffer().dump());
   ASSERT_TRUE(model.camera);
   EXPECT_LT(length(model.camera->position - Vec3{ 0, 1, 9 }), 1e-9);
   // The target lies as far away as the middle of the pyramid, (0, 1, 1).
@@ -142,12 +140,10 @@ TEST(ModelFile, GltfCameraAndLightsStandWhereTheirNodesAre)
   EXPECT_DOUBLE_EQ(sun.intensity, 2.0);
 }
 
-//------------------------------------------------------------------------------
-TEST(ModelFile, ABareModelGetsAGroundACameraAndALight)
+TEST_F(ModelFile, ABareModelGetsAGroundACameraAndALight)
 {
-  TestFolder folder;
-  writeBytes(folder / "m.obj", sampleFile("model.obj"));
-  const Scene scene = loadScene(folder / "m.obj");
+  writeBytes(this->folder / "m.obj", sampleFile("model.obj"));
+  const Scene scene = loadScene(this->folder / "m.obj");
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_EQ(scene.lights[0].type, SceneLight::Type::Directional);
   const Vec3 travel = scene.lights[0].target - scene.lights[0].position;
@@ -164,25 +160,21 @@ TEST(ModelFile, ABareModelGetsAGroundACameraAndALight)
   EXPECT_NEAR(ground[3], model[2], 0.001);
 }
 
-//------------------------------------------------------------------------------
 /// VTK's importers give materials without ambient light, and files with lights of their own are lit
 /// by those.
-TEST(ModelFile, ABareModelGetsAmbientLightWithItsLight)
+TEST_F(ModelFile, ABareModelGetsAmbientLightWithItsLight)
 {
-  TestFolder folder;
   nlohmann::json document = sampleGltfWithBuffer();
   for (const double expected : { 0.0, 0.2 })
   {
-    writeBytes(folder / "m.gltf", document.dump());
-    EXPECT_EQ(loadScene(folder / "m.gltf").models[0].property->GetAmbient(), expected);
+    writeBytes(this->folder / "m.gltf", document.dump());
+    EXPECT_EQ(loadScene(this->folder / "m.gltf").models[0].property->GetAmbient(), expected);
     document["scenes"][0]["nodes"] = { 0, 1 }; // the others are the lights
   }
 }
 
-//------------------------------------------------------------------------------
-TEST(ModelFile, GltfMayHaveOtherCamerasAndLights)
+TEST_F(ModelFile, GltfMayHaveOtherCamerasAndLights)
 {
-  TestFolder folder;
   nlohmann::json document = sampleGltfWithBuffer();
   document["cameras"][0] = { { "type", "orthographic" },
     { "orthographic", { { "xmag", 3 }, { "ymag", 2 }, { "znear", 0.1 }, { "zfar", 50 } } } };
@@ -191,7 +183,7 @@ TEST(ModelFile, GltfMayHaveOtherCamerasAndLights)
   document["nodes"].push_back({ { "camera", 0 }, { "translation", { 1, 2, 3 } } });
   document["extensions"]["KHR_lights_punctual"]["lights"][0] = { { "type", "point" },
     { "intensity", 72 }, { "color", { 1, 0.5, 0.25 } } };
-  const Model model = readModel(folder, "m.gltf", document.dump());
+  const Model model = this->read("m.gltf", document.dump());
   ASSERT_TRUE(model.camera);
   EXPECT_EQ(model.camera->parallelScale, 2.0);
   EXPECT_LT(length(model.camera->position - Vec3{ 12, 4, 6 }), 1e-9);
@@ -203,10 +195,8 @@ TEST(ModelFile, GltfMayHaveOtherCamerasAndLights)
   EXPECT_EQ(lamp.color, (Vec3{ 1, 0.5, 0.25 }));
 }
 
-//------------------------------------------------------------------------------
-TEST(ModelFile, NotesLeftOutParts)
+TEST_F(ModelFile, NotesLeftOutParts)
 {
-  TestFolder folder;
   const auto withNan = [](std::string bytes, std::size_t place)
   {
     const float nan = std::nanf("");
@@ -215,14 +205,13 @@ TEST(ModelFile, NotesLeftOutParts)
   };
   const std::string ply = sampleFile("little.ply");
   // The last vertex's last coordinate, in front of 6 faces of 13 bytes.
-  const Model model = readModel(folder, "m.ply", withNan(ply, ply.size() - 6 * 13 - 4));
+  const Model model = this->read("m.ply", withNan(ply, ply.size() - 6 * 13 - 4));
   EXPECT_DOUBLE_EQ(boundsWorld(sceneOf(model))[3], 0.0); // the tip, at height 2, does not count
   const std::pair<Model, const char*> cases[] = {
     { model, "1 vertices are not finite" },
-    { readModel(folder, "m.stl", withNan(sampleFile("binary.stl"), 84 + 12)), "1 vertices" },
-    { readModel(folder, "m.obj", sampleFile("model.obj") + "l 1 2 3\np 1\n"), "points and lines" },
-    { readModel(folder, "n.obj", "mtllib gone.mtl\nusemtl red\n" + sampleFile("model.obj")),
-      "gone.mtl" },
+    { this->read("m.stl", withNan(sampleFile("binary.stl"), 84 + 12)), "1 vertices" },
+    { this->read("m.obj", sampleFile("model.obj") + "l 1 2 3\np 1\n"), "points and lines" },
+    { this->read("n.obj", "mtllib gone.mtl\nusemtl red\n" + sampleFile("model.obj")), "gone.mtl" },
   };
   for (const auto& [read, note] : cases)
   {

@@ -48,7 +48,6 @@ class ReadersEnd : public ::testing::TestWithParam<Ending>
 {
 };
 
-//------------------------------------------------------------------------------
 TEST_P(ReadersEnd, AsOneLineAndExitCodeTwo)
 {
   const auto read = []
@@ -91,7 +90,6 @@ INSTANTIATE_TEST_SUITE_P(Tool, ReadersEnd,
       } }),
   [](const ::testing::TestParamInfo<Ending>& ending) { return ending.param.name; });
 
-//------------------------------------------------------------------------------
 TEST(ReadGuarded, RefusesWhatAReaderThrowsAndPrints)
 {
   const auto messageFor = [](const std::function<void()>& read)
@@ -108,7 +106,6 @@ TEST(ReadGuarded, RefusesWhatAReaderThrowsAndPrints)
     0u);
 }
 
-//------------------------------------------------------------------------------
 TEST(ReadGuarded, LeavesTheProcessAsItWas)
 {
   rlimit before;

@@ -2,8 +2,6 @@
 
 #include "../TestFiles.h"
 
-#include <cstdint>
-
 namespace gnomon::tool
 {
 

@@ -82,7 +82,6 @@ nlohmann::json fullScene()
     "background": [0.25, 0.5, 0.75], "sky": 0.5, "glass": true})");
 }
 
-//------------------------------------------------------------------------------
 TEST_F(SceneFile, PlacesAModelAfterTheMatricesOfItsFile)
 {
   writeBytes(this->folder / "m.gltf", sampleGltfWithBuffer().dump()); // moved by (0, 0, 1)
@@ -92,7 +91,6 @@ TEST_F(SceneFile, PlacesAModelAfterTheMatricesOfItsFile)
   EXPECT_EQ(this->load(document).models[0].matrix, placed);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(SceneFile, IsExportedAsItWasRead)
 {
   for (const char* camera : { "fov", "parallel_scale" })
@@ -125,7 +123,6 @@ TEST_F(SceneFile, IsExportedAsItWasRead)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST(SceneExport, KeepsTheHolesOfTextures)
 {
   const TestFolder folder;
@@ -148,7 +145,6 @@ TEST(SceneExport, KeepsTheHolesOfTextures)
   EXPECT_FALSE(read.models[2].texture);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(SceneFile, BecomesARenderer)
 {
   const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(this->load(fullScene()), 1.0);
@@ -191,7 +187,6 @@ TEST_F(SceneFile, BecomesARenderer)
   EXPECT_EQ(disk->GetTexture()->GetDimensions()[0], 8);
 }
 
-//------------------------------------------------------------------------------
 /// Of three plates, the second is beside a perspective camera's picture, and in a parallel one's.
 /// The third lies behind the camera.
 TEST_F(SceneFile, ClippingPlanesEncloseWhatIsInThePicture)
@@ -219,7 +214,6 @@ TEST_F(SceneFile, ClippingPlanesEncloseWhatIsInThePicture)
   EXPECT_GT(nothing.second, 10.0 * nothing.first);
 }
 
-//------------------------------------------------------------------------------
 TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
 {
   struct Case
@@ -352,7 +346,6 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
   }
 }
 
-//------------------------------------------------------------------------------
 TEST_F(SceneFile, WithoutCameraAndLightsIsFramedAndLit)
 {
   nlohmann::json document = sampleScene();
@@ -365,7 +358,6 @@ TEST_F(SceneFile, WithoutCameraAndLightsIsFramedAndLit)
   EXPECT_TRUE(this->load(document).lights.empty());
 }
 
-//------------------------------------------------------------------------------
 TEST(SceneSpecs, LightsHaveASceneFilesKeys)
 {
   const SceneLight sun =
@@ -385,7 +377,6 @@ TEST(SceneSpecs, LightsHaveASceneFilesKeys)
   EXPECT_EQ(lamp.position, (Vec3{ { 1, 2, 3 } }));
 }
 
-//------------------------------------------------------------------------------
 TEST(SceneSpecs, CamerasTakeTheRestFromTheScene)
 {
   SceneCamera defaults;
@@ -398,7 +389,6 @@ TEST(SceneSpecs, CamerasTakeTheRestFromTheScene)
   EXPECT_DOUBLE_EQ(camera.fovDegrees, 50.0);
 }
 
-//------------------------------------------------------------------------------
 /// The page's examples are one scene, and two more lights.
 TEST_F(SceneFile, PageOfTheFormatShowsWhatIsRead)
 {
