@@ -1,5 +1,8 @@
 #pragma once
 
+#include "Random.h"
+#include "ViewPoints.h"
+
 #include "lights/LightSpace.h"
 #include "lights/MapAliasing.h"
 #include "lights/MapFit.h"
@@ -12,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -88,14 +90,13 @@ struct Setting
 
   /// Return random points that the camera and the light see, in centred coordinates. They are found
   /// without the body, from the scene's box and the camera's frustum.
-  Points visiblePoints(std::mt19937& random, int attempts) const
+  Points visiblePoints(Random& random, int attempts) const
   {
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
     const glm::dmat4 centredFromClip = glm::inverse(this->camera.clipFromCentred());
     Points result;
     for (int i = 0; i < attempts; ++i)
     {
-      const glm::dvec3 share(unit(random), unit(random), unit(random));
+      const glm::dvec3 share = 0.5 + inCube(random, 0.5);
       glm::dvec3 point = glm::mix(this->scene.lower, this->scene.upper, share);
       if (i % 2 == 0)
       {
@@ -114,13 +115,12 @@ struct Setting
 /// Return cameras and lights of all kinds around a scene of any size. Many are awkward: light along
 /// the view, either way, along the axes, from the eye; cameras in the scene; flat scenes; parallel
 /// projections.
-inline Setting randomSetting(std::mt19937& random)
+inline Setting randomSetting(Random& random)
 {
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  const auto vector = [&] { return glm::dvec3(uniform(random), uniform(random), uniform(random)); };
-  const auto chance = [&](double probability) { return unit(random) < probability; };
-  const double size = std::pow(10.0, 4.5 * uniform(random) + 1.5); // 1e-3 to 1e6
+  const auto vector = [&] { return inCube(random); };
+  const auto unit = [&] { return uniform(random, 0.0, 1.0); };
+  const auto chance = [&](double probability) { return unit() < probability; };
+  const double size = std::pow(10.0, uniform(random, -3.0, 6.0));
 
   Setting setting;
   setting.scene.add(size * vector());
@@ -131,9 +131,9 @@ inline Setting randomSetting(std::mt19937& random)
   }
   const double distance = chance(0.5) ? 1.0 : 4.0; // within the scene, or outside
   const glm::dvec3 eye = size * distance * vector();
-  const double nearDistance = size * std::pow(10.0, -4.0 * unit(random));
-  setting.camera = perspectiveCamera(eye, size * vector(), 1.0 + 119.0 * unit(random), nearDistance,
-    nearDistance + size * 10.0 * unit(random));
+  const double nearDistance = size * std::pow(10.0, -4.0 * unit());
+  setting.camera = perspectiveCamera(
+    eye, size * vector(), 1.0 + 119.0 * unit(), nearDistance, nearDistance + size * 10.0 * unit());
   if (chance(0.1))
   {
     setting.camera.clipFromView = glm::ortho(-size, size, -size, size, 0.0, 8.0 * size);
@@ -158,7 +158,7 @@ inline Setting randomSetting(std::mt19937& random)
     if (chance(0.2))
     {
       setting.name = "box";
-      setting.reach = boxHalfSpaces(size * (0.1 + unit(random)) * glm::dvec3(1.0, 0.7, 2.0));
+      setting.reach = boxHalfSpaces(size * (0.1 + unit()) * glm::dvec3(1.0, 0.7, 2.0));
     }
     return setting;
   }
@@ -171,7 +171,7 @@ inline Setting randomSetting(std::mt19937& random)
     return setting;
   }
   setting.name = "spot";
-  setting.reach = coneHalfSpaces(std::tan(glm::radians(0.1 + 59.9 * unit(random))), nearest);
+  setting.reach = coneHalfSpaces(std::tan(glm::radians(0.1 + 59.9 * unit())), nearest);
   return setting;
 }
 
@@ -211,10 +211,7 @@ inline std::optional<glm::dvec2> texelPixels(const SurfacePoint& point, const Ca
   int mapSizeTexels)
 {
   const glm::dvec3 normal = glm::normalize(point.normalCentred);
-  const glm::dvec3 magnitude = glm::abs(normal);
-  const glm::dvec3 aside =
-    magnitude.x < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-  const glm::dvec3 u = glm::normalize(glm::cross(aside, normal));
+  const glm::dvec3 u = glm::normalize(glm::cross(axisAcross(normal), normal));
   const glm::dvec3 v = glm::cross(normal, u);
 
   const glm::dmat4 clipFromCentred = camera.clipFromCentred();
@@ -253,21 +250,12 @@ inline std::optional<glm::dvec2> texelPixels(const SurfacePoint& point, const Ca
 /// pixels.
 inline std::vector<SurfacePoint> groundSeen(const Setting& setting)
 {
-  const glm::dmat4 centredFromClip = glm::inverse(setting.camera.clipFromCentred());
-  const auto unprojected = [&](double x, double y, double z)
-  {
-    const glm::dvec4 point = centredFromClip * glm::dvec4(x, y, z, 1.0);
-    return glm::dvec3(point) / point.w;
-  };
   std::vector<SurfacePoint> result;
   constexpr int side = 64;
   for (int i = 0; i < side * side; ++i)
   {
-    const double x = 2.0 * (i % side + 0.5) / side - 1.0;
-    const double y = 2.0 * (i / side + 0.5) / side - 1.0;
-    const glm::dvec3 from = unprojected(x, y, -1.0);
-    const glm::dvec3 to = unprojected(x, y, 1.0);
-    const glm::dvec3 point = glm::mix(from, to, from.z / (from.z - to.z));
+    const glm::dvec2 device = 2.0 * (glm::dvec2(i % side, i / side) + 0.5) / double(side) - 1.0;
+    const glm::dvec3 point = seenAt(setting.camera, device, { 0.0, 0.0, 1.0, 0.0 });
     if (setting.sees({ point.x, point.y, 0.0 }))
     {
       result.push_back({ { point.x, point.y, 0.0 }, { 0.0, 0.0, 1.0 } });

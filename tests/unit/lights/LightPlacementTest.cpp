@@ -4,7 +4,6 @@
 
 #include <glm/glm.hpp>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <vtkCamera.h>
 #include <vtkLight.h>
 #include <vtkMatrix4x4.h>
@@ -141,37 +140,38 @@ TEST_F(LightPlacement, InvalidTargetsAreErrorsAndChangeNothing)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::size_t errors = 0;
-  const auto expectError = [&](const char* text)
+  const auto expectError = [&](const auto& call, const char* text)
   {
+    call();
     ASSERT_EQ(this->messages.errors().size(), ++errors) << text;
     EXPECT_THAT(this->messages.errors().back(), HasSubstr(text));
     expectNear(this->position(), { 0.0, 0.0, 1.0 });
     expectNear(this->focalPoint(), { 0.0, 0.0, 0.0 });
   };
-  vtkGnomonLightPlacement::ShineOnSphere(this->light, this->centre, 0.0);
-  expectError("radius 0");
+  expectError(
+    [&] { vtkGnomonLightPlacement::ShineOnSphere(this->light, this->centre, 0.0); }, "radius 0");
   const double broken[3] = { 0.0, nan, 0.0 };
-  vtkGnomonLightPlacement::ShineOnSphere(this->light, broken, 1.0);
-  expectError("center and radius");
+  expectError(
+    [&] { vtkGnomonLightPlacement::ShineOnSphere(this->light, broken, 1.0); }, "center and radius");
   const double empty[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 }; // VTK's uninitialised bounds
-  vtkGnomonLightPlacement::ShineOnBox(this->light, empty);
-  expectError("bounds give a sphere of radius 0");
+  expectError([&] { vtkGnomonLightPlacement::ShineOnBox(this->light, empty); },
+    "bounds give a sphere of radius 0");
   vtkNew<vtkCamera> camera;
-  vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, empty);
-  expectError("radius 0");
+  expectError(
+    [&] { vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, empty); }, "radius 0");
   camera->SetPosition(nan, 0.0, 0.0);
   const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
-  vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, unit);
-  expectError("looks nowhere");
+  expectError(
+    [&] { vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, unit); }, "looks nowhere");
   vtkNew<vtkPoints> points;
-  vtkGnomonLightPlacement::ShineOnPoints(this->light, points);
-  expectError("points give a sphere of radius 0");
+  expectError([&] { vtkGnomonLightPlacement::ShineOnPoints(this->light, points); },
+    "points give a sphere of radius 0");
   points->InsertNextPoint(0.0, nan, 0.0);
   points->InsertNextPoint(1.0, 0.0, 0.0);
-  vtkGnomonLightPlacement::ShineOnPoints(this->light, points);
-  expectError("point 0 is not finite");
-  vtkGnomonLightPlacement::SetPitchAndYaw(this->light, nan, 0.0);
-  expectError("pitchDegrees nan");
+  expectError(
+    [&] { vtkGnomonLightPlacement::ShineOnPoints(this->light, points); }, "point 0 is not finite");
+  expectError(
+    [&] { vtkGnomonLightPlacement::SetPitchAndYaw(this->light, nan, 0.0); }, "pitchDegrees nan");
 
   this->light->SetPosition(0.0, 0.0, 0.0);
   vtkGnomonLightPlacement::ShineOnSphere(this->light, this->centre, 1.0);

@@ -1,9 +1,13 @@
 #include "lights/LightSpace.h"
 
+#include "Random.h"
+
 #include <gtest/gtest.h>
 
-#include <random>
+#include <algorithm>
+#include <iterator>
 #include <set>
+#include <vector>
 
 namespace gnomon::test
 {
@@ -31,18 +35,14 @@ void expectRigid(const glm::dmat3& matrix)
 TEST(LightSpace, IsRigidAndLooksAlongTheLight)
 {
   const glm::dvec3 centre(10.0, 20.0, 30.0);
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Random random(3);
   std::vector<glm::dvec3> directions = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { -1, 0, 0 },
     { 0, -1, 0 }, { 0, 0, -1 } };
-  for (int i = 0; i < 100; ++i)
-  {
-    directions.emplace_back(uniform(random), uniform(random), uniform(random));
-  }
+  std::generate_n(std::back_inserter(directions), 100, [&] { return unitVector(random); });
   for (const glm::dvec3& direction : directions)
   {
     ShadowLight light;
-    light.directionWorld = glm::normalize(direction);
+    light.directionWorld = direction;
     light.positionWorld = { 11.0, 18.0, 30.5 };
     for (const LightKind kind : { LightKind::Directional, LightKind::Spot })
     {
@@ -86,12 +86,11 @@ TEST(LightSpace, OfABoxStandsOnItsUpDirection)
 
 TEST(CubeFaces, AreRotationsThatSeeTheirOwnPoints)
 {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Random random(4);
   std::set<int> seen;
   for (int i = 0; i < 1000; ++i)
   {
-    const glm::dvec3 point(uniform(random), uniform(random), uniform(random));
+    const glm::dvec3 point = inCube(random);
     const int face = cubeFaceOf(point);
     seen.insert(face);
     const glm::dvec3 inFace = cubeFaceFromLight(face) * point;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace gnomon::test
 {
@@ -269,13 +268,12 @@ TEST(LightView, LeavesOutOnlyWhatItCannotSee)
   EXPECT_EQ(seenBy(room), 6);
   EXPECT_EQ(seenBy(Bounds()), 0);
   // A view that sees a point of a box may see the box.
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> uniform(-3.0, 3.0);
+  Random random(5);
   for (int i = 0; i < 1000; ++i)
   {
     Bounds part;
-    part.add(glm::dvec3(uniform(random), uniform(random), uniform(random)));
-    part.add(part.lower + 0.5 * glm::dvec3(uniform(random), uniform(random), uniform(random)));
+    part.add(inCube(random, 3.0));
+    part.add(part.lower + inCube(random, 1.5));
     for (const glm::dvec3& corner : part.corners())
     {
       EXPECT_TRUE(viewOf(views, corner)->maySee(part));

@@ -5,15 +5,10 @@ namespace gnomon::test
 namespace
 {
 
-Rectangle rectangle(const glm::dvec2& lower, const glm::dvec2& upper)
-{
-  return { lower, upper };
-}
-
 TEST(MapFit, IsThePublishedScaleAndOffsetClampedToWhatIsToBeCovered)
 {
-  const auto first = fitTo(rectangle({ -0.25, -1.0 }, { 0.5, 1.0 }), { 1024, 0 });
-  const auto clamped = fitTo(rectangle({ -5.0, 0.5 }, { 5.0, 7.0 }), { 64, 0 });
+  const auto first = fitTo(Rectangle{ { -0.25, -1.0 }, { 0.5, 1.0 } }, { 1024, 0 });
+  const auto clamped = fitTo(Rectangle{ { -5.0, 0.5 }, { 5.0, 7.0 } }, { 64, 0 });
   ASSERT_TRUE(first && clamped);
   EXPECT_LT(glm::distance(first->scale, { 8.0 / 3.0, 1.0 }), 1e-15);
   EXPECT_LT(glm::distance(first->offset, { -1.0 / 3.0, 0.0 }), 1e-15);
@@ -24,17 +19,17 @@ TEST(MapFit, IsThePublishedScaleAndOffsetClampedToWhatIsToBeCovered)
 TEST(MapFit, IsNothingWhereNothingIsVisible)
 {
   EXPECT_FALSE(fitTo(Rectangle(), { 64, 0 }));
-  EXPECT_FALSE(fitTo(rectangle({ 1.5, 0.0 }, { 2.0, 1.0 }), { 64, 0 }));
-  EXPECT_FALSE(fitTo(rectangle({ 0.0, -3.0 }, { 1.0, -1.5 }), { 64, 0 }));
+  EXPECT_FALSE(fitTo(Rectangle{ { 1.5, 0.0 }, { 2.0, 1.0 } }, { 64, 0 }));
+  EXPECT_FALSE(fitTo(Rectangle{ { 0.0, -3.0 }, { 1.0, -1.5 } }, { 64, 0 }));
   EXPECT_FALSE(fitSnappedTo(Rectangle(), { 64, 0 }));
-  EXPECT_FALSE(fitTo(rectangle({ std::nan(""), 0.0 }, { 1.0, 1.0 }), { 64, 0 }));
+  EXPECT_FALSE(fitTo(Rectangle{ { std::nan(""), 0.0 }, { 1.0, 1.0 } }, { 64, 0 }));
 }
 
 TEST(MapFit, WidensWhatHasNoExtent)
 {
   for (const double at : { -1.0, 0.3, 1.0 })
   {
-    const Rectangle point = rectangle(glm::dvec2(at), glm::dvec2(at));
+    const Rectangle point = { glm::dvec2(at), glm::dvec2(at) };
     for (const auto& fit : { fitTo(point, { 64, 1 }), fitSnappedTo(point, { 64, 1 }) })
     {
       ASSERT_TRUE(fit);
@@ -58,13 +53,12 @@ TEST(MapFit, UniformTakesPointsToTheWholeMap)
 
 TEST(MapFit, SnappedCoversWhatIsVisibleAtAStepOfTheSeries)
 {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Random random(5);
   for (int i = 0; i < 1000; ++i)
   {
     Rectangle visible;
-    visible.add({ uniform(random), uniform(random) });
-    visible.add({ uniform(random), uniform(random) });
+    visible.add(glm::dvec2(inCube(random)));
+    visible.add(glm::dvec2(inCube(random)));
     const MapTexels texels{ i % 2 == 0 ? 64 : 1024, i % 4 };
     const auto snapped = fitSnappedTo(visible, texels);
     const auto tight = fitTo(visible, texels);

@@ -1,32 +1,15 @@
 #include "lights/PlanarProjection.h"
 
+#include "Random.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace gnomon::test
 {
 namespace
 {
-
-class Numbers
-{
-public:
-  double in(double lower, double upper)
-  {
-    return lower + (upper - lower) * (this->random_() / 4294967296.0);
-  }
-  glm::dvec3 inBox(double half)
-  {
-    const double x = this->in(-half, half);
-    const double y = this->in(-half, half);
-    return { x, y, this->in(-half, half) };
-  }
-
-private:
-  std::mt19937 random_{ 1 };
-};
 
 glm::dvec3 project(const glm::dvec4& plane, const glm::dvec4& light, const glm::dvec3& point)
 {
@@ -46,11 +29,13 @@ double offLine(const glm::dvec3& from, const glm::dvec3& direction, const glm::d
 TEST(PlanarProjection, ontoTheGroundIsThatOfSimilarTriangles)
 {
   const glm::dvec4 ground(0.0, 1.0, 0.0, 0.0);
-  Numbers numbers;
+  Random random(1);
   for (int i = 0; i < 1000; ++i)
   {
-    const glm::dvec3 l(numbers.in(-9.0, 9.0), numbers.in(3.0, 9.0), numbers.in(-9.0, 9.0));
-    const glm::dvec3 v(numbers.in(-9.0, 9.0), numbers.in(-1.0, 2.9), numbers.in(-9.0, 9.0));
+    const glm::dvec3 l(
+      uniform(random, -9.0, 9.0), uniform(random, 3.0, 9.0), uniform(random, -9.0, 9.0));
+    const glm::dvec3 v(
+      uniform(random, -9.0, 9.0), uniform(random, -1.0, 2.9), uniform(random, -9.0, 9.0));
     const glm::dmat4 matrix = planarProjection(ground, glm::dvec4(l, 1.0));
     // Rows (l_y, -l_x, 0, 0), (0, 0, 0, 0), (0, -l_z, l_y, 0), (0, -1, 0, l_y).
     const glm::dmat4 rows = glm::transpose(matrix);
@@ -72,17 +57,17 @@ TEST(PlanarProjection, ontoTheGroundIsThatOfSimilarTriangles)
 // Survey, row 2: any plane, and parallel rays.
 TEST(PlanarProjection, liesOnThePlaneAndOnTheRay)
 {
-  Numbers numbers;
+  Random random(1);
   int between = 0;
   for (int i = 0; i < 1000; ++i)
   {
-    const glm::dvec3 normal = glm::normalize(numbers.inBox(1.0));
-    const glm::dvec4 plane(normal, numbers.in(-5.0, 5.0));
+    const glm::dvec3 normal = unitVector(random);
+    const glm::dvec4 plane(normal, uniform(random, -5.0, 5.0));
     for (const bool positional : { false, true })
     {
-      const glm::dvec4 light = positional ? glm::dvec4(numbers.inBox(9.0), 1.0)
-                                          : glm::dvec4(glm::normalize(numbers.inBox(1.0)), 0.0);
-      const glm::dvec3 v = numbers.inBox(9.0);
+      const glm::dvec4 light =
+        positional ? glm::dvec4(inCube(random, 9.0), 1.0) : glm::dvec4(unitVector(random), 0.0);
+      const glm::dvec3 v = inCube(random, 9.0);
       const double w = (planarProjection(plane, light) * glm::dvec4(v, 1.0)).w;
       if (std::abs(w) < 0.1)
       {

@@ -5,7 +5,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 using namespace gnomon;

@@ -1,10 +1,11 @@
 #include "lights/Splits.h"
 
+#include "Random.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace gnomon::test
 {
@@ -13,13 +14,13 @@ namespace
 
 TEST(Splits, GrowFromTheNearestToTheFarthest)
 {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  Random random(3);
+  const auto unit = [&] { return uniform(random, 0.0, 1.0); };
   for (int i = 0; i < 1000; ++i)
   {
-    const double n = i % 10 == 0 ? 0.0 : std::pow(10.0, 9.0 * unit(random) - 6.0);
-    const double f = (n + 1e-3) * (1.0 + std::pow(10.0, 6.0 * unit(random) - 2.0));
-    const double lambda = i % 3 == 0 ? 1.0 : unit(random);
+    const double n = i % 10 == 0 ? 0.0 : std::pow(10.0, 9.0 * unit() - 6.0);
+    const double f = (n + 1e-3) * (1.0 + std::pow(10.0, 6.0 * unit() - 2.0));
+    const double lambda = i % 3 == 0 ? 1.0 : unit();
     for (int count = 1; count <= mostSplits; ++count)
     {
       const auto splits = splitDistances({ n, f }, count, lambda);

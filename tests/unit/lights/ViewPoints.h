@@ -1,11 +1,12 @@
 #pragma once
 
+#include "Random.h"
+
 #include "lights/LightViews.h"
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
-#include <random>
 #include <vector>
 
 namespace gnomon::test
@@ -14,14 +15,12 @@ namespace gnomon::test
 /// Return points in a box: its corners and others.
 inline std::vector<glm::dvec3> pointsIn(const Bounds& bounds)
 {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  Random random(11);
   const auto corners = bounds.corners();
   std::vector<glm::dvec3> points(corners.begin(), corners.end());
   for (int i = 0; i < 2000; ++i)
   {
-    const glm::dvec3 share(uniform(random), uniform(random), uniform(random));
-    points.push_back(bounds.lower + share * (bounds.upper - bounds.lower));
+    points.push_back(bounds.centre() + inCube(random, 0.5) * (bounds.upper - bounds.lower));
   }
   return points;
 }
@@ -37,6 +36,20 @@ inline const LightView* viewOf(const LightViews& views, const glm::dvec3& centre
   }
   const auto index = static_cast<std::size_t>(view);
   return view != LightViews::noView && index < views.views.size() ? &views.views[index] : nullptr;
+}
+
+/// Return where a camera sees a plane.
+/// @param device the place in the picture, in device coordinates
+/// @param plane n and d of n.p + d = 0, centred
+inline glm::dvec3 seenAt(
+  const CameraView& camera, const glm::dvec2& device, const glm::dvec4& plane)
+{
+  const glm::dmat4 centredFromClip = glm::inverse(camera.clipFromCentred());
+  const glm::dvec4 front = centredFromClip * glm::dvec4(device, -1.0, 1.0);
+  const glm::dvec4 back = centredFromClip * glm::dvec4(device, 1.0, 1.0);
+  const glm::dvec4 from = front / front.w, to = back / back.w;
+  const double height = glm::dot(plane, from);
+  return glm::dvec3(glm::mix(from, to, height / (height - glm::dot(plane, to))));
 }
 
 } // namespace gnomon::test

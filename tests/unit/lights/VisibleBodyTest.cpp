@@ -89,8 +89,7 @@ TEST(ConvexBody, MayBeFlatASegmentOrAPoint)
 
 TEST(VisibleBody, HoldsAllThatIsVisibleAndNoMore)
 {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Random random(11);
   int seen = 0;
   for (int i = 0; i < 1000; ++i)
   {
@@ -132,7 +131,7 @@ TEST(VisibleBody, HoldsAllThatIsVisibleAndNoMore)
       const glm::dvec3 point = inView(setting.rays, centred);
       for (int k = 0; k < 20; ++k)
       {
-        const glm::dvec3 direction(uniform(random), uniform(random), uniform(random));
+        const glm::dvec3 direction = unitVector(random);
         double farthest = -std::numeric_limits<double>::infinity();
         for (const glm::dvec3& vertex : body)
         {

@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Of, WarpedProjections,
 /// their worst texel is no larger than that of the uniform map.
 TEST_P(WarpedProjections, areSoundForAnyCameraAndLight)
 {
-  std::mt19937 random(101);
+  Random random(101);
   int bodies = 0;
   for (int i = 0; i < 2000; ++i)
   {

@@ -1,7 +1,6 @@
 #include "shadowtech/mesh/CasterEdges.h"
 
 #include "RandomScenes.h"
-#include "SyntheticScene.h"
 
 #include "shadowtech/base/WeldedVertices.h"
 
@@ -139,8 +138,7 @@ std::vector<double> numbersOf(const CasterEdges& edges, const Occluders& occlude
 }
 
 /// Expect cached edges to equal those of a new CasterEdges.
-void expectAsFoundAnew(
-  const CasterEdges& kept, const Occluders& occluders, const std::string& after)
+void expectAsRebuilt(const CasterEdges& kept, const Occluders& occluders, const std::string& after)
 {
   EXPECT_TRUE(numbersOf(kept, occluders) == numbersOf(casterEdgesOf(occluders), occluders))
     << after;
@@ -148,7 +146,7 @@ void expectAsFoundAnew(
 
 TEST(CasterEdges, matchARebuildAfterEachDeformation)
 {
-  std::size_t keptAfterAll = 0, foundAfterAll = 0;
+  std::size_t keptAfterAll = 0, rebuiltAfterAll = 0;
   for (const char* name : randomSceneNames())
   {
     for (unsigned int seed = 0; seed < 4; ++seed)
@@ -179,10 +177,10 @@ TEST(CasterEdges, matchARebuildAfterEachDeformation)
           {
             const bool isKept = edges.of(i).edges.data() == before[i];
             EXPECT_EQ(isKept, edges.of(i).welded == welded[i]) << name << what;
-            ++(isKept ? keptAfterAll : foundAfterAll);
+            ++(isKept ? keptAfterAll : rebuiltAfterAll);
           }
         }
-        expectAsFoundAnew(edges, occluders, name + what);
+        expectAsRebuilt(edges, occluders, name + what);
       };
       for (std::size_t i = 0; i < props.size(); ++i)
       {
@@ -207,7 +205,7 @@ TEST(CasterEdges, matchARebuildAfterEachDeformation)
     }
   }
   EXPECT_GT(keptAfterAll, 1000u);
-  EXPECT_GT(foundAfterAll, 500u);
+  EXPECT_GT(rebuiltAfterAll, 500u);
 }
 
 TEST(CasterEdges, areReusedWhenOtherSurfacesComeAndGo)
@@ -229,16 +227,16 @@ TEST(CasterEdges, areReusedWhenOtherSurfacesComeAndGo)
   edges.update(fewer);
   EXPECT_EQ(edges.of(0).edges.data(), sphere);
   EXPECT_EQ(edges.of(1).edges.data(), plane);
-  expectAsFoundAnew(edges, fewer, "one gone");
+  expectAsRebuilt(edges, fewer, "one gone");
   edges.update(all);
   EXPECT_EQ(edges.of(1).edges.data(), sphere);
-  expectAsFoundAnew(edges, all, "one back");
+  expectAsRebuilt(edges, all, "one back");
   std::vector<Prop> changed = props; // a surface with its own version
   changed[1].mesh.triangles.pop_back();
   std::swap(changed[1].mesh.triangles[3].x, changed[1].mesh.triangles[3].y);
   const Occluders after = makeOccluders(changed);
   edges.update(after);
-  expectAsFoundAnew(edges, after, "cells changed");
+  expectAsRebuilt(edges, after, "cells changed");
 }
 
 TEST(WeldedVertices, areTheFirstOnesAtTheirPlace)

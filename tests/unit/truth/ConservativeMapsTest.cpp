@@ -332,13 +332,12 @@ TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
     const glm::dvec3 lamp(uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5), 1.0);
     const ShadowLight light = withMap(pointLight(lamp), 32);
     Mesh plates;
-    for (unsigned int k = 0; k < 3 * 400; k += 3)
+    for (int k = 0; k < 400; ++k)
     {
       const glm::dvec3 corner(
         uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), uniform(random, 0.01, 0.1));
-      plates.points.insert(plates.points.end(),
-        { corner, corner + glm::dvec3(0.01, 0.0, 0.0), corner + glm::dvec3(0.0, 0.01, 0.0) });
-      plates.triangles.emplace_back(k, k + 1, k + 2);
+      addTriangle(
+        plates, corner, corner + glm::dvec3(0.01, 0.0, 0.0), corner + glm::dvec3(0.0, 0.01, 0.0));
     }
     const glm::dvec3 away = 300.0 * glm::abs(unitVector(random));
     const Occluders occluders =
@@ -411,15 +410,13 @@ Mesh makeRingOfTriangles(const glm::dvec3& place, Random& random)
     const double angle = uniform(random, 0.0, 6.283185307179586);
     const double radius = uniform(random, 0.3, 0.7);
     const glm::dvec2 outwards(std::cos(angle), std::sin(angle));
-    const auto first = static_cast<unsigned int>(ring.points.size());
-    for (const glm::dvec2& corner :
-      { glm::dvec2(0.0, 0.0), glm::dvec2(0.1, -0.05), glm::dvec2(0.1, 0.05) })
+    const auto corner = [&](double out, double aside)
     {
       const glm::dvec2 across =
-        (radius + corner.x) * outwards + corner.y * glm::dvec2(-outwards.y, outwards.x);
-      ring.points.push_back(place + glm::dvec3(across, uniform(random, -1e-4, 1e-4)));
-    }
-    ring.triangles.emplace_back(first, first + 1, first + 2);
+        (radius + out) * outwards + aside * glm::dvec2(-outwards.y, outwards.x);
+      return place + glm::dvec3(across, uniform(random, -1e-4, 1e-4));
+    };
+    addTriangle(ring, corner(0.0, 0.0), corner(0.1, -0.05), corner(0.1, 0.05));
   }
   return ring;
 }

@@ -7,6 +7,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +77,61 @@ std::vector<TestScene> largeScenes()
       { makeBox({ -15.0, -250.0, 0.0 }, { 5.0, -240.0, 45.0 }) } },
     { { 0.0, -300.0, 22.0 }, { 0.0, 0.0, 10.0 } } });
   return scenes;
+}
+
+/// Return visibility by every triangle against every ray, in double precision.
+std::vector<float> traceBruteForce(
+  const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
+{
+  const std::vector<CastingTriangle> triangles = castingTriangles(occluders);
+  const auto stops = [&](const CastingTriangle& triangle, const ShadowRay& ray, float rayFar)
+  {
+    const Surface& surface = occluders.surfaces[triangle.surface];
+    const auto hit = meet(triangle, glm::dvec3(ray.origin), glm::dvec3(ray.direction));
+    if (!hit || !hit->isInside() || hit->at < 0.0 || hit->at > static_cast<double>(rayFar) ||
+      (surface.oneSided && hit->cosine < 0.0))
+    {
+      return false;
+    }
+    glm::dvec2 place(0.0);
+    for (int k = 0; surface.cutout && k < 3; ++k)
+    {
+      const std::uint32_t corner = occluders.triangles[triangle.triangle][k] - surface.firstVertex;
+      place += hit->weights[k] * glm::dvec2(surface.textureCoordinates[corner]);
+    }
+    return !surface.cutout || surface.cutout->isDrawn(place);
+  };
+  std::vector<float> visibility(receivers.size(), 1.0f);
+  visitShadowRays(ShadowRayLight(light, occluders.frame.centre),
+    [&](const auto& makeRay, float rayFar)
+    {
+      tbb::parallel_for(std::size_t(0), receivers.size(),
+        [&](std::size_t i)
+        {
+          const std::uint32_t surface = receivers.surface[i];
+          if (surface != ReceiverPixels::notCovered && occluders.surfaces[surface].receives)
+          {
+            const ShadowRay ray =
+              makeRay(receivers.position(i), receivers.normal(i), receivers.offset[i]);
+            const bool lit = ray.traced &&
+              std::none_of(triangles.begin(), triangles.end(),
+                [&](const CastingTriangle& triangle) { return stops(triangle, ray, rayFar); });
+            visibility[i] = lit ? 1.0f : 0.0f;
+          }
+        });
+    });
+  return visibility;
+}
+
+/// Return the same receivers with the offset of their shadow rays multiplied.
+ReceiverPixels withOffset(const ReceiverPixels& receivers, float factor)
+{
+  ReceiverPixels result = receivers;
+  for (float& offset : result.offset)
+  {
+    offset *= factor;
+  }
+  return result;
 }
 
 /// Count the pixels that have a shadow ray to trace, one by one.

@@ -1,6 +1,7 @@
 // The points of kernels and of soft shadows, and how far these reach.
 
 #include "HalfPlane.h"
+#include "SyntheticScene.h"
 
 #include "lights/Bounds.h"
 #include "lights/LightViews.h"
@@ -157,12 +158,8 @@ TEST(Pcss, widthsAreThoseOfSimilarTriangles)
   // Selected Real-Time Shadow Techniques, 2.9: a light of width 1, a receiver at 10 and a blocker
   // at 5; a frustum that is 10 wide at the near plane 1. There the penumbra is 0.1 of the map's
   // plane, the filter 0.01.
-  ShadowLight light;
-  light.kind = LightKind::Spot;
-  light.directionWorld = { 0.0, 0.0, -1.0 };
-  light.positionWorld = { 0.0, 0.0, 10.0 };
-  light.coneAngleDegrees = 50.0;
-  light.area = rectangleArea(light.directionWorld, { 0.0, 1.0, 0.0 }, glm::dvec2(0.5));
+  ShadowLight light = withArea(spotLight({ 0.0, 0.0, 10.0 }, glm::dvec3(0.0), 50.0),
+    rectangleArea({ 0.0, 0.0, -1.0 }, { 0.0, 1.0, 0.0 }, glm::dvec2(0.5)));
   const Bounds casters{ { -1.0, -1.0, 5.0 }, { 1.0, 1.0, 5.0 } };
   const Bounds receivers{ { -5.0, -5.0, 0.0 }, glm::dvec3(5.0) };
   LightViews views = fitLightViews(light, { glm::dvec3(0.0), casters, {}, { 1024, 1 }, {} });

@@ -162,13 +162,8 @@ TEST_F(MonteCarloGlsl, searchesVisitFewCells)
 
 ShadowLight lampOver(double radius, double coneAngleDegrees)
 {
-  ShadowLight light;
-  light.kind = LightKind::Spot;
-  light.positionWorld = { 1.0, 2.0, 10.0 };
-  light.directionWorld = { 0.0, 0.0, -1.0 };
-  light.coneAngleDegrees = coneAngleDegrees;
-  light.area = diskArea(light.directionWorld, radius);
-  return light;
+  return withArea(spotLight({ 1.0, 2.0, 10.0 }, { 1.0, 2.0, 0.0 }, coneAngleDegrees),
+    diskArea({ 0.0, 0.0, -1.0 }, radius));
 }
 
 TEST(RaySpace, stepsBackUntilItsConeHoldsTheLight)
@@ -210,9 +205,7 @@ TEST(RaySpace, stepsBackUntilItsConeHoldsTheLight)
 TEST(RaySpace, keepsLinesStraightAndDepthsInOrder)
 {
   const Bounds casters{ { -3.0, -2.0, -1.0 }, { 2.0, 4.0, 5.0 } };
-  ShadowLight sun;
-  sun.directionWorld = glm::normalize(glm::dvec3(0.2, -0.3, -1.0));
-  for (const ShadowLight& light : { lampOver(1.0, 40.0), sun })
+  for (const ShadowLight& light : { lampOver(1.0, 40.0), directionalLight({ 0.2, -0.3, -1.0 }) })
   {
     const LightViews views =
       fitLightViews(lightOfMap(light), { glm::dvec3(0.0), casters, {}, { 256, 1 }, {} });

@@ -1,7 +1,6 @@
 // `penumbra` equals all rays of `raytraced`, bit for bit.
 
 #include "RandomScenes.h"
-#include "SyntheticScene.h"
 
 #include "lights/LightArea.h"
 #include "lights/LightSpace.h"
@@ -134,10 +133,7 @@ Occluders makeSoupOverFloor(unsigned int seed)
 std::array<glm::dvec3, 3> anyTriangle(const Occluders& occluders, Random& random)
 {
   const Surface& soup = occluders.surfaces[1];
-  const glm::uvec3 triangle =
-    occluders.triangles[soup.firstTriangle + random() % soup.triangleCount];
-  return { occluders.positionsCentred[triangle.x], occluders.positionsCentred[triangle.y],
-    occluders.positionsCentred[triangle.z] };
+  return castingTriangles(occluders)[soup.firstTriangle + random() % soup.triangleCount].corners;
 }
 
 /// Rays that pass edges to within a rounding are traced.

@@ -38,24 +38,6 @@ public:
   std::vector<Uniform> uniforms(const ReceiverSpace&) const override { return {}; }
 };
 
-struct Plane
-{
-  glm::dvec3 point;
-  glm::dvec3 normal;
-};
-
-/// Return where a plane is seen at a place of the picture.
-glm::dvec3 seenAt(const CameraView& camera, const glm::dvec2& pixel, const Plane& plane)
-{
-  const glm::dvec2 device = 2.0 * pixel / glm::dvec2(pictureSize) - 1.0;
-  const glm::dmat4 centredFromClip = glm::inverse(camera.clipFromCentred());
-  const glm::dvec4 front = centredFromClip * glm::dvec4(device, -1.0, 1.0);
-  const glm::dvec4 back = centredFromClip * glm::dvec4(device, 1.0, 1.0);
-  const glm::dvec3 from = glm::dvec3(front) / front.w;
-  const glm::dvec3 along = glm::dvec3(back) / back.w - from;
-  return from + along * glm::dot(plane.point - from, plane.normal) / glm::dot(along, plane.normal);
-}
-
 /// Return the number of texels that a quadrangle of points covers on a view's map.
 double texelsOf(const LightView& view, const std::array<glm::dvec3, 4>& corners)
 {
@@ -75,7 +57,7 @@ using PixelArea = GlslTest;
 
 TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
 {
-  const Plane plane{ { 0.0, 0.0, 0.0 }, glm::normalize(glm::dvec3(0.2, -0.3, 1.0)) };
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, -0.3, 1.0));
   for (const bool parallel : { false, true })
   {
     const CameraView camera{ glm::lookAt(glm::dvec3(-1.0, -6.0, 4.0), glm::dvec3(0.0),
@@ -109,14 +91,18 @@ TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
           const auto below = [&](int end) { return double(random() % unsigned(end)); };
           const double x = below(pictureSize.x);
           const glm::dvec2 pixel(x, below(pictureSize.y));
-          const glm::dvec3 middle = seenAt(camera, pixel + 0.5, plane);
+          const auto seen = [&](double across, double up)
+          {
+            const glm::dvec2 place = pixel + glm::dvec2(across, up);
+            return seenAt(
+              camera, 2.0 * place / glm::dvec2(pictureSize) - 1.0, glm::dvec4(normal, 0.0));
+          };
+          const glm::dvec3 middle = seen(0.5, 0.5);
           if (const LightView* const view = viewOf(views, middle))
           {
             pointsView.emplace_back(camera.viewFromCentred * glm::dvec4(middle, 1.0));
-            expected.push_back(texelsOf(*view,
-              { seenAt(camera, pixel, plane), seenAt(camera, pixel + glm::dvec2(1.0, 0.0), plane),
-                seenAt(camera, pixel + 1.0, plane),
-                seenAt(camera, pixel + glm::dvec2(0.0, 1.0), plane) }));
+            expected.push_back(
+              texelsOf(*view, { seen(0.0, 0.0), seen(1.0, 0.0), seen(1.0, 1.0), seen(0.0, 1.0) }));
           }
         }
         const ReceiverSpace space{ glm::inverse(camera.viewFromCentred),
@@ -125,7 +111,7 @@ TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
         uniforms.push_back(depthSlacks());
         ShaderLibrary library;
         const std::vector<float> answers = visibilityAt(TexelsOfPixel(), light, library, pointsView,
-          glm::vec3(glm::dmat3(camera.viewFromCentred) * plane.normal), uniforms);
+          glm::vec3(glm::dmat3(camera.viewFromCentred) * normal), uniforms);
         std::size_t reached = 0;
         for (std::size_t i = 0; i < answers.size(); ++i)
         {

@@ -16,29 +16,6 @@ namespace gnomon::test
 {
 
 //------------------------------------------------------------------------------
-double uniform(Random& random, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-//------------------------------------------------------------------------------
-glm::dvec3 unitVector(Random& random)
-{
-  const double z = uniform(random, -1.0, 1.0);
-  const double angle = uniform(random, 0.0, 6.283185307179586);
-  const double radius = std::sqrt(1.0 - z * z);
-  return { radius * std::cos(angle), radius * std::sin(angle), z };
-}
-
-//------------------------------------------------------------------------------
-glm::dvec3 inCube(Random& random, double half)
-{
-  const double x = uniform(random, -half, half);
-  const double y = uniform(random, -half, half);
-  return { x, y, uniform(random, -half, half) };
-}
-
-//------------------------------------------------------------------------------
 Mesh makeCup(int rings, int segments)
 {
   Mesh mesh = makeSphere(rings, segments);
@@ -75,11 +52,7 @@ Mesh makeNeedles(Random& random, int count)
       uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0), uniform(random, -0.5, 0.5));
     const glm::dvec3 along = unitVector(random);
     const double width = std::pow(10.0, uniform(random, -7.0, -1.0));
-    const auto first = static_cast<unsigned int>(mesh.points.size());
-    mesh.points.push_back(from);
-    mesh.points.push_back(from + along);
-    mesh.points.push_back(from + 0.5 * along + width * unitVector(random));
-    mesh.triangles.emplace_back(first, first + 1, first + 2);
+    addTriangle(mesh, from, from + along, from + 0.5 * along + width * unitVector(random));
   }
   return mesh;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "../lights/Random.h"
 #include "SyntheticScene.h"
 
 #include "lights/LightViews.h"
 
-#include <random>
 #include <string>
 #include <vector>
 
@@ -13,13 +13,6 @@
 
 namespace gnomon::test
 {
-
-using Random = std::mt19937;
-
-double uniform(Random& random, double low, double high);
-glm::dvec3 unitVector(Random& random);
-/// Return a point of the cube [-half, half]^3.
-glm::dvec3 inCube(Random& random, double half = 1.0);
 
 /// Return a sphere without its upper part.
 Mesh makeCup(int rings, int segments);

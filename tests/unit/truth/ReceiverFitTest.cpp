@@ -180,22 +180,17 @@ struct Ground
       std::abs(direction.z) > 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
     this->camera.viewFromCentred = glm::lookAt(eye, eye + direction, up);
     this->camera.clipFromView = glm::perspective(glm::radians(50.0), 1.0, 0.1, 1000.0);
-    const glm::dmat4 centredFromClip = glm::inverse(this->camera.clipFromCentred());
     const glm::dvec3 normalView =
       glm::dmat3(this->camera.viewFromCentred) * glm::dvec3(0.0, 0.0, 1.0);
-    for (int y = 0; y < height; ++y)
+    for (int i = 0; i < width * height; ++i)
     {
-      for (int x = 0; x < width; ++x)
+      const glm::dvec2 pixel(i % width, i / width);
+      const glm::dvec3 point = seenAt(this->camera,
+        2.0 * (pixel + 0.5) / glm::dvec2(width, height) - 1.0, { 0.0, 0.0, 1.0, 0.0 });
+      const glm::dvec3 inView(this->camera.viewFromCentred * glm::dvec4(point, 1.0));
+      if (inView.z < 0.0 && std::max(std::abs(point.x), std::abs(point.y)) < 100.0)
       {
-        const glm::dvec4 far = centredFromClip *
-          glm::dvec4(2.0 * (x + 0.5) / width - 1.0, 2.0 * (y + 0.5) / height - 1.0, 1.0, 1.0);
-        const glm::dvec3 ray = glm::dvec3(far) / far.w - eye;
-        const glm::dvec3 point = eye - eye.z / ray.z * ray;
-        if (ray.z < 0.0 && std::max(std::abs(point.x), std::abs(point.y)) < 100.0)
-        {
-          this->image.set(static_cast<std::size_t>(y * width + x),
-            glm::dvec3(this->camera.viewFromCentred * glm::dvec4(point, 1.0)), normalView);
-        }
+        this->image.set(static_cast<std::size_t>(i), inView, normalView);
       }
     }
   }

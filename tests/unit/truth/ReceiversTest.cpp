@@ -70,12 +70,11 @@ std::array<glm::dvec3, 3> drawnCorners(
 {
   const glm::vec2 fragment = view.images.fragments[pixel];
   const Surface& surface = occluders.surfaces[static_cast<std::size_t>(fragment.x) - 1];
-  const glm::uvec3 corners =
-    occluders.triangles[surface.firstTriangle + static_cast<std::uint32_t>(fragment.y)];
-  return { glm::dvec3(occluders.positionsCentred[corners.x]),
-    glm::dvec3(occluders.positionsCentred[corners.y]),
-    glm::dvec3(occluders.positionsCentred[corners.z]) };
+  return castingTriangles(occluders) // which are all
+    .at(surface.firstTriangle + static_cast<std::size_t>(fragment.y))
+    .corners;
 }
+
 /// Return a point's distance inside a triangle from the nearest edge, in the triangle's plane;
 /// negative outside.
 double inside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point)

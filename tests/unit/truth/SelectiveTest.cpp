@@ -608,21 +608,6 @@ TEST(Chain, stagesChangeOnlyPixelsOfTheirOwn)
   EXPECT_LT(four.wrong, four.counted / 50);
 }
 
-TEST(Chain, leavesPixelsLitBetterThanAsTheirTexels)
-{
-  std::size_t wrongByMap = 0, wrongLit = 0;
-  visitChains(std::array{ "spheres", "cups", "folds", "crossing boxes", "terrain" }, 8,
-    [&](Chained& chained)
-    {
-      const ChainRun traced = chained.run(provenStages(4));
-      wrongByMap += traced.countWrong(ChainClass::TracedLit, chained.truth()) +
-        traced.countWrong(ChainClass::TracedShadow, chained.truth());
-      wrongLit += countBelow(traced.classes.size(),
-        [&](std::size_t i) { return traced.is(i, tracedClasses) && chained.truth()[i] == 0.0f; });
-    });
-  EXPECT_LT(wrongLit, wrongByMap);
-}
-
 Chained sunlit(const std::vector<Prop>& props, const glm::dvec3& direction, int mapSize,
   const glm::dvec3& cameraAt)
 {

@@ -2,7 +2,6 @@
 
 #include "EstimatorGlsl.h"
 #include "RandomScenes.h"
-#include "SyntheticScene.h"
 
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/Sheet.h"
@@ -12,11 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace gnomon::test
@@ -144,8 +141,7 @@ std::vector<Prop> makeNestedSheets(bool areShells, int sheets)
   {
     if (areShells)
     {
-      props.push_back(
-        { makeSphere(48, 96), glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 - 0.13 * i)) });
+      props.push_back({ makeSphere(48, 96), at(glm::dvec3(0.0), 1.0 - 0.13 * i) });
     }
     else
     {

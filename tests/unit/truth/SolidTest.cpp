@@ -26,8 +26,9 @@ namespace
 /// Return a solid's matrix as the snapshot stores it.
 glm::mat4x3 solidAlong(const glm::dvec3& halfAxis, double radius, const glm::dvec3& centre)
 {
-  const glm::dvec3 x = glm::normalize(axisAcross(glm::normalize(halfAxis)));
-  const glm::dvec3 y = glm::cross(glm::normalize(halfAxis), x);
+  const glm::dvec3 axis = glm::normalize(halfAxis);
+  const glm::dvec3 x = glm::normalize(glm::cross(axisAcross(axis), axis));
+  const glm::dvec3 y = glm::cross(axis, x);
   return glm::mat4x3(glm::dmat4x3(radius * x, radius * y, halfAxis, centre));
 }
 
@@ -81,10 +82,8 @@ Occluders occludersOf(const std::vector<std::pair<Solid, std::vector<glm::mat4x3
     surface.triangleCount = static_cast<std::uint32_t>(mesh.triangles.size());
     surface.centredFromSource = matrices;
     surface.topologyVersion = surface.positionsVersion = occluders.surfaces.size() + 1;
-    for (const glm::vec3& position : mesh.positions)
-    {
-      occluders.positionsCentred.push_back(position);
-    }
+    occluders.positionsCentred.insert(
+      occluders.positionsCentred.end(), mesh.positions.begin(), mesh.positions.end());
     for (const glm::uvec3& triangle : mesh.triangles)
     {
       occluders.triangles.push_back(triangle + surface.firstVertex);

@@ -1,6 +1,7 @@
 #include "SyntheticScene.h"
 
-#include "shadowtech/base/ShadowRay.h"
+#include "../lights/Random.h"
+
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/constants.hpp>
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <random>
 
 namespace gnomon::test
 {
@@ -134,28 +134,26 @@ Mesh makeSphere(int rings, int segments, double bumps)
 //------------------------------------------------------------------------------
 Mesh makeTriangleSoup(int count, unsigned int seed)
 {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const auto vector = [&]
-  {
-    const double x = uniform(random);
-    const double y = uniform(random);
-    return glm::dvec3(x, y, uniform(random));
-  };
+  Random random(seed);
   Mesh mesh;
   for (int i = 0; i < count; ++i)
   {
-    const auto first = static_cast<unsigned int>(mesh.points.size());
-    const double size = std::pow(10.0, -1.5 + uniform(random));
+    const double size = std::pow(10.0, -1.5 + uniform(random, -1.0, 1.0));
     const double thinness = i % 8 == 0 ? 1e-3 : 1.0;
-    const glm::dvec3 corner = 0.5 * vector();
-    const glm::dvec3 edge = size * vector();
-    mesh.points.push_back(corner);
-    mesh.points.push_back(corner + edge);
-    mesh.points.push_back(corner + 0.5 * edge + thinness * size * vector());
-    mesh.triangles.emplace_back(first, first + 1, first + 2);
+    const glm::dvec3 corner = 0.5 * inCube(random);
+    const glm::dvec3 edge = size * inCube(random);
+    addTriangle(
+      mesh, corner, corner + edge, corner + 0.5 * edge + thinness * size * inCube(random));
   }
   return mesh;
+}
+
+//------------------------------------------------------------------------------
+void addTriangle(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+  const auto first = static_cast<unsigned int>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), { a, b, c });
+  mesh.triangles.emplace_back(first, first + 1, first + 2);
 }
 
 //------------------------------------------------------------------------------
@@ -164,12 +162,7 @@ Mesh apart(const Mesh& mesh)
   Mesh result;
   for (const glm::uvec3& triangle : mesh.triangles)
   {
-    const auto first = static_cast<unsigned int>(result.points.size());
-    for (int k = 0; k < 3; ++k)
-    {
-      result.points.push_back(mesh.points[triangle[k]]);
-    }
-    result.triangles.emplace_back(first, first + 1, first + 2);
+    addTriangle(result, mesh.points[triangle.x], mesh.points[triangle.y], mesh.points[triangle.z]);
   }
   return result;
 }
@@ -441,50 +434,6 @@ std::optional<LineHit> meet(
 }
 
 //------------------------------------------------------------------------------
-std::vector<float> traceBruteForce(
-  const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
-{
-  const std::vector<CastingTriangle> triangles = castingTriangles(occluders);
-  const auto stops = [&](const CastingTriangle& triangle, const ShadowRay& ray, float rayFar)
-  {
-    const Surface& surface = occluders.surfaces[triangle.surface];
-    const auto hit = meet(triangle, glm::dvec3(ray.origin), glm::dvec3(ray.direction));
-    if (!hit || !hit->isInside() || hit->at < 0.0 || hit->at > static_cast<double>(rayFar) ||
-      (surface.oneSided && hit->cosine < 0.0))
-    {
-      return false;
-    }
-    glm::dvec2 place(0.0);
-    for (int k = 0; surface.cutout && k < 3; ++k)
-    {
-      const std::uint32_t corner = occluders.triangles[triangle.triangle][k] - surface.firstVertex;
-      place += hit->weights[k] * glm::dvec2(surface.textureCoordinates[corner]);
-    }
-    return !surface.cutout || surface.cutout->isDrawn(place);
-  };
-  std::vector<float> visibility(receivers.size(), 1.0f);
-  visitShadowRays(ShadowRayLight(light, occluders.frame.centre),
-    [&](const auto& makeRay, float rayFar)
-    {
-      tbb::parallel_for(std::size_t(0), receivers.size(),
-        [&](std::size_t i)
-        {
-          const std::uint32_t surface = receivers.surface[i];
-          if (surface != ReceiverPixels::notCovered && occluders.surfaces[surface].receives)
-          {
-            const ShadowRay ray =
-              makeRay(receivers.position(i), receivers.normal(i), receivers.offset[i]);
-            const bool lit = ray.traced &&
-              std::none_of(triangles.begin(), triangles.end(),
-                [&](const CastingTriangle& triangle) { return stops(triangle, ray, rayFar); });
-            visibility[i] = lit ? 1.0f : 0.0f;
-          }
-        });
-    });
-  return visibility;
-}
-
-//------------------------------------------------------------------------------
 std::vector<float> trace(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
@@ -493,17 +442,6 @@ std::vector<float> trace(
   std::vector<float> visibility;
   tracer.trace(light, occluders, receivers, visibility);
   return visibility;
-}
-
-//------------------------------------------------------------------------------
-ReceiverPixels withOffset(const ReceiverPixels& receivers, float factor)
-{
-  ReceiverPixels result = receivers;
-  for (float& offset : result.offset)
-  {
-    offset *= factor;
-  }
-  return result;
 }
 
 //------------------------------------------------------------------------------

@@ -36,6 +36,7 @@ Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper);
 Mesh makeSphere(int rings, int segments, double bumps = 0.0);
 /// Return triangles of all shapes and sizes in the unit cube, slivers among them.
 Mesh makeTriangleSoup(int count, unsigned int seed);
+void addTriangle(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 /// Return the same triangles, each with its own corners, at exactly the same places.
 Mesh apart(const Mesh& mesh);
 
@@ -132,16 +133,9 @@ struct LineHit
 std::optional<LineHit> meet(
   const CastingTriangle& triangle, const glm::dvec3& origin, const glm::dvec3& direction);
 
-/// Return visibility by every triangle against every ray, in double precision.
-std::vector<float> traceBruteForce(
-  const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers);
-
 /// Return visibility by a new EmbreeTracer.
 std::vector<float> trace(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers);
-
-/// Return the same receivers with the offset of their shadow rays multiplied.
-ReceiverPixels withOffset(const ReceiverPixels& receivers, float factor);
 
 /// Return a matrix of a place and a size.
 glm::dmat4 at(const glm::dvec3& position, double scale = 1.0);

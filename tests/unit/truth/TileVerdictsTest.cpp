@@ -164,8 +164,6 @@ Camera cameraAround(Random& random)
     110 };
 }
 
-} // namespace
-
 TEST(TileVerdicts, MatchTracing)
 {
   DecidedPixels counts{};
@@ -200,9 +198,6 @@ TEST(TileVerdicts, MatchTracing)
   }
 }
 
-namespace
-{
-
 /// Return a floor that does not cast, and over its half with x > 0 a wall between it and the lamp.
 std::vector<Prop> makeWallAndFloor()
 {
@@ -214,8 +209,6 @@ std::vector<Prop> makeWallAndFloor()
 const Camera cameraOverFloor{ { 1.0, 0.0, 0.8 }, { 0.0, 0.2, 0.0 }, { 0.0, 0.0, 1.0 }, 50.0 };
 
 const ShadowLight lampOverWall = pointLight({ 0.0, 0.0, 9.0 });
-
-} // namespace
 
 TEST(TileVerdicts, GiveReasonsForSkippedLights)
 {
@@ -260,4 +253,5 @@ TEST(TileVerdicts, DoNotTrustWallsWithHolesOrOneSide)
   EXPECT_FALSE(Judged(occluders, view).judge(lampOverWall).areAllDark());
 }
 
+} // namespace
 } // namespace gnomon::test

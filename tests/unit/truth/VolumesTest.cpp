@@ -5,7 +5,6 @@
 #include "SyntheticScene.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
