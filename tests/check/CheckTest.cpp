@@ -427,6 +427,15 @@ TEST(Check, PointLightsShineEverywhere)
   EXPECT_EQ(result.failures(), std::vector<std::string>());
   EXPECT_EQ(result.lights[0].counted, 8100u);
 
+  for (const double height : { 2.5, 1.9 }) // just above the plate, and just below it
+  {
+    scene["lights"][0]["position"] = { 0, height, 0 };
+    const bool above = height > plateHeight;
+    shine(
+      image, [&](const Vec3& p) { return above || p.y < 1.0; },
+      [&](const Vec3& p) { return above && std::abs(p.x) < 5.0 && std::abs(p.z) < 5.0; });
+    EXPECT_EQ(check(scene, image.file).failures(), std::vector<std::string>()) << height;
+  }
   scene["lights"][0]["position"] = { 3, -10, 0 }; // below the ground
   EXPECT_EQ(check(scene, image.file).lights[0].counted, 0u);
 }
