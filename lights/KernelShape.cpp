@@ -13,16 +13,13 @@ namespace
 constexpr std::array<glm::dvec2, 4> mapCorners = { glm::dvec2(-1.0, -1.0), { 1.0, -1.0 },
   { -1.0, 1.0 }, { 1.0, 1.0 } };
 
-struct TurnAndMirror
+/// Return the larger singular value: a 2 x 2 matrix is the sum of a scaled rotation and a scaled
+/// reflection, and their scales are half the sum and half the difference of the singular values.
+double largestSingularValue(const glm::dmat2& matrix)
 {
-  glm::dvec2 turn;
-  glm::dvec2 mirror;
-};
-
-TurnAndMirror partsOf(const glm::dmat2& matrix)
-{
-  return { 0.5 * glm::dvec2(matrix[0].x + matrix[1].y, matrix[0].y - matrix[1].x),
-    0.5 * glm::dvec2(matrix[0].x - matrix[1].y, matrix[0].y + matrix[1].x) };
+  return 0.5 *
+    (glm::length(glm::dvec2(matrix[0].x + matrix[1].y, matrix[0].y - matrix[1].x)) +
+      glm::length(glm::dvec2(matrix[0].x - matrix[1].y, matrix[0].y + matrix[1].x)));
 }
 
 } // namespace
@@ -35,19 +32,6 @@ glm::dmat2 texelJacobian(const glm::dmat3& texelFromAcross, const glm::dvec2& ac
   const auto column = [&](int i)
   { return (glm::dvec2(texelFromAcross[i]) - texel * texelFromAcross[i].z) / image.z; };
   return { column(0), column(1) };
-}
-
-//------------------------------------------------------------------------------
-glm::dmat2 evenShape(const glm::dmat2& jacobian, double largestStretch)
-{
-  auto [turn, mirror] = partsOf(jacobian);
-  const double turned = glm::length(turn);
-  const double mirrored = glm::length(mirror);
-  const double least = std::max(turned - mirrored, 1e-12 * turned);
-  const double stretch = std::min(std::sqrt((turned + mirrored) / least), largestStretch);
-  turn *= 0.5 * (stretch + 1.0 / stretch) / turned;
-  mirror *= mirrored > 0.0 ? 0.5 * (stretch - 1.0 / stretch) / mirrored : 0.0;
-  return { turn.x + mirror.x, turn.y + mirror.y, mirror.y - turn.y, turn.x - mirror.x };
 }
 
 //------------------------------------------------------------------------------
@@ -65,9 +49,9 @@ double mostTexelsAcross(const LightViews& views, int sizeTexels)
     const glm::dmat3 acrossFromMap = glm::inverse(view.mapFromAcross);
     for (const glm::dvec2& corner : mapCorners)
     {
-      const TurnAndMirror parts =
-        partsOf(texelJacobian(texelFromAcross(view, sizeTexels), mapped(acrossFromMap, corner)));
-      most = std::max(most, glm::length(parts.turn) + glm::length(parts.mirror));
+      most = std::max(most,
+        largestSingularValue(
+          texelJacobian(texelFromAcross(view, sizeTexels), mapped(acrossFromMap, corner))));
     }
   }
   return most;

@@ -11,23 +11,11 @@ namespace gnomon
 /// @param texelFromAcross positive w at the point, positive determinant
 glm::dmat2 texelJacobian(const glm::dmat3& texelFromAcross, const glm::dvec2& across);
 
-/// Return the shape on the map of a kernel that is isotropic across the light and keeps its area in
-/// texels. It is J / sqrt(det J), with singular values s (the stretch) and 1 / s. If s exceeds the
-/// limit, the result stretches by the limit along the same axes.
-///
-/// A 2 x 2 matrix is the sum of a scaled rotation and a scaled reflection. Their scales are half
-/// the sum and half the difference of the singular values. The limit changes these two numbers
-/// only.
-///
-/// Degenerate case: a determinant of 0 means an infinite stretch, so the limit applies.
-/// @param jacobian not 0, determinant not negative
-/// @param largestStretch >= 1
-glm::dmat2 evenShape(const glm::dmat2& jacobian, double largestStretch);
-
-/// Return the limit of a kernel's stretch, at most 4. A kernel of n texels reads n + 1 texels with
-/// its bilinear filter. The limit leaves 2 texels on the narrow side, as a bilinear filter of one
-/// texel has. Texels may be 16 times as long as wide before the limit of 4 shows; for the default
-/// kernel of 3 texels, 4 times.
+/// Return the limit of the stretch on the map of a kernel that is even across the light
+/// (kernel_shape.glsl), at most 4. A kernel of n texels reads n + 1 texels, as its filter is
+/// bilinear. The limit leaves 2 texels on the narrow side, as a bilinear filter of one texel has.
+/// Texels may be 16 times as long as wide before the limit of 4 shows; for the default kernel of 3
+/// texels, 4 times.
 double largestStretch(int kernelTexels);
 
 /// Return the most texels per unit across the light over all views; 0 without views.

@@ -1,4 +1,4 @@
-// The shape of kernels on a map: the twin of lights/KernelShape.h.
+// The shape of kernels on a map.
 
 #ifndef GNOMON_KERNEL_SHAPE
 #define GNOMON_KERNEL_SHAPE
@@ -13,8 +13,13 @@ mat2 homographyJacobian(mat3 homography, vec2 at)
     image.z;
 }
 
-// Return the shape that is even where the Jacobian comes from and keeps its area, stretched by at
-// most a limit.
+// Return the shape that is even where the Jacobian J comes from and keeps its area. It is
+// J / sqrt(det J), with singular values s (the stretch) and 1 / s. If s exceeds the limit, which is
+// at least 1, the result stretches by the limit along the same axes.
+//
+// The Jacobian is the sum of a scaled rotation and a scaled reflection, whose scales are half the
+// sum and half the difference of its singular values. The limit changes these two numbers only.
+// @param jacobian not 0, its determinant not negative; 0 means an infinite stretch
 mat2 evenShape(mat2 jacobian, float largestStretch)
 {
   vec2 turn = 0.5 * vec2(jacobian[0].x + jacobian[1].y, jacobian[0].y - jacobian[1].x);
