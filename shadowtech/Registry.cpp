@@ -125,6 +125,25 @@ std::vector<EstimatorEntry> makeEstimators()
   return entries;
 }
 
+bool contains(const SettingsTable& table, const Setting& setting)
+{
+  return std::any_of(table.settings.begin(), table.settings.end(),
+    [&](const Setting& each) { return &each == &setting; });
+}
+
+/// Return the registry's name of the technique that settings select.
+std::string nameOfTechnique(const ShadowSettings& settings)
+{
+  const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
+  return isAutomatic(settings) ? restingHard : name == automaticTechnique ? plainTechnique : name;
+}
+
+/// True if a light leaves its technique to the pass and its shadows may be soft.
+bool restsSoftly(const ShadowLight& light)
+{
+  return isAutomatic(light) && (light.area || light.texture);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -217,17 +236,6 @@ std::string techniqueNames()
   return std::string(automaticTechnique) + ", " + listOf(namesOf(registry()));
 }
 
-namespace
-{
-
-bool contains(const SettingsTable& table, const Setting& setting)
-{
-  return std::any_of(table.settings.begin(), table.settings.end(),
-    [&](const Setting& each) { return &each == &setting; });
-}
-
-} // namespace
-
 //------------------------------------------------------------------------------
 bool has(const TechniqueInfo& info, const Setting& setting)
 {
@@ -294,24 +302,6 @@ std::string whoHas(const Setting& setting)
     [&](const SettingsTable* table) { return contains(*table, setting); });
   return "the setting '" + setting.name + "' is for: " + techniquesWith(**found);
 }
-
-namespace
-{
-
-/// Return the registry's name of the technique that settings select.
-std::string nameOfTechnique(const ShadowSettings& settings)
-{
-  const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
-  return isAutomatic(settings) ? restingHard : name == automaticTechnique ? plainTechnique : name;
-}
-
-/// True if a light leaves its technique to the pass and its shadows may be soft.
-bool restsSoftly(const ShadowLight& light)
-{
-  return isAutomatic(light) && (light.area || light.texture);
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 const EstimatorEntry& estimatorOf(const ShadowSettings& settings)

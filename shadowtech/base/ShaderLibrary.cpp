@@ -14,6 +14,15 @@ namespace gnomon
 namespace
 {
 
+/// Return the #version line. Below OpenGL 4.3, shaders need only explicit attribute locations.
+const char* versionLine()
+{
+  return GNOMON_HAS_GL(VERSION_4_3) ? "#version 430 core\n"
+    : GNOMON_HAS_GL(VERSION_3_3)    ? "#version 330 core\n"
+                                    : "#version 150 core\n"
+                                      "#extension GL_ARB_explicit_attrib_location : require\n";
+}
+
 /// The beginning of lines that include a file.
 const std::string includeOf = "#include \"";
 
@@ -128,20 +137,6 @@ std::string numberedForLight(const std::string& text, int light)
   }
   return numbered.append(text, copied);
 }
-
-namespace
-{
-
-/// Return the #version line. Below OpenGL 4.3, shaders need only explicit attribute locations.
-const char* versionLine()
-{
-  return GNOMON_HAS_GL(VERSION_4_3) ? "#version 430 core\n"
-    : GNOMON_HAS_GL(VERSION_3_3)    ? "#version 330 core\n"
-                                    : "#version 150 core\n"
-                                      "#extension GL_ARB_explicit_attrib_location : require\n";
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 GLuint ShaderLibrary::program(

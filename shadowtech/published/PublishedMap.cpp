@@ -211,6 +211,16 @@ private:
   CasterBands bands_;
 };
 
+TechniqueInfo infoOfPublished(const std::string& name)
+{
+  TechniqueInfo info = infoOfExact(name);
+  info.settings = { &viewSettings(), &publishedSettings() };
+  info.asPublished = name;
+  info.exact = false;
+  info.mapIsOptional = false;
+  return info;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -289,21 +299,6 @@ MapRule publishedRule(PublishedLayers layers)
     return ConservativeMap(view, hasBox, lookUpOf(scene, view), std::move(texels));
   };
 }
-
-namespace
-{
-
-TechniqueInfo infoOfPublished(const std::string& name)
-{
-  TechniqueInfo info = infoOfExact(name);
-  info.settings = { &viewSettings(), &publishedSettings() };
-  info.asPublished = name;
-  info.exact = false;
-  info.mapIsOptional = false;
-  return info;
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 const std::vector<ConservativeEntry>& publishedCrsm()
