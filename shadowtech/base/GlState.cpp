@@ -7,11 +7,6 @@ namespace gnomon
 namespace
 {
 
-void setEnabled(GLenum name, GLboolean enabled)
-{
-  enabled ? glEnable(name) : glDisable(name);
-}
-
 /// Rebind a texture, unless it was deleted meanwhile, which unbinds it for good.
 void bindAgain(GLenum target, GLint texture)
 {
@@ -32,6 +27,14 @@ void beginReading()
 } // namespace
 
 //------------------------------------------------------------------------------
+GLuint GlStateGuard::stateOf(GLenum name)
+{
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return static_cast<GLuint>(value);
+}
+
+//------------------------------------------------------------------------------
 GlStateGuard::GlStateGuard()
 {
   for (std::size_t i = 0; i < switches_.size(); ++i)
@@ -42,26 +45,8 @@ GlStateGuard::GlStateGuard()
   {
     this->blend_[i] = glIsEnabledi(GL_BLEND, static_cast<GLuint>(i));
   }
-  glGetIntegerv(GL_CURRENT_PROGRAM, &this->program_);
-  glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &this->vertexArray_);
-  glGetIntegerv(GL_ARRAY_BUFFER_BINDING, &this->arrayBuffer_);
-  glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &this->packBuffer_);
-  glGetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &this->unpackBuffer_);
-  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->drawFramebuffer_);
-  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &this->readFramebuffer_);
-  glGetIntegerv(GL_RENDERBUFFER_BINDING, &this->renderbuffer_);
   glGetIntegerv(GL_VIEWPORT, this->viewport_);
   glGetIntegerv(GL_SCISSOR_BOX, this->scissor_);
-  glGetIntegerv(GL_BLEND_EQUATION_RGB, &this->blendEquationRgb_);
-  glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &this->blendEquationAlpha_);
-  glGetIntegerv(GL_BLEND_SRC_RGB, &this->blendSourceRgb_);
-  glGetIntegerv(GL_BLEND_DST_RGB, &this->blendDestinationRgb_);
-  glGetIntegerv(GL_BLEND_SRC_ALPHA, &this->blendSourceAlpha_);
-  glGetIntegerv(GL_BLEND_DST_ALPHA, &this->blendDestinationAlpha_);
-  glGetIntegerv(GL_DEPTH_FUNC, &this->depthFunction_);
-  glGetIntegerv(GL_LOGIC_OP_MODE, &this->logicOperation_);
-  glGetIntegerv(GL_CULL_FACE_MODE, &this->cullFace_);
-  glGetIntegerv(GL_FRONT_FACE, &this->frontFace_);
   glGetIntegerv(GL_POLYGON_MODE, this->polygonMode_);
   glGetIntegerv(GL_PACK_ALIGNMENT, &this->packAlignment_);
   glGetIntegerv(GL_UNPACK_ALIGNMENT, &this->unpackAlignment_);
@@ -74,7 +59,6 @@ GlStateGuard::GlStateGuard()
   glGetFloatv(GL_POLYGON_OFFSET_UNITS, &this->offsetUnits_);
   glGetBooleanv(GL_DEPTH_WRITEMASK, &this->depthMask_);
   glGetBooleanv(GL_COLOR_WRITEMASK, this->colorMask_);
-  glGetIntegerv(GL_ACTIVE_TEXTURE, &this->activeTexture_);
   for (int unit = 0; unit < textureUnits; ++unit)
   {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -93,7 +77,7 @@ GlStateGuard::~GlStateGuard()
     bindAgain(GL_TEXTURE_2D, this->texture2D_[static_cast<std::size_t>(unit)]);
     bindAgain(GL_TEXTURE_2D_ARRAY, this->texture2DArray_[static_cast<std::size_t>(unit)]);
   }
-  glActiveTexture(static_cast<GLenum>(this->activeTexture_));
+  glActiveTexture(this->activeTexture_);
   glColorMask(this->colorMask_[0], this->colorMask_[1], this->colorMask_[2], this->colorMask_[3]);
   glDepthMask(this->depthMask_);
   glPolygonOffset(this->offsetFactor_, this->offsetUnits_);
@@ -104,25 +88,23 @@ GlStateGuard::~GlStateGuard()
     glPixelStorei(pixelStores_[i], this->pixelStore_[i]);
   }
   glPolygonMode(GL_FRONT_AND_BACK, static_cast<GLenum>(this->polygonMode_[0]));
-  glFrontFace(static_cast<GLenum>(this->frontFace_));
-  glCullFace(static_cast<GLenum>(this->cullFace_));
-  glLogicOp(static_cast<GLenum>(this->logicOperation_));
-  glDepthFunc(static_cast<GLenum>(this->depthFunction_));
-  glBlendEquationSeparate(
-    static_cast<GLenum>(this->blendEquationRgb_), static_cast<GLenum>(this->blendEquationAlpha_));
-  glBlendFuncSeparate(static_cast<GLenum>(this->blendSourceRgb_),
-    static_cast<GLenum>(this->blendDestinationRgb_), static_cast<GLenum>(this->blendSourceAlpha_),
-    static_cast<GLenum>(this->blendDestinationAlpha_));
+  glFrontFace(this->frontFace_);
+  glCullFace(this->cullFace_);
+  glLogicOp(this->logicOperation_);
+  glDepthFunc(this->depthFunction_);
+  glBlendEquationSeparate(this->blendEquationRgb_, this->blendEquationAlpha_);
+  glBlendFuncSeparate(this->blendSourceRgb_, this->blendDestinationRgb_, this->blendSourceAlpha_,
+    this->blendDestinationAlpha_);
   glScissor(this->scissor_[0], this->scissor_[1], this->scissor_[2], this->scissor_[3]);
   glViewport(this->viewport_[0], this->viewport_[1], this->viewport_[2], this->viewport_[3]);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(this->readFramebuffer_));
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(this->drawFramebuffer_));
-  glBindRenderbuffer(GL_RENDERBUFFER, static_cast<GLuint>(this->renderbuffer_));
-  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, static_cast<GLuint>(this->unpackBuffer_));
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(this->packBuffer_));
-  glBindVertexArray(static_cast<GLuint>(this->vertexArray_));
-  glBindBuffer(GL_ARRAY_BUFFER, static_cast<GLuint>(this->arrayBuffer_));
-  glUseProgram(static_cast<GLuint>(this->program_));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, this->readFramebuffer_);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->drawFramebuffer_);
+  glBindRenderbuffer(GL_RENDERBUFFER, this->renderbuffer_);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, this->unpackBuffer_);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, this->packBuffer_);
+  glBindVertexArray(this->vertexArray_);
+  glBindBuffer(GL_ARRAY_BUFFER, this->arrayBuffer_);
+  glUseProgram(this->program_);
   for (std::size_t i = 0; i < this->blend_.size(); ++i)
   {
     this->blend_[i] ? glEnablei(GL_BLEND, static_cast<GLuint>(i))
@@ -130,7 +112,7 @@ GlStateGuard::~GlStateGuard()
   }
   for (std::size_t i = 0; i < switches_.size(); ++i)
   {
-    setEnabled(switches_[i], this->enabled_[i]);
+    this->enabled_[i] ? glEnable(switches_[i]) : glDisable(switches_[i]);
   }
 }
 

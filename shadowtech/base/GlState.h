@@ -24,18 +24,35 @@ public:
   static constexpr int textureUnits = 12;
 
 private:
+  /// Return a number of the state.
+  static GLuint stateOf(GLenum name);
+
   static constexpr std::array<GLenum, 12> switches_ = { GL_DEPTH_TEST, GL_CLIP_DISTANCE0,
     GL_CLIP_DISTANCE1, GL_COLOR_LOGIC_OP, GL_SCISSOR_TEST, GL_CULL_FACE, GL_POLYGON_OFFSET_FILL,
     GL_DEPTH_CLAMP, GL_STENCIL_TEST, GL_MULTISAMPLE, GL_SAMPLE_ALPHA_TO_COVERAGE,
     GL_FRAMEBUFFER_SRGB };
   std::array<GLboolean, switches_.size()> enabled_;
   std::array<GLboolean, 5> blend_;
-  GLint program_, vertexArray_, arrayBuffer_, packBuffer_, unpackBuffer_, activeTexture_;
-  GLint drawFramebuffer_, readFramebuffer_, renderbuffer_;
-  GLint viewport_[4], scissor_[4];
-  GLint blendEquationRgb_, blendEquationAlpha_;
-  GLint blendSourceRgb_, blendDestinationRgb_, blendSourceAlpha_, blendDestinationAlpha_;
-  GLint depthFunction_, logicOperation_, cullFace_, frontFace_, polygonMode_[2];
+  GLuint program_ = stateOf(GL_CURRENT_PROGRAM);
+  GLuint vertexArray_ = stateOf(GL_VERTEX_ARRAY_BINDING);
+  GLuint arrayBuffer_ = stateOf(GL_ARRAY_BUFFER_BINDING);
+  GLuint packBuffer_ = stateOf(GL_PIXEL_PACK_BUFFER_BINDING);
+  GLuint unpackBuffer_ = stateOf(GL_PIXEL_UNPACK_BUFFER_BINDING);
+  GLuint drawFramebuffer_ = stateOf(GL_DRAW_FRAMEBUFFER_BINDING);
+  GLuint readFramebuffer_ = stateOf(GL_READ_FRAMEBUFFER_BINDING);
+  GLuint renderbuffer_ = stateOf(GL_RENDERBUFFER_BINDING);
+  GLenum activeTexture_ = stateOf(GL_ACTIVE_TEXTURE);
+  GLenum blendEquationRgb_ = stateOf(GL_BLEND_EQUATION_RGB);
+  GLenum blendEquationAlpha_ = stateOf(GL_BLEND_EQUATION_ALPHA);
+  GLenum blendSourceRgb_ = stateOf(GL_BLEND_SRC_RGB);
+  GLenum blendDestinationRgb_ = stateOf(GL_BLEND_DST_RGB);
+  GLenum blendSourceAlpha_ = stateOf(GL_BLEND_SRC_ALPHA);
+  GLenum blendDestinationAlpha_ = stateOf(GL_BLEND_DST_ALPHA);
+  GLenum depthFunction_ = stateOf(GL_DEPTH_FUNC);
+  GLenum logicOperation_ = stateOf(GL_LOGIC_OP_MODE);
+  GLenum cullFace_ = stateOf(GL_CULL_FACE_MODE);
+  GLenum frontFace_ = stateOf(GL_FRONT_FACE);
+  GLint viewport_[4], scissor_[4], polygonMode_[2];
   GLint packAlignment_, unpackAlignment_;
   /// Where pixels lie in memory. While the guard lives, they lie side by side.
   static constexpr std::array<GLenum, 6> pixelStores_ = { GL_PACK_ROW_LENGTH, GL_PACK_SKIP_PIXELS,
