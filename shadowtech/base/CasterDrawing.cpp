@@ -1,6 +1,7 @@
 #include "shadowtech/base/CasterDrawing.h"
 
 #include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
 #include <glm/gtc/matrix_access.hpp>
@@ -49,13 +50,12 @@ void beginCasters(GLuint framebuffer, int sizeTexels)
 {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, sizeTexels, sizeTexels);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_STENCIL_TEST);
+  ScreenPass::openState(1);
   glDisable(GL_MULTISAMPLE);
+  glDisable(GL_POLYGON_OFFSET_FILL);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   // Rounding may push a caster over the edge of the depths, which bound all of them.
   glEnable(GL_DEPTH_CLAMP);
 }

@@ -5,7 +5,6 @@
 #include "shadowtech/base/Instances.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace gnomon
@@ -89,20 +88,12 @@ void readMatrices()
   }
 }
 
-/// Cull the given face, if any.
-void cull(std::optional<GLenum> face, bool mirrored)
+/// Cull the sides of surfaces that are not drawn.
+void cull(bool oneSided, const CasterSelection& selection)
 {
-  glFrontFace(mirrored ? GL_CW : GL_CCW);
-  face ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
-  glCullFace(face.value_or(GL_BACK));
-}
-
-/// Return the face to cull of a surface; none: draw both.
-std::optional<GLenum> culledFace(bool oneSided, bool backOnly)
-{
-  return oneSided ? std::optional<GLenum>(GL_BACK)
-    : backOnly    ? std::optional<GLenum>(GL_FRONT)
-                  : std::nullopt;
+  glFrontFace(selection.mirrored ? GL_CW : GL_CCW);
+  glCullFace(oneSided ? GL_BACK : GL_FRONT);
+  oneSided || selection.backOnly ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
 }
 
 } // namespace
@@ -345,14 +336,11 @@ void OccluderBuffers::drawParts(
 void OccluderBuffers::draw(const CasterSelection& selection) const
 {
   glBindVertexArray(this->vertexArray_.name());
-  cull(culledFace(false, selection.backOnly), selection.mirrored);
+  cull(false, selection);
   this->drawParts(this->twoSided_, selection);
-  if (!this->oneSided_.empty())
-  {
-    cull(culledFace(true, selection.backOnly), selection.mirrored);
-    this->drawParts(this->oneSided_, selection);
-  }
-  cull(std::nullopt, selection.mirrored);
+  cull(true, selection);
+  this->drawParts(this->oneSided_, selection);
+  glDisable(GL_CULL_FACE);
 }
 
 //------------------------------------------------------------------------------
@@ -365,14 +353,14 @@ void OccluderBuffers::drawCutouts(const CasterSelection& selection) const
     {
       continue;
     }
-    cull(culledFace(cutout.oneSided, selection.backOnly), selection.mirrored);
+    cull(cutout.oneSided, selection);
     glBindVertexArray(cutout.vertexArray.name());
     glBindTexture(GL_TEXTURE_2D, this->masks_.at(cutout.mask).name());
     glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, part.count, GL_UNSIGNED_INT,
       placeOf<GLuint>(static_cast<std::size_t>(part.first)), std::max(part.instances, 1),
       cutout.baseVertex, part.firstInstance);
   }
-  cull(std::nullopt, selection.mirrored);
+  glDisable(GL_CULL_FACE);
 }
 
 } // namespace gnomon

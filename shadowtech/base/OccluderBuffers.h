@@ -38,7 +38,6 @@ public:
   /// counter-clockwise.
   void draw(const CasterSelection& selection) const;
 
-  /// True if there are surfaces with a cut-out.
   bool hasCutouts() const { return !this->cutouts_.empty(); }
 
   /// Draw the casting triangles of surfaces with a cut-out, otherwise like draw(). Texture

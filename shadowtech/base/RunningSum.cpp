@@ -21,10 +21,7 @@ void RunningSum::begin(int width, int height, const char* what)
 //------------------------------------------------------------------------------
 void RunningSum::clear()
 {
-  for (SizedTexture& image : this->images_)
-  {
-    image.reset();
-  }
+  this->images_ = {};
   this->isEmpty_ = true;
 }
 

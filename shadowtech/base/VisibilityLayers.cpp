@@ -85,32 +85,25 @@ void VisibilityLayers::resize(int width, int height, int layers, int bits)
   const GlStateGuard guard;
   glActiveTexture(GL_TEXTURE0);
   this->width_ = 0; // in case the allocation fails
-  if (layers == 0)
-  {
-    this->texture_ = GlTexture();
-  }
-  else
+  this->texture_.reset();
+  if (layers > 0)
   {
     allocateTexture(
       this->texture_, { GL_R32F, GL_RED, 1 }, width, height, layers, "the lights' visibility");
   }
+  this->textureOfBits_.reset();
   this->bytesOfPixel_ = 0;
-  if (bits == 0)
-  {
-    this->textureOfBits_ = GlTexture();
-  }
-  else
+  if (bits > 0)
   {
     const BitsFormat& format = formatOfBits(bits);
     this->bytesOfPixel_ = format.bytesOfPixel;
     allocateTexture(this->textureOfBits_, format.texel, width, height, 0, "the lights' visibility");
   }
-  this->bitsOfPixels_.assign(
-    this->bytesOfPixel_ * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   this->width_ = width;
   this->height_ = height;
   this->layers_ = layers;
   this->bits_ = bits;
+  this->bitsOfPixels_.assign(this->bytesOfPixel_ * this->pixels(), 0);
 }
 
 //------------------------------------------------------------------------------
@@ -144,7 +137,7 @@ void VisibilityLayers::estimate(int layer, const PointwiseTechnique& technique,
   }
   this->screenPass_.fill(
     { { this->texture_.name(), layer }, { ofPixels.name() } }, this->width_, this->height_);
-  classes->resize(static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  classes->resize(this->pixels());
   readTexture(ofPixels.name(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, classes->data());
 }
 
@@ -162,10 +155,8 @@ void VisibilityLayers::upload(int firstLayer, const std::vector<float>& visibili
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->texture_.name());
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  const std::size_t pixels =
-    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
   glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, firstLayer, this->width_, this->height_,
-    static_cast<GLsizei>(visibility.size() / pixels), GL_RED, GL_FLOAT, visibility.data());
+    static_cast<GLsizei>(visibility.size() / this->pixels()), GL_RED, GL_FLOAT, visibility.data());
 }
 
 //------------------------------------------------------------------------------
@@ -252,8 +243,7 @@ void VisibilityLayers::readBit(int bit, std::vector<float>& visibility) const
 void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
 {
   const GlStateGuard guard;
-  visibility.resize(
-    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  visibility.resize(this->pixels());
   GlFramebuffer framebuffer;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.create());
   glFramebufferTextureLayer(
@@ -265,9 +255,8 @@ void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
 //------------------------------------------------------------------------------
 std::size_t VisibilityLayers::bytes() const
 {
-  const std::size_t bytes =
-    static_cast<std::size_t>(this->layers_) * sizeof(float) + 2 * this->bytesOfPixel_;
-  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * bytes;
+  return this->pixels() *
+    (static_cast<std::size_t>(this->layers_) * sizeof(float) + 2 * this->bytesOfPixel_);
 }
 
 } // namespace gnomon

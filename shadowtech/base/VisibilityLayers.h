@@ -72,6 +72,11 @@ public:
   std::size_t bytes() const;
 
 private:
+  std::size_t pixels() const
+  {
+    return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
+  }
+
   GlTexture texture_;
   ScreenPass screenPass_;
   int width_ = 0;

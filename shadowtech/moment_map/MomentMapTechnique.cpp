@@ -107,9 +107,6 @@ void MomentMapTechnique::bake(const MapInput& input)
   {
     glEnable(GL_MULTISAMPLE);
   }
-  glDisable(GL_POLYGON_OFFSET_FILL);
-  glDisablei(GL_BLEND, 0);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     const auto view = static_cast<int>(i);

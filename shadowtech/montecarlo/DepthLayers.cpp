@@ -63,9 +63,6 @@ void DepthLayers::draw(const MapInput& input, double nearest)
   for (std::size_t view = 0; view < views.size(); ++view)
   {
     beginCasters(this->framebuffer_.name(), this->slabs_.width());
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    glDisablei(GL_BLEND, 0);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     isPeeled(input.light) ? this->drawPeeled(input, view, nearest)
                           : this->drawHull(input, view, nearest);
   }

@@ -78,18 +78,14 @@ void beginShadows(GLuint framebuffer, int width, int height)
 {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width, height);
-  glDisable(GL_SCISSOR_TEST);
+  ScreenPass::openState(1);
   glDisable(GL_DEPTH_TEST);
-  glDisable(GL_STENCIL_TEST);
   glDisable(GL_MULTISAMPLE);
   glDisable(GL_POLYGON_OFFSET_FILL);
-  glDisablei(GL_BLEND, 0);
   glEnable(GL_COLOR_LOGIC_OP);
   glLogicOp(GL_OR);
   // Receivers are inside the camera's depth range, so their shadows must not be clipped.
   glEnable(GL_DEPTH_CLAMP);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   const GLuint nothing[4] = { 0, 0, 0, 0 };
   glClearBufferuiv(GL_COLOR, 0, nothing);
 }
