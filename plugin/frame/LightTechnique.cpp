@@ -123,8 +123,7 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
   wanted.key->add("its views", wanted.views);
   wanted.key->add("their reach", reach);
   wanted.key->add("its settings", settingsOf(this->info(), SettingsOf::Map, light));
-  wanted.key->add(
-    "the casters", std::pair(stage.occluders.topologyVersion, stage.occluders.positionsVersion));
+  wanted.key->add("the casters", stage.occluders.versions());
   if (light.fittedToReceivers)
   {
     wanted.key->add("the receivers", stage.receiversNumber);

@@ -202,7 +202,7 @@ SceneProps readProps(const Occluders& occluders)
 {
   SceneProps props;
   props.frame = occluders.frame;
-  props.casters = { occluders.topologyVersion, occluders.positionsVersion };
+  props.casters = occluders.versions();
   props.sheets = occluders.hasSheets();
   props.transmits = props.sheets || !occluders.volumes.empty();
   for (const Surface& surface : occluders.surfaces)

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace gnomon
@@ -102,6 +103,8 @@ struct Surface
 /// Surfaces with instances have source coordinates instead (Surface::centredFromSource).
 struct Occluders
 {
+  using Versions = std::pair<std::uint64_t, std::uint64_t>;
+
   SceneFrame frame; ///< sceneFrameOf(), in all snapshots of plugin/
   /// The allocation extends at least 4 bytes beyond the last position: Embree reads each position
   /// as 16 bytes.
@@ -137,7 +140,6 @@ struct Occluders
       [](const Surface& surface) { return surface.sheet && surface.triangleCount > 0; });
   }
 
-  /// True if something casts.
   bool hasCasters() const
   {
     return !this->castersCentred.empty() || !this->volumes.empty() || this->hasSheets();
@@ -148,6 +150,9 @@ struct Occluders
   std::uint64_t topologyVersion = 0;
   /// Changes with any centred position, and with topologyVersion.
   std::uint64_t positionsVersion = 0;
+
+  /// Return both versions, the key of what is computed from all casters.
+  Versions versions() const { return { this->topologyVersion, this->positionsVersion }; }
 };
 
 } // namespace gnomon

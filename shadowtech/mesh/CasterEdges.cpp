@@ -3,7 +3,6 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/WeldedVertices.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -66,14 +65,9 @@ std::vector<Side> sortedSides(
   std::partial_sum(end.begin(), end.end(), end.begin());
   std::vector<Side> sides(end.back());
   visit([&](const Side& side) { sides[end[side.lesser]++] = side; });
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, surface.vertexCount, 1024),
-    [&](const tbb::blocked_range<std::uint32_t>& vertices)
-    {
-      for (std::uint32_t i = vertices.begin(); i != vertices.end(); ++i)
-      {
-        std::sort(sides.begin() + (i > 0 ? end[i - 1] : 0), sides.begin() + end[i]);
-      }
-    });
+  tbb::parallel_for(std::uint32_t(0), surface.vertexCount,
+    [&](std::uint32_t i)
+    { std::sort(sides.begin() + (i > 0 ? end[i - 1] : 0), sides.begin() + end[i]); });
   return sides;
 }
 
@@ -276,8 +270,7 @@ std::size_t SurfaceEdges::bytes() const
 //------------------------------------------------------------------------------
 void CasterEdges::update(const Occluders& occluders)
 {
-  if (this->topologyVersion_ == occluders.topologyVersion &&
-    this->positionsVersion_ == occluders.positionsVersion)
+  if (this->versions_ == occluders.versions())
   {
     return;
   }
@@ -289,8 +282,7 @@ void CasterEdges::update(const Occluders& occluders)
   }
   this->seams_.update(occluders, edges);
   this->joinParts(occluders);
-  this->topologyVersion_ = occluders.topologyVersion;
-  this->positionsVersion_ = occluders.positionsVersion;
+  this->versions_ = occluders.versions();
 }
 
 //------------------------------------------------------------------------------

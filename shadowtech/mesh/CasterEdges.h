@@ -114,8 +114,7 @@ private:
   KeptOfCasters<SurfaceEdges> kept_;
   CasterSeams seams_;
   std::vector<std::uint32_t> parts_;
-  std::uint64_t topologyVersion_ = 0;
-  std::uint64_t positionsVersion_ = 0;
+  Occluders::Versions versions_;
 };
 
 } // namespace gnomon

@@ -75,12 +75,11 @@ EdgeTree::Cone joined(const EdgeTree::Cone& one, const EdgeTree::Cone& other)
 //------------------------------------------------------------------------------
 void EdgeTree::update(const Occluders& occluders)
 {
-  if (this->topologyVersion_ == occluders.topologyVersion &&
-    this->positionsVersion_ == occluders.positionsVersion)
+  if (this->versions_ == occluders.versions())
   {
     return;
   }
-  this->topologyVersion_ = 0; // stays 0 if an error interrupts the update
+  this->versions_ = {}; // stays so if an error interrupts the update
   this->found_.update(occluders, updateCasterEdges);
   this->triangles_.clear();
   this->corners_.clear();
@@ -106,8 +105,7 @@ void EdgeTree::update(const Occluders& occluders)
   {
     this->fitNodes(this->tree_.root, this->conesOfTriangles(), levelsInParallel);
   }
-  this->topologyVersion_ = occluders.topologyVersion;
-  this->positionsVersion_ = occluders.positionsVersion;
+  this->versions_ = occluders.versions();
 }
 
 //------------------------------------------------------------------------------
@@ -137,9 +135,7 @@ void EdgeTree::addSurface(
         bounds.add(glm::dmat4x3(instance) * glm::dvec4(position(of.firstVertex + i), 1.0));
       }
       const double more = std::ldexp(bounds.radius() + glm::length(bounds.centre()), -16);
-      bounds.lower -= more;
-      bounds.upper += more;
-      this->addOpaque(bounds, records);
+      this->addOpaque(inflated(bounds, more), records);
     }
     return;
   }
@@ -167,8 +163,7 @@ void EdgeTree::addSurface(
       // A tracer may see a needle up to its own length beyond its box.
       isNeedle[i] = triangle.longest < mostSlender * triangle.height ? 0 : 1;
       const double more = isNeedle[i] != 0 ? triangle.longest : triangle.noise / triangle.height;
-      bounds.lower -= more;
-      bounds.upper += more;
+      bounds = inflated(bounds, more);
     });
   for (std::uint32_t i = 0; i < of.triangleCount; ++i)
   {

@@ -124,7 +124,6 @@ public:
   }
 
   bool empty() const { return this->tree_.records.empty(); }
-  /// Return the number of records.
   std::size_t size() const { return this->tree_.records.size(); }
   std::uint32_t root() const { return this->tree_.root; }
   /// Return a node. Its box also holds all starts that are too close to its content for a certain
@@ -147,7 +146,6 @@ public:
     }
     return reach;
   }
-  /// Return the box of a record.
   const Bounds& bounds(const Record& record) const
   {
     return (record.opaque ? this->opaqueBounds_ : this->bounds_)[record.number];
@@ -173,8 +171,7 @@ private:
   std::vector<TreeEdge> edges_;
   Bvh tree_;
   std::vector<Cone> cones_; ///< one for each node
-  std::uint64_t topologyVersion_ = 0;
-  std::uint64_t positionsVersion_ = 0;
+  Occluders::Versions versions_;
 };
 
 } // namespace gnomon

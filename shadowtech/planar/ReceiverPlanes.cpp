@@ -324,11 +324,7 @@ private:
     std::vector<std::size_t> members;
     for (const std::size_t number : this->flat_)
     {
-      if (this->planeOfTriangle_[number] != 0)
-      {
-        continue;
-      }
-      if (!isNear(plane, number))
+      if (this->planeOfTriangle_[number] != 0 || !this->isNear(plane, number))
       {
         continue;
       }
@@ -416,8 +412,7 @@ private:
 //------------------------------------------------------------------------------
 void ReceiverPlanes::update(const Occluders& occluders, std::size_t wanted)
 {
-  if (this->wanted_ == wanted && this->topologyVersion_ == occluders.topologyVersion &&
-    this->positionsVersion_ == occluders.positionsVersion)
+  if (this->wanted_ == wanted && this->versions_ == occluders.versions())
   {
     return;
   }
@@ -426,8 +421,7 @@ void ReceiverPlanes::update(const Occluders& occluders, std::size_t wanted)
   this->area_ = search.area();
   this->planeOfTriangle_ = search.planeOfTriangle();
   this->wanted_ = wanted;
-  this->topologyVersion_ = occluders.topologyVersion;
-  this->positionsVersion_ = occluders.positionsVersion;
+  this->versions_ = occluders.versions();
 }
 
 } // namespace gnomon

@@ -57,8 +57,7 @@ private:
   std::vector<std::uint8_t> planeOfTriangle_;
   double area_ = 0.0;
   std::size_t wanted_ = 0; ///< 0 before the first update
-  std::uint64_t topologyVersion_ = 0;
-  std::uint64_t positionsVersion_ = 0;
+  Occluders::Versions versions_;
 };
 
 } // namespace gnomon

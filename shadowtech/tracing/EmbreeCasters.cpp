@@ -165,8 +165,7 @@ void EmbreeCasters::nameSurfaces(const Occluders& occluders)
 //------------------------------------------------------------------------------
 EmbreeTracer::Update EmbreeCasters::update(const Occluders& occluders)
 {
-  if (this->topologyVersion_ == occluders.topologyVersion &&
-    this->positionsVersion_ == occluders.positionsVersion)
+  if (this->versions_ == occluders.versions())
   {
     return {};
   }
@@ -201,13 +200,7 @@ EmbreeTracer::Update EmbreeCasters::update(const Occluders& occluders)
   }
   for (const auto& gone : this->casters)
   {
-    for (const unsigned int attached : gone.second.attached)
-    {
-      if (attached != RTC_INVALID_GEOMETRY_ID)
-      {
-        rtcDetachGeometry(this->scene.get(), attached);
-      }
-    }
+    detachAll(this->scene.get(), gone.second.attached);
   }
   this->casters = std::move(casters);
   this->nameSurfaces(occluders);
@@ -219,8 +212,7 @@ EmbreeTracer::Update EmbreeCasters::update(const Occluders& occluders)
       (error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory"
                                         : "error " + std::to_string(static_cast<int>(error))));
   }
-  this->topologyVersion_ = occluders.topologyVersion;
-  this->positionsVersion_ = occluders.positionsVersion;
+  this->versions_ = occluders.versions();
   return update;
 }
 

@@ -70,8 +70,7 @@ private:
   void move(Caster& caster, const Surface& surface) const;
   void nameSurfaces(const Occluders& occluders);
 
-  std::uint64_t topologyVersion_ = 0;
-  std::uint64_t positionsVersion_ = 0;
+  Occluders::Versions versions_;
 };
 
 } // namespace gnomon

@@ -48,4 +48,16 @@ inline void placeInstances(
   }
 }
 
+/// Detach what is attached to a scene by these numbers; invalid ones are passed over.
+inline void detachAll(RTCScene scene, const std::vector<unsigned int>& attached)
+{
+  for (const unsigned int number : attached)
+  {
+    if (number != RTC_INVALID_GEOMETRY_ID)
+    {
+      rtcDetachGeometry(scene, number);
+    }
+  }
+}
+
 } // namespace gnomon

@@ -249,7 +249,6 @@ struct Sheets::Impl
   Impl();
   Structure make(const Surface& surface, const Occluders& occluders) const;
   void place(const Structure& structure) const;
-  void detach(const Structure& structure) const;
   void findCopies(const Occluders& occluders);
   void trace(
     const glm::vec3& origin, const glm::vec3& direction, float rayFar, CrossingQuery& query) const;
@@ -258,8 +257,7 @@ struct Sheets::Impl
   EmbreeDevice device;
   EmbreeScene scene;
   std::unordered_map<std::uint64_t, Structure> structures; ///< by the surface's topologyVersion
-  std::uint64_t topologyVersion = 0;
-  std::uint64_t positionsVersion = 0;
+  Occluders::Versions versions;
 };
 
 //------------------------------------------------------------------------------
@@ -317,18 +315,6 @@ void Sheets::Impl::place(const Structure& structure) const
 }
 
 //------------------------------------------------------------------------------
-void Sheets::Impl::detach(const Structure& structure) const
-{
-  for (const unsigned int attached : structure.attached)
-  {
-    if (attached != RTC_INVALID_GEOMETRY_ID)
-    {
-      rtcDetachGeometry(this->scene.get(), attached);
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 /// Mark the copies of triangles within each prop, and within each source of instances.
 void Sheets::Impl::findCopies(const Occluders& occluders)
 {
@@ -361,8 +347,7 @@ Sheets::~Sheets() = default;
 bool Sheets::update(const Occluders& occluders)
 {
   Impl& impl = *this->impl_;
-  if (impl.topologyVersion == occluders.topologyVersion &&
-    impl.positionsVersion == occluders.positionsVersion)
+  if (impl.versions == occluders.versions())
   {
     return false;
   }
@@ -408,7 +393,7 @@ bool Sheets::update(const Occluders& occluders)
   for (const auto& gone : impl.structures)
   {
     areOthers = true;
-    impl.detach(gone.second);
+    detachAll(impl.scene.get(), gone.second.attached);
   }
   impl.structures = std::move(structures);
   if (areOthers)
@@ -420,8 +405,7 @@ bool Sheets::update(const Occluders& occluders)
   {
     throw std::runtime_error("Embree failed while building the structure of translucent casters");
   }
-  impl.topologyVersion = occluders.topologyVersion;
-  impl.positionsVersion = occluders.positionsVersion;
+  impl.versions = occluders.versions();
   return changes || areOthers;
 }
 
