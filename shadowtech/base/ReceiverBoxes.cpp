@@ -3,7 +3,6 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Occluders.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,15 +13,10 @@ namespace gnomon
 namespace
 {
 
-std::size_t upTo(std::size_t count, std::size_t perGroup)
-{
-  return (count + perGroup - 1) / perGroup;
-}
-
 /// Return the boxes around groups of 2 x 2 boxes.
 ReceiverBoxes::Level groupsOf(const ReceiverBoxes::Level& level)
 {
-  ReceiverBoxes::Level groups{ upTo(level.columns, 2), upTo(level.rows, 2), {} };
+  ReceiverBoxes::Level groups{ tilesAcross(level.columns, 2), tilesAcross(level.rows, 2), {} };
   groups.boxesCentred.resize(groups.columns * groups.rows);
   for (std::size_t i = 0; i < level.boxesCentred.size(); ++i)
   {
@@ -71,28 +65,25 @@ ReceiverBoxes::ReceiverBoxes(const ReceiverPixels& receivers, const Occluders& o
   std::vector<std::uint8_t> ofSurfaces(occluders.surfaces.size() + 1);
   std::transform(occluders.surfaces.begin(), occluders.surfaces.end(), ofSurfaces.begin() + 1,
     [](const Surface& surface) { return surface.receives ? 1 : 0; });
-  Level cells{ upTo(this->width_, cellColumns), upTo(this->height_, cellRows), {} };
+  Level cells{ tilesAcross(this->width_, cellColumns), tilesAcross(this->height_, cellRows), {} };
   cells.boxesCentred.resize(cells.columns * cells.rows);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.rows),
-    [&](const tbb::blocked_range<std::size_t>& range)
+  tbb::parallel_for(std::size_t(0), cells.rows,
+    [&](std::size_t row)
     {
-      for (std::size_t row = range.begin(); row != range.end(); ++row)
+      const std::size_t firstRow = row * cellRows;
+      const std::size_t rows = std::min(cellRows, this->height_ - firstRow);
+      for (std::size_t column = 0; column < cells.columns; ++column)
       {
-        const std::size_t firstRow = row * cellRows;
-        const std::size_t rows = std::min(cellRows, this->height_ - firstRow);
-        for (std::size_t column = 0; column < cells.columns; ++column)
-        {
-          const std::size_t firstColumn = column * cellColumns;
-          cells.boxesCentred[row * cells.columns + column] =
-            boxOf(receivers, firstRow * this->width_ + firstColumn,
-              std::min(cellColumns, this->width_ - firstColumn), rows);
-        }
-        // notCovered + 1 is 0
-        std::transform(&receivers.surface[firstRow * this->width_],
-          receivers.surface.data() + (firstRow + rows) * this->width_,
-          &this->receives_[firstRow * this->width_],
-          [&](std::uint32_t surface) { return ofSurfaces[surface + 1u]; });
+        const std::size_t firstColumn = column * cellColumns;
+        cells.boxesCentred[row * cells.columns + column] =
+          boxOf(receivers, firstRow * this->width_ + firstColumn,
+            std::min(cellColumns, this->width_ - firstColumn), rows);
       }
+      // notCovered + 1 is 0
+      std::transform(&receivers.surface[firstRow * this->width_],
+        receivers.surface.data() + (firstRow + rows) * this->width_,
+        &this->receives_[firstRow * this->width_],
+        [&](std::uint32_t surface) { return ofSurfaces[surface + 1u]; });
     });
   this->levels_.push_back(std::move(cells));
   while (this->levels_.size() <= levelOfTiles || this->levels_.back().boxesCentred.size() > 1)

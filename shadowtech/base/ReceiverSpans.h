@@ -23,7 +23,6 @@ struct PixelSpan
 /// Where a ray meets a triangle's plane.
 struct TrianglePoint
 {
-  double t;            ///< along the ray (PixelRays)
   glm::dvec3 position; ///< centred
   float offset;        ///< of the shadow ray
   bool isInside;       ///< of the triangle; false if a number is not finite
@@ -36,7 +35,7 @@ inline TrianglePoint meetTriangle(
   const double t = seen.planeDistance.row(y).at(x) / along;
   const double footprint = glm::length(rays.originPerRow) + t * glm::length(rays.directionPerRow);
   // Written so that NaN fails.
-  return { t, rays.origin(x, y) + t * rays.direction(x, y),
+  return { rays.origin(x, y) + t * rays.direction(x, y),
     shadowRayOffsetInside(seen.noise, static_cast<float>(footprint)),
     seen.insideEdge[0].row(y).at(x) >= 0.0 && seen.insideEdge[1].row(y).at(x) >= 0.0 &&
       seen.insideEdge[2].row(y).at(x) >= 0.0 && along > 0.0 };

@@ -57,18 +57,13 @@ public:
     }
     else
     {
-      this->project(seen, span);
+      projectSpan(seen, this->rays_, span, this->receivers_);
     }
   }
 
 private:
   /// Spans with fewer pixels are projected: asking about their halves would not be cheaper.
   static constexpr std::size_t shortestAsked = 12;
-
-  void project(const SeenTriangle& seen, const PixelSpan& span)
-  {
-    projectSpan(seen, this->rays_, span, this->receivers_);
-  }
 
   /// Leave out decided receivers. Of their numbers only the surface is set.
   void leaveOut(const PixelSpan& span, Certainty certainty)
@@ -81,7 +76,7 @@ private:
   {
     if (span.count < shortestAsked)
     {
-      this->project(seen, span);
+      projectSpan(seen, this->rays_, span, this->receivers_);
       return;
     }
     const Certainty certainty = this->askAbout(seen, span);
@@ -174,8 +169,8 @@ template <typename Local, typename VisitTile>
 void visitRectangles(std::size_t width, std::size_t height,
   const std::vector<std::uint8_t>* skipped, const VisitTile& visitTile)
 {
-  const std::size_t tilesX = (width + ReceiverTile::mostColumns - 1) / ReceiverTile::mostColumns;
-  const std::size_t tilesY = (height + ReceiverTile::mostRows - 1) / ReceiverTile::mostRows;
+  const std::size_t tilesX = tilesAcross(width, ReceiverTile::mostColumns);
+  const std::size_t tilesY = tilesAcross(height, ReceiverTile::mostRows);
   tbb::enumerable_thread_specific<Local> locals;
   constexpr std::size_t tilesAtOnce = 8;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tilesX * tilesY, tilesAtOnce),

@@ -141,6 +141,12 @@ struct DrawnSurface
   bool operator==(const DrawnSurface& other) const { return this->blocks == other.blocks; }
 };
 
+/// Return how many tiles cover a side of the picture.
+inline std::size_t tilesAcross(std::size_t pixels, std::size_t ofTile)
+{
+  return (pixels + ofTile - 1) / ofTile;
+}
+
 /// A part of the picture and its receivers.
 struct ReceiverTile
 {

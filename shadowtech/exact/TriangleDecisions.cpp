@@ -4,9 +4,9 @@
 #include "shadowtech/base/PlacedTriangles.h"
 #include "shadowtech/base/ShadowRay.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -58,14 +58,8 @@ public:
   /// (insideCone(), insideBox()).
   bool holds(const Corners& corners) const
   {
-    for (const glm::dvec3& corner : corners)
-    {
-      if (!this->holds(corner))
-      {
-        return false;
-      }
-    }
-    return true;
+    return std::all_of(corners.begin(), corners.end(),
+      [this](const glm::dvec3& corner) { return this->holds(corner); });
   }
 
 private:
@@ -169,14 +163,8 @@ TriangleDecisions::TriangleDecisions(
   {
     if (surface.receives && !surface.isInstanced())
     {
-      tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, surface.triangleCount, 256),
-        [&](const tbb::blocked_range<std::uint32_t>& range)
-        {
-          for (std::uint32_t i = range.begin(); i != range.end(); ++i)
-          {
-            decide(surface, surface.firstTriangle + i);
-          }
-        });
+      tbb::parallel_for(std::uint32_t(0), surface.triangleCount,
+        [&](std::uint32_t i) { decide(surface, surface.firstTriangle + i); });
     }
   }
 }

@@ -3,7 +3,6 @@
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/mesh/TexelRows.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -67,14 +66,7 @@ public:
       [&](std::uint32_t placement)
       {
         const auto count = static_cast<std::uint32_t>(countOf(this->placements_[placement]));
-        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 1024),
-          [&](const tbb::blocked_range<std::uint32_t>& range)
-          {
-            for (std::uint32_t i = range.begin(); i != range.end(); ++i)
-            {
-              visit(placement, i);
-            }
-          });
+        tbb::parallel_for(std::uint32_t(0), count, [&](std::uint32_t i) { visit(placement, i); });
       });
   }
   /// Visit all casting triangles by their numbers in the snapshot, once per placement.

@@ -28,8 +28,9 @@ public:
     // If an update throws, the cache stays consistent, and missing values are computed next time.
     std::unordered_map<std::uint64_t, Kept> earlier = std::exchange(this->kept_, {});
     this->bySurface_.assign(occluders.surfaces.size(), nullptr);
-    for (const Surface& surface : occluders.surfaces)
+    for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
     {
+      const Surface& surface = occluders.surfaces[i];
       if (!surface.casts)
       {
         continue;
@@ -49,14 +50,9 @@ public:
         kept.firstVertex = surface.firstVertex;
         kept.firstTriangle = surface.firstTriangle;
       }
-      this->kept_.emplace(surface.topologyVersion, std::move(kept));
-    }
-    for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
-    {
-      if (occluders.surfaces[i].casts)
-      {
-        this->bySurface_[i] = &this->kept_.at(occluders.surfaces[i].topologyVersion).found;
-      }
+      // The table's elements never move.
+      this->bySurface_[i] =
+        &this->kept_.emplace(surface.topologyVersion, std::move(kept)).first->second.found;
     }
   }
 

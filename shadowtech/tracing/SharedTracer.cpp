@@ -85,8 +85,7 @@ std::size_t SharedTracer::tracePicture(const TracedPicture& picture)
   {
     throw std::runtime_error("processes that share a picture have no lights with textures");
   }
-  const std::size_t tilesAcross =
-    (picture.columns() + TracedTile::columns - 1) / TracedTile::columns;
+  const std::size_t across = tilesAcross(picture.columns(), TracedTile::columns);
   std::size_t rays = 0;
   for (int first = 0; first < picture.samples(); first += samplesAtOnce)
   {
@@ -98,8 +97,8 @@ std::size_t SharedTracer::tracePicture(const TracedPicture& picture)
     tbb::parallel_for(std::size_t(0), picture.tiles(),
       [&](std::size_t tile)
       {
-        const std::size_t firstRow = tile / tilesAcross * TracedTile::rows;
-        const std::size_t firstColumn = tile % tilesAcross * TracedTile::columns;
+        const std::size_t firstRow = tile / across * TracedTile::rows;
+        const std::size_t firstColumn = tile % across * TracedTile::columns;
         for (std::size_t word = 0; word < words; ++word)
         {
           const std::size_t firstPixel = word % wordsOfTile * bitsOfWord;

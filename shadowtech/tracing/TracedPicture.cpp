@@ -104,11 +104,6 @@ bool isAlike(const ReceiverTile& tile, std::size_t row)
     std::all_of(known, known + tile.columns, [&](Certainty other) { return other == known[0]; });
 }
 
-std::size_t tilesAcross(std::size_t pixels, std::size_t ofTile)
-{
-  return (pixels + ofTile - 1) / ofTile;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------

@@ -3,7 +3,6 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/ReceiverBoxes.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -157,10 +156,10 @@ std::vector<Bounds> TracedTiles::movedSince(const Occluders& occluders) const
 void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
   const ReceiverImages& images, const std::vector<glm::vec2>* before)
 {
-  const auto across = [](int pixels, std::size_t ofTile)
-  { return (static_cast<std::size_t>(pixels) + ofTile - 1) / ofTile; };
-  const std::size_t columns = across(images.width, ReceiverTile::mostColumns);
-  const std::size_t tiles = columns * across(images.height, ReceiverTile::mostRows);
+  const std::size_t columns =
+    tilesAcross(static_cast<std::size_t>(images.width), ReceiverTile::mostColumns);
+  const std::size_t tiles =
+    columns * tilesAcross(static_cast<std::size_t>(images.height), ReceiverTile::mostRows);
   const bool isLike = before && before->size() == images.fragments.size() &&
     this->boxes_.size() == tiles && this->tilesAcross_ == columns &&
     this->lightSamples_ == light.lightSamples &&
@@ -171,23 +170,20 @@ void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
   if (isLike)
   {
     const std::vector<Bounds> moved = this->movedSince(occluders);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles),
-      [&](const tbb::blocked_range<std::size_t>& range)
+    tbb::parallel_for(std::size_t(0), tiles,
+      [&](std::size_t tile)
       {
-        for (std::size_t tile = range.begin(); tile != range.end(); ++tile)
+        const Bounds& box = this->boxes_[tile];
+        bool isKept = showSame(images, *before, tile % columns * ReceiverTile::mostColumns,
+          tile / columns * ReceiverTile::mostRows);
+        if (isKept && !box.empty())
         {
-          const Bounds& box = this->boxes_[tile];
-          bool isKept = showSame(images, *before, tile % columns * ReceiverTile::mostColumns,
-            tile / columns * ReceiverTile::mostRows);
-          if (isKept && !box.empty())
-          {
-            const SweptBox swept(box, light, occluders.frame.centre);
-            isKept = std::none_of(moved.begin(), moved.end(),
-              [&](const Bounds& surface)
-              { return haveCommonPoint(box, surface) || swept.meets(surface); });
-          }
-          this->kept_[tile] = isKept ? 1 : 0;
+          const SweptBox swept(box, light, occluders.frame.centre);
+          isKept = std::none_of(moved.begin(), moved.end(),
+            [&](const Bounds& surface)
+            { return haveCommonPoint(box, surface) || swept.meets(surface); });
         }
+        this->kept_[tile] = isKept ? 1 : 0;
       });
   }
   for (std::size_t tile = 0; tile < tiles; ++tile)
