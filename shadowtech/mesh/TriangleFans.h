@@ -29,18 +29,8 @@ struct SurfaceFans
 /// @param fans of the same triangles at any earlier place; empty to compute everything
 void updateFans(const Occluders& occluders, const Surface& surface, SurfaceFans& fans);
 
-/// The fans of the casting surfaces, cached across snapshots.
-class TriangleFans
-{
-public:
-  void update(const Occluders& occluders) { this->kept_.update(occluders, updateFans); }
-  /// @param surface index into the snapshot's surfaces, as of the last update
-  const SurfaceFans& of(std::size_t surface) const { return this->kept_.of(surface); }
-  std::size_t bytes() const { return this->kept_.bytes(); }
-
-private:
-  KeptOfCasters<SurfaceFans> kept_;
-};
+/// The fans of the casting surfaces, brought up to date by updateFans().
+using TriangleFans = KeptOfCasters<SurfaceFans>;
 
 /// Visit a triangle and those adjacent to it by an edge or a vertex, each once. Any number of
 /// triangles may share either.

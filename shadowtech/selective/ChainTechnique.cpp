@@ -137,7 +137,7 @@ void ChainTechnique::computeVisibility(
   }
   if (stages.adjacency != Adjacency::Off)
   {
-    this->fans_.update(input.occluders);
+    this->fans_.update(input.occluders, updateFans);
   }
   if (soft)
   {

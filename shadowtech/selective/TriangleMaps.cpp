@@ -243,9 +243,9 @@ const TriangleTexel& TriangleMap::texel(int column, int row) const
 }
 
 //------------------------------------------------------------------------------
-bool TriangleMap::shadows(
-  const TriangleTexel& texel, int column, int row, const MapPlace& place) const
+bool TriangleMap::shadows(int column, int row, const MapPlace& place) const
 {
+  const TriangleTexel& texel = this->texel(column, row);
   if (!texel.caster.exists())
   {
     return false;

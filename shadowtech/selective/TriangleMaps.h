@@ -101,11 +101,7 @@ public:
   /// No bias is tuned. A triangle meets neither condition for its own points. Where a surface is
   /// convex, neighbours lie behind the receiver's plane. Where it is concave, the receiver lies
   /// before theirs. Only surfaces that are both within a texel remain.
-  bool shadows(const TriangleTexel& texel, int column, int row, const MapPlace& place) const;
-  bool shadows(int column, int row, const MapPlace& place) const
-  {
-    return this->shadows(this->texel(column, row), column, row, place);
-  }
+  bool shadows(int column, int row, const MapPlace& place) const;
 
   std::size_t bytes() const;
 

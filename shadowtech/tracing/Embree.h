@@ -12,27 +12,14 @@ namespace gnomon
 
 struct OwnSurface;
 
-/// The kind of rays that Embree may optimise traversal for.
-enum class EmbreeRays
-{
-  Incoherent,
-  Coherent
-};
-
 #if RTC_VERSION_MAJOR >= 4
 
 /// The arguments of a query besides its rays. Callbacks receive the address of the first member.
 struct EmbreeContext
 {
-  explicit EmbreeContext(EmbreeRays rays = EmbreeRays::Incoherent)
-    : flags(
-        rays == EmbreeRays::Coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT)
-  {
-    rtcInitRayQueryContext(&this->context);
-  }
+  EmbreeContext() { rtcInitRayQueryContext(&this->context); }
 
   RTCRayQueryContext context;
-  RTCRayQueryFlags flags;
   RTCFilterFunctionN filter = nullptr; ///< of this query alone, in scenes with `queriesFilter`
   const OwnSurface* own = nullptr;     ///< the surface that the filter asks about
 };
@@ -42,9 +29,9 @@ inline constexpr RTCSceneFlags queriesFilter = RTC_SCENE_FLAG_FILTER_FUNCTION_IN
 template <typename Arguments>
 void setArguments(Arguments& arguments, EmbreeContext& context)
 {
-  arguments.flags = context.filter
-    ? static_cast<RTCRayQueryFlags>(context.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER)
-    : context.flags;
+  // Incoherent is no bit of its own.
+  arguments.flags =
+    context.filter ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : RTC_RAY_QUERY_FLAG_INCOHERENT;
   arguments.filter = context.filter;
   arguments.context = &context.context;
 }
@@ -88,11 +75,10 @@ inline void occlude(const int* valid, RTCScene scene, EmbreeContext& context, RT
 /// The arguments of a query besides its rays. Callbacks receive the address of the first member.
 struct EmbreeContext
 {
-  explicit EmbreeContext(EmbreeRays rays = EmbreeRays::Incoherent)
+  EmbreeContext()
   {
     rtcInitIntersectContext(&this->context);
-    this->context.flags = rays == EmbreeRays::Coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                                       : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    this->context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
 
   RTCIntersectContext context;

@@ -47,13 +47,8 @@ void boundSolid(const RTCBoundsFunctionArguments* arguments)
 {
   const auto& casters = *static_cast<const CastingSolids*>(arguments->geometryUserPtr);
   const Bounds bounds = boundsOf(casters.solids[arguments->primID]);
-  RTCBounds& box = *arguments->bounds_o;
-  box.lower_x = static_cast<float>(bounds.lower.x);
-  box.lower_y = static_cast<float>(bounds.lower.y);
-  box.lower_z = static_cast<float>(bounds.lower.z);
-  box.upper_x = static_cast<float>(bounds.upper.x);
-  box.upper_y = static_cast<float>(bounds.upper.y);
-  box.upper_z = static_cast<float>(bounds.upper.z);
+  const glm::vec3 lower(bounds.lower), upper(bounds.upper);
+  *arguments->bounds_o = { lower.x, lower.y, lower.z, 0.0f, upper.x, upper.y, upper.z, 0.0f };
 }
 
 glm::dvec3 originOf(RTCRayN* rays, unsigned int count, unsigned int i)

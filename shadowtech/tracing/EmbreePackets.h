@@ -27,7 +27,7 @@ struct EmbreePacket
   static constexpr std::size_t lanes = std::extent_v<decltype(Rays::tfar)>;
 
   Rays rays{}; ///< the caller sets origins and directions
-  EmbreeContext context{ EmbreeRays::Incoherent };
+  EmbreeContext context;
 
   EmbreePacket()
   {

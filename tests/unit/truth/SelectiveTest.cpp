@@ -146,7 +146,7 @@ TEST(TriangleFans, haveAllTrianglesThatShareAnEdgeOrAVertex)
   const Occluders occluders =
     makeOccluders({ { makePlane(1.0, 2) }, { manyAtAnEdge }, { sheet }, { makeSphere(9, 14) } });
   TriangleFans all;
-  all.update(occluders);
+  all.update(occluders, updateFans);
   const auto commonPlaces = [&](std::uint32_t one, std::uint32_t other)
   {
     int common = 0;
@@ -365,7 +365,7 @@ public:
   {
     this->maps_.bake(this->picture_.views, this->picture_.light.mapSizeTexels,
       this->picture_.occluders, keptFromCentred(this->picture_));
-    this->fans_.update(this->picture_.occluders);
+    this->fans_.update(this->picture_.occluders, updateFans);
     this->tracer_.update(this->picture_.occluders);
     this->needRays_ = this->tracer_.trace(
       this->picture_.light, this->picture_.occluders, this->receivers_, this->truth_);
