@@ -12,14 +12,6 @@
 namespace gnomon
 {
 
-namespace
-{
-
-/// Limit of triangles followed around a corner, to either side; most corners have fewer.
-constexpr int mostAroundCorner = 12;
-
-} // namespace
-
 //------------------------------------------------------------------------------
 MapCasters::MapCasters(const CasterScene& scene, const CasterEdges& edges, Covering covering,
   const std::function<void(const BandItem&, const MapPolygon&)>& found)
@@ -55,10 +47,7 @@ MapCasters::MapCasters(const CasterScene& scene, const CasterEdges& edges, Cover
       found({ number, triangle }, polygon);
     });
   this->blind_ = blind;
-  for (const double margin : margins)
-  {
-    this->margin_ = std::max(this->margin_, margin);
-  }
+  this->margin_ = margins.combine([](double a, double b) { return std::max(a, b); });
 }
 
 //------------------------------------------------------------------------------
@@ -157,6 +146,7 @@ std::uint32_t MapCasters::across(
 std::vector<std::uint32_t> MapCasters::fanOf(
   const Placement& placement, std::uint32_t triangle) const
 {
+  constexpr int mostAroundCorner = 12; // triangles to either side; most corners have fewer
   const SurfaceEdges& edges = this->edges_.of(placement.surface);
   const std::uint32_t first = this->placements_.surfaceOf(placement).firstTriangle;
   std::vector<std::uint32_t> fan{ triangle };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace gnomon
@@ -45,8 +44,7 @@ void drawPolygon(
       for (int x = row.touched.first; x <= row.touched.last; ++x)
       {
         cell[x].turnTo(polygon.part);
-        cell[x].nearest = cell[x].partEnd = cell[x].sharpEnd =
-          -std::numeric_limits<float>::infinity();
+        cell[x].nearest = cell[x].partEnd = cell[x].sharpEnd = -Cell::never;
       }
       continue;
     }
@@ -143,8 +141,7 @@ void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* ce
     {
       continue;
     }
-    farthest.assign(static_cast<std::size_t>(touched.last - touched.first + 1),
-      -std::numeric_limits<float>::infinity());
+    farthest.assign(static_cast<std::size_t>(touched.last - touched.first + 1), -Cell::never);
     const auto at = [&](int x) -> float&
     { return farthest[static_cast<std::size_t>(x - touched.first)]; };
     for (const PolygonOnTexels& triangle : triangles)
@@ -168,7 +165,7 @@ void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* ce
         {
           if (x >= touched.first && x <= touched.last)
           {
-            at(x) = std::numeric_limits<float>::infinity();
+            at(x) = Cell::never;
           }
         });
     }

@@ -19,29 +19,28 @@ namespace gnomon
 /// `sharpEnd`, G `climb`, S `second`. The unit is depth unless noted.
 struct Cell
 {
-  float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster or an end
-  float contained = std::numeric_limits<
-    float>::infinity(); ///< the least, over casters that cover the texel, of their largest depths
+  static constexpr float never = std::numeric_limits<float>::infinity();
+
+  float nearest = never; ///< the least depth of a caster or an end
+  /// The least, over casters that cover the texel, of their largest depths.
+  float contained = never;
   /// The most, in world units, that a tracer may see a triangle off its plane. Only triangles that
   /// begin before oneLayerUpTo() count.
   float noise = 0.0f;
-  float climb = 0.0f; ///< the most that depth changes from anywhere in the texel to the sample
-  float sharpEnd =
-    std::numeric_limits<float>::infinity(); ///< the least depth of an end or a sharp edge
-  /// The least depth of triangles at the sample.
-  float first = std::numeric_limits<float>::infinity();
-  float second = std::numeric_limits<float>::infinity(); ///< the second least
+  float climb = 0.0f;     ///< the most that depth changes from anywhere in the texel to the sample
+  float sharpEnd = never; ///< the least depth of an end or a sharp edge
+  float first = never;    ///< the least depth of triangles at the sample
+  float second = never;   ///< the second least
 
   ///@{
   /// Values of the part of the casters' surface that is being rasterized.
   CasterPart part = noPart;
-  float partAcross =
-    std::numeric_limits<float>::infinity(); ///< the least of its triangles' largest depths
-  float partEnd = std::numeric_limits<float>::infinity(); ///< the least depth of its ends
-  float partClimb = 0.0f;                                 ///< the largest climb of its triangles
+  float partAcross = never; ///< the least of its triangles' largest depths
+  float partEnd = never;    ///< the least depth of its ends
+  float partClimb = 0.0f;   ///< the largest climb of its triangles
   ///@}
   /// The least depth from which one of the parts rasterized so far covers the texel.
-  float covered = std::numeric_limits<float>::infinity();
+  float covered = never;
 
   /// Turn to the next part. Parts must be rasterized one after another, each once. Several parts
   /// taken for one only decide less. Pieces of one part would be wrong, as a piece does not know
@@ -58,7 +57,7 @@ struct Cell
     this->covered =
       this->partEnd > everywhere ? std::min(this->covered, everywhere) : this->covered;
     this->part = next;
-    this->partAcross = this->partEnd = std::numeric_limits<float>::infinity();
+    this->partAcross = this->partEnd = never;
     this->partClimb = 0.0f;
   }
 

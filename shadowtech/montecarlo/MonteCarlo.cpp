@@ -252,8 +252,7 @@ void MonteCarlo::followRays(const LayerInput& input)
   fill(deciding);
   {
     const ChannelView view = this->viewOf(0);
-    this->undecided_.find(this->unfiltered_.name(),
-      { this->unfiltered_.width(), this->unfiltered_.height() }, input.shaders);
+    this->undecided_.find(this->unfiltered_, input.shaders);
   }
   const GLuint program = UndecidedTiles::use(input.shaders, source, defines);
   const int freeUnit = ShaderLibrary::setUniforms(program, uniforms, 0, 0);
@@ -286,8 +285,7 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightCounts& counts)
   for (int channel = 0; channel < this->channels_ && filterOf(light) > 0; ++channel)
   {
     const ChannelView view = this->viewOf(channel);
-    this->undecided_.find(this->unfiltered_.name(),
-      { this->unfiltered_.width(), this->unfiltered_.height() }, input.shaders);
+    this->undecided_.find(this->unfiltered_, input.shaders);
     // A channel that the light lacks is 0 everywhere, without noise.
     const float mean = textured ? light.texture->mean[channel] : 1.0f;
     const float lit = mean > 0.0f ? mean : 1.0f;

@@ -24,15 +24,15 @@ int UndecidedTiles::tilesOf(int pixels)
 }
 
 //------------------------------------------------------------------------------
-void UndecidedTiles::find(GLuint visibilityAndClass, const glm::ivec2& size, ShaderLibrary& shaders)
+void UndecidedTiles::find(const SizedTexture& visibilityAndClass, ShaderLibrary& shaders)
 {
-  this->size_ = size;
-  this->contents_.allocate(
-    { GL_RGBA32F, GL_RGBA, 4 }, tilesOf(size.x), tilesOf(size.y), 0, "what there is in tiles");
+  this->size_ = { visibilityAndClass.width(), visibilityAndClass.height() };
+  this->contents_.allocate({ GL_RGBA32F, GL_RGBA, 4 }, tilesOf(this->size_.x),
+    tilesOf(this->size_.y), 0, "what there is in tiles");
   const GLuint program = ScreenPass::use(shaders,
     ShaderLibrary::source("shadowtech/montecarlo/undecided_tiles.frag.glsl"), { tileDefine() });
   ShaderLibrary::setUniforms(program,
-    { { "visibilityAndClass", TextureBinding{ GL_TEXTURE_2D, visibilityAndClass } } }, 0, 0);
+    { { "visibilityAndClass", TextureBinding{ GL_TEXTURE_2D, visibilityAndClass.name() } } }, 0, 0);
   this->screenPass_.fill(
     { { this->contents_.name() } }, this->contents_.width(), this->contents_.height());
 }

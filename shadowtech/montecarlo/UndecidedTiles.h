@@ -22,8 +22,7 @@ class UndecidedTiles
 public:
   /// Find the tiles.
   /// @param visibilityAndClass an image of pixels, x: visibility, y: class (classes.glsl)
-  /// @param size of the image in pixels
-  void find(GLuint visibilityAndClass, const glm::ivec2& size, ShaderLibrary& shaders);
+  void find(const SizedTexture& visibilityAndClass, ShaderLibrary& shaders);
 
   /// Build and use the program that runs a fragment shader in the tiles. The define MIXED skips
   /// tiles near which all receivers that face the light have the same visibility.

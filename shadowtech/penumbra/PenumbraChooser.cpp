@@ -63,14 +63,14 @@ public:
   /// @return how many of them have all their rays traced
   std::int64_t choose(std::uint16_t* pixels, std::size_t count)
   {
-    if (const std::size_t nearer = this->splitAtGap(pixels, count))
-    {
-      return this->choose(pixels, nearer) + this->choose(pixels + nearer, count - nearer);
-    }
     this->starts_.clear();
     for (std::size_t i = 0; i < count; ++i)
     {
       this->starts_.add(this->tile_.origin(pixels[i]));
+    }
+    if (const std::size_t nearer = this->splitAtGap(pixels, count))
+    {
+      return this->choose(pixels, nearer) + this->choose(pixels + nearer, count - nearer);
     }
     this->starts_.finish();
     ShaftEdges::Found found = ShaftEdges::Found::Unclear;
@@ -97,16 +97,6 @@ public:
   }
 
 private:
-  Bounds boundsOf(const std::uint16_t* pixels, std::size_t count) const
-  {
-    Bounds bounds;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      bounds.add(glm::dvec3(this->tile_.origin(pixels[i])));
-    }
-    return bounds;
-  }
-
   static int longestAxis(const Bounds& bounds)
   {
     const glm::dvec3 size = bounds.upper - bounds.lower;
@@ -118,7 +108,7 @@ private:
   /// @return the number of pixels before the gap; 0 if there is no gap
   std::size_t splitAtGap(std::uint16_t* pixels, std::size_t count) const
   {
-    const Bounds bounds = this->boundsOf(pixels, count);
+    const Bounds& bounds = this->starts_.bounds();
     const int axis = longestAxis(bounds);
     const double lower = bounds.lower[axis];
     const double size = bounds.upper[axis] - lower;

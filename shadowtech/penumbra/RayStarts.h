@@ -21,8 +21,6 @@ public:
   /// Must be called after the last start is added.
   void finish();
 
-  std::size_t size() const { return this->starts_.size(); }
-  const glm::vec3& operator[](std::size_t number) const { return this->starts_[number]; }
   auto begin() const { return this->starts_.begin(); }
   auto end() const { return this->starts_.end(); }
   const Bounds& bounds() const { return this->bounds_; }
