@@ -5,33 +5,12 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace gnomon
 {
 namespace
 {
-
-struct TextureShape
-{
-  TexelFormat format;
-  int width;
-  int height;
-  int layers; ///< 0: no array
-  int levels = 1;
-
-  double bytes() const
-  {
-    const double bytesOfChannel = this->format.type == GL_UNSIGNED_BYTE ? 1.0
-      : this->format.type == GL_UNSIGNED_SHORT                          ? 2.0
-                                                                        : 4.0;
-    double texels = 0.0;
-    for (int level = 0; level < this->levels; ++level)
-    {
-      texels += static_cast<double>(this->width >> level) * (this->height >> level);
-    }
-    return texels * bytesOfChannel * this->format.channels * (this->layers > 0 ? this->layers : 1);
-  }
-};
 
 void define(const TextureShape& shape, GLenum target)
 {
@@ -133,6 +112,20 @@ std::string offerSmaller(int sizeTexels, const IsRoom& isRoom)
 } // namespace
 
 //------------------------------------------------------------------------------
+double TextureShape::bytes() const
+{
+  const double bytesOfChannel = this->format.type == GL_UNSIGNED_BYTE ? 1.0
+    : this->format.type == GL_UNSIGNED_SHORT                          ? 2.0
+                                                                      : 4.0;
+  double texels = 0.0;
+  for (int level = 0; level < this->levels; ++level)
+  {
+    texels += static_cast<double>(this->width >> level) * (this->height >> level);
+  }
+  return texels * bytesOfChannel * this->format.channels * (this->layers > 0 ? this->layers : 1);
+}
+
+//------------------------------------------------------------------------------
 void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, int height,
   int layers, const char* what, int levels)
 {
@@ -162,24 +155,19 @@ void allocateMap(
 
 //------------------------------------------------------------------------------
 /// Return true if the texture has this shape; else note the shape for its allocation.
-bool SizedTexture::has(const TexelFormat& format, int width, int height, int layers, int levels)
+bool SizedTexture::has(const TextureShape& shape)
 {
-  const bool same = *this && this->format_.internalFormat == format.internalFormat &&
-    this->width_ == width && this->height_ == height && this->layers_ == layers &&
-    this->levels_ == levels;
-  this->format_ = format;
-  this->width_ = width;
-  this->height_ = height;
-  this->layers_ = layers;
-  this->levels_ = levels;
-  return same;
+  const TextureShape before = std::exchange(this->shape_, shape);
+  return *this && before.format.internalFormat == shape.format.internalFormat &&
+    before.width == shape.width && before.height == shape.height && before.layers == shape.layers &&
+    before.levels == shape.levels;
 }
 
 //------------------------------------------------------------------------------
 bool SizedTexture::allocate(
   const TexelFormat& format, int width, int height, int layers, const char* what, int levels)
 {
-  if (this->has(format, width, height, layers, levels))
+  if (this->has({ format, width, height, layers, levels }))
   {
     return false;
   }
@@ -190,7 +178,7 @@ bool SizedTexture::allocate(
 //------------------------------------------------------------------------------
 bool SizedTexture::allocateMap(const TexelFormat& format, int sizeTexels, int layers, int levels)
 {
-  if (this->has(format, sizeTexels, sizeTexels, layers, levels))
+  if (this->has({ format, sizeTexels, sizeTexels, layers, levels }))
   {
     return false;
   }
@@ -201,9 +189,7 @@ bool SizedTexture::allocateMap(const TexelFormat& format, int sizeTexels, int la
 //------------------------------------------------------------------------------
 std::size_t SizedTexture::bytes() const
 {
-  const TextureShape shape{ this->format_, this->width_, this->height_, this->layers_,
-    this->levels_ };
-  return *this ? static_cast<std::size_t>(shape.bytes()) : 0;
+  return *this ? static_cast<std::size_t>(this->shape_.bytes()) : 0;
 }
 
 //------------------------------------------------------------------------------

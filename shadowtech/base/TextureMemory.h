@@ -25,6 +25,17 @@ struct TexelFormat
   GLenum type = GL_FLOAT; ///< of a channel: GL_FLOAT, GL_UNSIGNED_INT, GL_UNSIGNED_BYTE
 };
 
+/// A texture's format and size.
+struct TextureShape
+{
+  TexelFormat format{};
+  int width = 0, height = 0;
+  int layers = 0; ///< 0: no array
+  int levels = 1;
+
+  double bytes() const;
+};
+
 /// The largest share of the available memory that one texture may take when it is made. Software
 /// OpenGL promises more memory than the machine has, and the system then ends the program.
 constexpr double largestTextureShare = 0.5;
@@ -53,19 +64,18 @@ public:
   /// The same for a light's map, by allocateMap().
   bool allocateMap(const TexelFormat& format, int sizeTexels, int layers, int levels = 1);
 
-  const TexelFormat& format() const { return this->format_; }
-  int width() const { return this->width_; }
-  int height() const { return this->height_; }
-  int layers() const { return this->layers_; }
-  int levels() const { return this->levels_; }
+  const TexelFormat& format() const { return this->shape_.format; }
+  int width() const { return this->shape_.width; }
+  int height() const { return this->shape_.height; }
+  int layers() const { return this->shape_.layers; }
+  int levels() const { return this->shape_.levels; }
   /// Return the bytes of its texels; 0 if it has none.
   std::size_t bytes() const;
 
 private:
-  bool has(const TexelFormat& format, int width, int height, int layers, int levels);
+  bool has(const TextureShape& shape);
 
-  TexelFormat format_{};
-  int width_ = 0, height_ = 0, layers_ = 0, levels_ = 0;
+  TextureShape shape_;
 };
 
 /// Check that there is memory for a light's map on the CPU, before its layers are made.

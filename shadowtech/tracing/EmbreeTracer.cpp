@@ -16,7 +16,6 @@ namespace gnomon
 namespace
 {
 
-/// Return the nearest hit of a ray.
 RTCRayHit findNearest(const EmbreeCasters& casters, EmbreeContext& context, const glm::vec3& origin,
   const glm::vec3& direction, float after, float until)
 {

@@ -30,7 +30,6 @@ constexpr std::size_t leastDecided = 4; // one in four
 /// More boxes of casting surfaces than these are replaced by one around all.
 constexpr std::size_t mostBoxes = 32;
 
-/// Return the boxes of the casters.
 std::vector<Bounds> boxesOfCasters(const Occluders& occluders)
 {
   std::vector<Bounds> boxes;
@@ -216,7 +215,6 @@ TileVerdicts::TileVerdicts(const ShadowLight& light, const Occluders& occluders,
 }
 
 //------------------------------------------------------------------------------
-/// Return the tile of a cell.
 std::size_t TileVerdicts::tileOf(std::size_t cell) const
 {
   const std::size_t columns = this->boxes_.levels()[0].columns;

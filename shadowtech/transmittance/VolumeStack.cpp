@@ -36,7 +36,6 @@ double leftAt(
   return sum / 65535.0;
 }
 
-/// Return the corners of the volumes' boxes.
 std::vector<glm::dvec3> cornersOf(const Volumes& volumes)
 {
   std::vector<glm::dvec3> corners;
