@@ -70,6 +70,27 @@ glm::vec2 placeOf(const CutoutMask& mask, const glm::vec2& coordinates)
 } // namespace
 
 //------------------------------------------------------------------------------
+bool CutoutMask::isDrawn(const glm::vec2& textureCoordinates) const
+{
+  const auto texelDrawn = [this](int x, int y) { return texelOf(*this, x, y) > 0; };
+  const glm::vec2 place = placeOf(*this, textureCoordinates);
+  if (!this->interpolated)
+  {
+    return texelDrawn(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)));
+  }
+  const glm::vec2 fromCentre = place - 0.5f;
+  const glm::vec2 first = glm::floor(fromCentre);
+  const int x = static_cast<int>(first.x);
+  const int y = static_cast<int>(first.y);
+  // A texel counts if its weight is above 0. The first one always has a weight, the next one only
+  // beyond the first one's centre.
+  const bool nextColumn = fromCentre.x > first.x;
+  const bool nextRow = fromCentre.y > first.y;
+  return texelDrawn(x, y) || (nextColumn && texelDrawn(x + 1, y)) ||
+    (nextRow && texelDrawn(x, y + 1)) || (nextColumn && nextRow && texelDrawn(x + 1, y + 1));
+}
+
+//------------------------------------------------------------------------------
 double CutoutMask::alphaAt(const glm::vec2& textureCoordinates) const
 {
   constexpr double full = 255.0;

@@ -38,12 +38,8 @@ struct CutoutMask
 
   /// True if the texture has alpha above 0 at these coordinates. The filter is OpenGL's (core
   /// profile 4.5, section 8.14), but with unrounded weights. All coordinates are allowed, NaN
-  /// included. Doubles hold the weights of floats exactly, so a texel with a weight above 0 always
-  /// counts.
-  bool isDrawn(const glm::vec2& textureCoordinates) const
-  {
-    return this->alphaAt(textureCoordinates) > 0.0;
-  }
+  /// included.
+  bool isDrawn(const glm::vec2& textureCoordinates) const;
 
   /// Return the filtered texel at these coordinates, from 0 to 1. Without rounding the weights, as
   /// in isDrawn().
