@@ -88,11 +88,12 @@ std::size_t DrawnLookup::QuestionHash::operator()(const Question& question) cons
 }
 
 //------------------------------------------------------------------------------
-void DrawnLookup::clear()
+void DrawnLookup::clear(std::size_t plainProps)
 {
   this->held_.clear();
   this->heldAt_.clear();
   this->plain_.clear();
+  this->plain_.reserve(plainProps);
   this->plainAt_.clear();
   this->answers_.clear();
   this->taken_.clear();
@@ -103,13 +104,7 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   const glm::dmat4& worldFromModel, std::vector<HeldSurface> held, bool isPlain)
 {
   const std::size_t number = this->held_.size();
-  this->heldAt_.emplace(Place{ actor, worldFromModel }, number);
   const bool isGlyph = held.front().isGlyph;
-  if (isGlyph || !isPlainActor(actor))
-  {
-    // It may be drawn by another actor, which has the mapper.
-    this->heldAt_.emplace(Place{ mapper, worldFromModel }, number);
-  }
   if (!isGlyph)
   {
     std::sort(held.begin(), held.end(), isBefore);
@@ -119,8 +114,18 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
     PlainDrawing& plain = this->plain_.emplace_back();
     plain.prop = actor;
     plain.mapper = mapper;
+    plain.held = number;
     const glm::dmat4 columns = glm::transpose(worldFromModel);
     std::copy_n(glm::value_ptr(columns), 16, plain.worldFromModel.begin());
+  }
+  else
+  {
+    this->heldAt_.emplace(Place{ actor, worldFromModel }, number);
+    if (isGlyph || !isPlainActor(actor))
+    {
+      // It may be drawn by another actor, which has the mapper.
+      this->heldAt_.emplace(Place{ mapper, worldFromModel }, number);
+    }
   }
   this->held_.push_back(std::move(held));
 }
@@ -210,9 +215,8 @@ const DrawnLookup::HeldSurface* DrawnLookup::match(
 }
 
 //------------------------------------------------------------------------------
-/// Return a plain prop's drawing, if that is about to be drawn; else null.
-DrawnLookup::PlainDrawing* DrawnLookup::plainDrawing(
-  vtkAbstractMapper* mapper, vtkProp* prop, SurfaceCells cells)
+/// Return a plain prop's drawing, if the prop is in its place; else null.
+DrawnLookup::PlainDrawing* DrawnLookup::plainHere(vtkProp* prop)
 {
   if (this->nextPlain_ >= this->plain_.size() || this->plain_[this->nextPlain_].prop != prop)
   {
@@ -225,9 +229,8 @@ DrawnLookup::PlainDrawing* DrawnLookup::plainDrawing(
   }
   PlainDrawing& plain = this->plain_[this->nextPlain_++];
   // An assembly that has the actor, too, moves it while it draws.
-  const bool isHere = plain.mapper == mapper && cells == SurfaceCells::Polygons &&
-    std::equal(
-      plain.worldFromModel.begin(), plain.worldFromModel.end(), prop->GetMatrix()->GetData());
+  const bool isHere = std::equal(
+    plain.worldFromModel.begin(), plain.worldFromModel.end(), prop->GetMatrix()->GetData());
   return isHere ? &plain : nullptr;
 }
 
@@ -289,12 +292,14 @@ HookedSurface DrawnLookup::find(
     drawn.translucent = true;
     return drawn;
   }
-  PlainDrawing* const plain = this->plainDrawing(mapper, prop, *cells);
+  PlainDrawing* const here = this->plainHere(prop);
+  PlainDrawing* const plain =
+    here && here->mapper == mapper && *cells == SurfaceCells::Polygons ? here : nullptr;
   if (plain && plain->block.primitiveCount > 0)
   {
     return this->take(*plain, occluders);
   }
-  const HeldSurfaces* held = this->heldBy(prop);
+  const HeldSurfaces* held = here ? &this->held_[here->held] : this->heldBy(prop);
   if (!held)
   {
     return {};

@@ -59,8 +59,8 @@ public:
     std::uint32_t instances = 1;
   };
 
-  /// Remove all surfaces.
-  void clear();
+  /// Remove all surfaces, and make room for those of plain props.
+  void clear(std::size_t plainProps);
   /// Add the opaque surfaces, at least one, that a prop draws with a mapper at a place. Glyphs are
   /// in the order in which VTK draws them.
   /// @param isPlain true if the prop is a PlainProp
@@ -124,6 +124,7 @@ private:
   {
     const vtkProp* prop = nullptr;
     const vtkMapper* mapper = nullptr;
+    std::size_t held = 0;                    ///< index into held_
     std::array<double, 16> worldFromModel{}; ///< as VTK has it, row by row
     DrawnSurface::Block block;               ///< empty until it is drawn first
     std::uint32_t frame = 0;                 ///< number of the last one that has drawn it
@@ -131,7 +132,7 @@ private:
   };
 
   static bool isAmong(vtkProp* prop, const std::unordered_set<const void*>& drawers);
-  PlainDrawing* plainDrawing(vtkAbstractMapper* mapper, vtkProp* prop, SurfaceCells cells);
+  PlainDrawing* plainHere(vtkProp* prop);
   HookedSurface take(PlainDrawing& plain, const Occluders& occluders);
   std::pair<DrawnSurface, HookedSurface> matchBlocks(const HeldSurfaces& held,
     vtkAbstractMapper* mapper, SurfaceCells cells, const Occluders& occluders);
@@ -139,7 +140,8 @@ private:
   const HeldSurface* match(const HeldSurfaces& held, vtkPolyData* data, SurfaceCells cells);
 
   std::vector<HeldSurfaces> held_;
-  std::unordered_map<Place, std::size_t, PlaceHash> heldAt_; ///< indices into held_
+  /// Indices into held_ of surfaces that are in no PlainDrawing.
+  std::unordered_map<Place, std::size_t, PlaceHash> heldAt_;
   std::vector<PlainDrawing> plain_;
   std::unordered_map<const vtkProp*, std::size_t> plainAt_; ///< indices into plain_
   std::size_t nextPlain_ = 0; ///< if VTK draws in the order of the snapshot

@@ -55,7 +55,8 @@ SnapshotChange OccluderCollector::collect(
 /// Index the snapshot's surfaces by prop and matrix.
 void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
 {
-  this->lookup_.clear();
+  this->lookup_.clear(static_cast<std::size_t>(std::count_if(wanted.begin(), wanted.end(),
+    [](const WantedSurface& surface) { return surface.prop->isPlain; })));
   for (std::size_t i = 0; i < wanted.size();)
   {
     const DrawnProp& prop = *wanted[i].prop;
