@@ -76,6 +76,7 @@ bunny()
   prepare
   compareInto bunny hard bunny --techniques "$hard,crsm,crsma,silhouette,raytraced" \
     --route inline --frames 31
+  compareInto bunny default bunny --techniques auto --frames 31
   compareInto bunny soft bunny --techniques pcss,montecarlo,sampled,penumbra,raytraced \
     --route image --frames 11 --light-radius 5
   for name in plain-VTK vtkShadowMapPass-1024 nsm-1024-inline raytraced; do
