@@ -95,7 +95,7 @@ struct PartFacts
   bool ofMapper = false; ///< mayHaveOwnShaders()
   bool physicallyBased = false;
 
-  /// @param actor the part; null if it is none
+  /// @param actor the part itself; null if it is of another class
   void add(vtkProp* part, vtkActor* actor)
   {
     vtkMapper* const mapper = actor ? actor->GetMapper() : nullptr;

@@ -22,8 +22,8 @@ class PropStamps;
 /// Facts about the props in view, from one walk before a pass is named in their keys.
 struct ShownProps
 {
-  /// Of the receivers that they show with one camera and snapshot. A prop with shaders of a user's
-  /// own makes it another number in each frame.
+  /// The same number means that they show the same receivers, with one camera and snapshot. A prop
+  /// with shaders of a user's own makes it another number in each frame.
   std::size_t hash = 0;
   /// A prop has shaders of a user's own, a mapper that may have some, or shaders to which other
   /// render passes add.

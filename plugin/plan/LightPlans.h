@@ -57,7 +57,7 @@ struct LightPlan
   int edgeSamples = 1;
   bool edgesFollow = false; ///< true if a frame smooths no edges of visibility that it computes
   ShadedBy shadedBy = ShadedBy::Fetch;
-  bool surfacesFetch = true; ///< shadedBy is for volumes alone
+  bool surfacesFetch = true; ///< true if shaders of surfaces call nothing
   FitTarget fit = FitTarget::None;
   std::string fitReason; ///< LightReport::fitReason
   ///@}

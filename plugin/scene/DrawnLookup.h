@@ -144,7 +144,7 @@ private:
   std::unordered_map<Place, std::size_t, PlaceHash> heldAt_;
   std::vector<PlainDrawing> plain_;
   std::unordered_map<const vtkProp*, std::size_t> plainAt_; ///< indices into plain_
-  std::size_t nextPlain_ = 0; ///< if VTK draws in the order of the snapshot
+  std::size_t nextPlain_ = 0; ///< index of the next one, if VTK draws in the snapshot's order
   std::uint32_t frame_ = 0;   ///< number of the present one
   std::unordered_map<Question, HookedSurface, QuestionHash> answers_;
   std::unordered_set<const void*> translucentReceivers_;
