@@ -75,7 +75,7 @@ void CastingLights::take(const std::vector<LightPlan>& lights)
     if (plan.shadedBy == ShadedBy::AtPoints)
     {
       casting.atPoints = &this->techniqueOf(plan.light, pointEstimator());
-      casting.lightInShaders = lightAtPoints(plan.light);
+      casting.lightOfPoints = lightAtPoints(plan.light);
     }
   }
 }

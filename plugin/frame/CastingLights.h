@@ -17,9 +17,9 @@ namespace gnomon
 struct CastingLight
 {
   const LightPlan& plan;
-  LightTechnique* own;                     ///< lasts as long as the frame, as the next
-  LightTechnique* atPoints = nullptr;      ///< of ShadedBy::AtPoints; else null
-  ShadowLight lightInShaders = plan.light; ///< of pointwise()
+  LightTechnique* own;                           ///< lasts as long as the frame, as the next
+  LightTechnique* atPoints = nullptr;            ///< of ShadedBy::AtPoints; else null
+  std::optional<ShadowLight> lightOfPoints = {}; ///< that has this technique; else none
   LightCounts counts = {};
   bool isStale = true;       ///< true if this frame computes its visibility for all pixels
   bool mayKeepTiles = false; ///< and true if the changes may leave some tiles valid
@@ -31,6 +31,11 @@ struct CastingLight
   std::shared_ptr<const PointwiseTechnique> filtered = {};
 
   const ShadowLight& light() const { return this->plan.light; }
+  /// Return the light of pointwise().
+  const ShadowLight& lightInShaders() const
+  {
+    return this->lightOfPoints ? *this->lightOfPoints : this->light();
+  }
   const TechniqueInfo& info() const { return this->plan.info(); }
   /// True if its technique traces from receivers on the CPU.
   bool isOnCpu() const { return this->info().evaluation == Evaluation::ScreenCpu; }

@@ -30,23 +30,23 @@ void FramePlanner::plan(const Bake& bake, const ReadDeferredFacts& readDeferredF
     this->takeTimesOfFirst();
   }
   FramePlan& plan = this->frame_.plan;
-  std::vector<Evidence> evidence;
-  const auto planAgain = [&]
-  { plan = planFrame(scene, this->frame_.wishes, this->history_, evidence); };
-  planAgain();
+  const FrameWishes& wishes = this->frame_.wishes;
+  plan = planAtRest(scene, wishes, this->history_);
   this->frame_.lights.begin(plan.lights, this->frame_.view->techniques);
+  std::vector<Evidence> evidence;
+  plan = planTechniques(std::move(plan), scene, wishes, evidence);
   while (plan.needs) // each need is another map or number of samples, of which there are few
   {
     const auto light = std::find_if(plan.lights.begin(), plan.lights.end(),
       [&](const LightPlan& of) { return of.light.sceneIndex == plan.needs->sceneIndex; });
     evidence.push_back(this->gather(*plan.needs, *light, bake));
-    planAgain();
+    plan = planTechniques(std::move(plan), scene, wishes, evidence);
   }
   if (plan.needsDeferredFacts)
   {
     scene.deferred = readDeferredFacts();
-    planAgain();
   }
+  plan = planDrawing(std::move(plan), scene, wishes);
   this->history_ = plan.history;
   this->frame_.lights.take(plan.lights);
   this->milliseconds_ = steadyMilliseconds() - start;
@@ -80,7 +80,7 @@ Evidence FramePlanner::gather(
   const EvidenceRequest& request, const LightPlan& resting, const Bake& bake)
 {
   Evidence evidence;
-  const SceneLights& scene = this->frame_.scene.lights;
+  const Scene& scene = this->frame_.scene;
   if (request.mapSizeTexels == 0)
   {
     ShadowLight other =

@@ -14,7 +14,7 @@
 namespace gnomon
 {
 
-/// Plans a renderer's frames (planFrame()): gathers the evidence that a plan needs, and keeps the
+/// Plans a renderer's frames (FramePlan.h): gathers the evidence that a plan needs, and keeps the
 /// history that it leaves.
 class FramePlanner
 {

@@ -33,7 +33,7 @@ std::string visibilityOf(const HookVariant& variant, const CastingLight& casting
 {
   const char* const bit = variant.edgeBit == noBit ? "gnomonBit(" : "gnomonSmoothBit(";
   // A visibility of one channel scales the mean colour of the light's texture, or white.
-  const bool isColour = casting.lightInShaders.texture || casting.plan.channels == 3;
+  const bool isColour = casting.lightInShaders().texture || casting.plan.channels == 3;
   const std::string even = isColour ? litOf(casting, light) + " * " : "";
   const auto layer = [&](int channel)
   { return "gnomonLayer(" + std::to_string(casting.plan.layer + channel) + ")"; };
@@ -52,7 +52,7 @@ std::string visibilityOf(const HookVariant& variant, const CastingLight& casting
 /// Return the declaration that multiplies a light's colour by its visibility on props that receive.
 std::string multiplicationOf(const CastingLight& casting, int light, const std::string& visibility)
 {
-  const std::string colour = "lightColor" + std::to_string(casting.lightInShaders.shaderIndex);
+  const std::string colour = "lightColor" + std::to_string(casting.lightInShaders().shaderIndex);
   const std::string lit = litOf(casting, light);
   return "  vec3 " + colour + " = " + colour + " * (gnomonReceives == 0 ? " + lit + " : mix(" +
     lit + ", " + visibility + ", gnomonStrength" + std::to_string(light) + "));\n";
@@ -62,9 +62,9 @@ std::string multiplicationOf(const CastingLight& casting, int light, const std::
 /// constant saves the shader most of its second lighting.
 std::string darkeningOf(const CastingLight& casting, int light)
 {
-  return casting.lightInShaders.strength < 1.0
-    ? multiplicationOf(casting, light, "0.0")
-    : "  vec3 lightColor" + std::to_string(casting.lightInShaders.shaderIndex) + " = vec3(0.0);\n";
+  return casting.lightInShaders().strength < 1.0 ? multiplicationOf(casting, light, "0.0")
+                                                 : "  vec3 lightColor" +
+      std::to_string(casting.lightInShaders().shaderIndex) + " = vec3(0.0);\n";
 }
 
 /// Return statements before VTK's lighting for shaders that draw a solid on a sprite. They replace
@@ -144,9 +144,9 @@ constexpr int mostFetchesOneByOne = 15;
 //------------------------------------------------------------------------------
 std::string litOf(const CastingLight& casting, int light)
 {
-  return casting.lightInShaders.texture ? "gnomonLit" + std::to_string(light)
-    : casting.plan.channels == 3        ? "vec3(1.0)"
-                                        : "1.0";
+  return casting.lightInShaders().texture ? "gnomonLit" + std::to_string(light)
+    : casting.plan.channels == 3          ? "vec3(1.0)"
+                                          : "1.0";
 }
 
 //------------------------------------------------------------------------------
@@ -253,10 +253,10 @@ void HookGlsl::addLights(const CastingLights& lights)
     if (const PointwiseTechnique* const called = casting.pointwiseOfSurfaces())
     {
       this->declarations_ +=
-        numberedForLight(called->visibilityGlsl(casting.lightInShaders), number);
+        numberedForLight(called->visibilityGlsl(casting.lightInShaders()), number);
     }
     this->declarations_ += "uniform float gnomonStrength" + std::to_string(number) + ";\n";
-    if (casting.lightInShaders.texture)
+    if (casting.lightInShaders().texture)
     {
       this->declarations_ += "uniform vec3 " + litOf(casting, number) + ";\n";
     }

@@ -29,13 +29,16 @@ vtkOpenGLRenderWindow* windowOf(const vtkRenderState* s)
 
 /// Return a number that differs where lights differ in what decides their rays.
 /// @param withSettings true if it also differs with the settings of raytraced
-std::uint64_t hashOf(const LightSet& lights, bool withSettings)
+std::uint64_t hashOf(const SceneLights& lights, bool withSettings)
 {
-  std::size_t seed = lights.lights.size();
-  for (const ShadowLight& light : lights.lights)
+  std::size_t seed = lights.identities.size();
+  auto identity = lights.identities.begin();
+  for (const ShadowLight& light : lights.set.lights)
   {
     hashCombine(seed, light.sceneIndex);
-    hashCombine(seed, identityOf(light).hash);
+    hashCombine(seed, identity->centre);
+    hashCombine(seed, identity->area);
+    ++identity;
     if (withSettings)
     {
       for (const SettingsTable* table : findTechnique("raytraced")->estimator->info.settings)
@@ -103,10 +106,10 @@ bool RenderManager::readLights(
   frame.scene.picture.severalViews = severalViews;
   frame.scene.picture.drawsMaps = canDrawMaps();
   frame.scene.lights = this->lights_.read(renderer, defaults, frame.wishes);
-  const LightSet& lights = frame.scene.lights.set;
+  const SceneLights& lights = frame.scene.lights;
   frame.ranks->requireSame([&] { return hashOf(lights, true); }, "lights");
   frame.endStage("lights");
-  return !lights.lights.empty() || frame.wishes.showsSky() || frame.wishes.keepVisibility;
+  return !lights.set.lights.empty() || frame.wishes.showsSky() || frame.wishes.keepVisibility;
 }
 
 //------------------------------------------------------------------------------
@@ -144,7 +147,7 @@ const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s
 //------------------------------------------------------------------------------
 bool RenderManager::changes(const vtkRenderState* s)
 {
-  std::size_t shown = hashOf(this->frame_.scene.lights.set, false);
+  std::size_t shown = hashOf(this->frame_.scene.lights, false);
   hashCombine(shown, this->frame_.scene.picture.view);
   hashCombine(shown, this->receivers_.shownProps(s).hash);
   hashCombine(shown, this->frame_.scene.props.casters.first);
@@ -279,7 +282,7 @@ void RenderManager::bakeMaps()
     {
       MapStage ofPoints = stage;
       ofPoints.servesPointsAlone = !stage.pointsCentred.empty();
-      casting.atPoints->updateMaps(casting.lightInShaders, ofPoints, casting.counts);
+      casting.atPoints->updateMaps(casting.lightInShaders(), ofPoints, casting.counts);
     }
   }
   this->frame_.endStage("maps");

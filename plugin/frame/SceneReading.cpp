@@ -165,6 +165,10 @@ SceneLights LightReading::read(
   const bool drawsMaps = canDrawMaps();
   SceneLights lights;
   lights.set = this->manager_.collect(renderer, defaults, wishes.casting);
+  for (const ShadowLight& light : lights.set.lights)
+  {
+    lights.identities.push_back(identityOf(light));
+  }
   lights.misfits = findMisfits(lights.set.lights, defaults);
   lights.notes = notesOn(renderer, lights.set);
   lights.compose = [drawsMaps](ShadowLight light)

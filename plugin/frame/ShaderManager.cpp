@@ -107,7 +107,7 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   int number = 0;
   for (const CastingLight& casting : *this->lights_)
   {
-    const ShadowLight& light = casting.lightInShaders;
+    const ShadowLight& light = casting.lightInShaders();
     this->stageUniforms_.push_back(
       { "gnomonStrength" + std::to_string(number), static_cast<float>(light.strength) });
     if (light.texture)

@@ -62,13 +62,13 @@ VolumeHook::VolumeHook(bool viewIsRigid, const CastingLights& lights)
   for (const CastingLight& casting : lights)
   {
     this->declarations_ +=
-      numberedForLight(casting.pointwise()->visibilityGlsl(casting.lightInShaders), number);
+      numberedForLight(casting.pointwise()->visibilityGlsl(casting.lightInShaders()), number);
     this->declarations_ += "uniform float gnomonStrength" + std::to_string(number) + ";\n";
-    if (casting.lightInShaders.texture)
+    if (casting.lightInShaders().texture)
     {
       this->declarations_ += "uniform vec3 " + litOf(casting, number) + ";\n";
     }
-    this->factors_.emplace_back(casting.lightInShaders.shaderIndex, factorOf(casting, number));
+    this->factors_.emplace_back(casting.lightInShaders().shaderIndex, factorOf(casting, number));
     ++number;
   }
   this->declarations_ += frameShaders().at("plugin/frame/hook_volume.glsl");

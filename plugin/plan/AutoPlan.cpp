@@ -350,7 +350,7 @@ std::string Planner::tryMap(const LightPlan& light, AutoChoice& choice)
   for (;;)
   {
     const int side = asked << known.step;
-    const Composition map = planAsMap(*light.asked, side, this->scene_.lights);
+    const Composition map = planAsMap(*light.asked, side, this->scene_);
     if (!map.estimator)
     {
       return map.refusal;
@@ -418,8 +418,7 @@ void Planner::takeSamples(const LightPlan& light, AutoChoice& choice)
   }
   const int all = samplesInTime(this->wishes_, this->history_.times, light.light.sceneIndex,
     this->lights_.size(), light.light.lightSamples);
-  const bool mayBeHard =
-    !light.light.texture && planAsCentre(*light.asked, this->scene_.lights).estimator;
+  const bool mayBeHard = !light.light.texture && planAsCentre(*light.asked, this->scene_).estimator;
   if (all < fewSamples.front())
   {
     // The time comes before the error, so nothing is proved.

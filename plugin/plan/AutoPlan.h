@@ -125,7 +125,7 @@ struct AutoPlan
 ///
 /// While the window asks for a rate (FrameWishes::windowTime), that time comes before errors: area
 /// lights have as many samples as fit, else hard shadows of the centre. Where these do not fit,
-/// either, planFrame() replaces the choices by maps.
+/// either, planTechniques() replaces the choices by maps.
 ///
 /// @param lights that cast, with their resting techniques
 /// @param evidence of this frame, in the order of the plan's needs

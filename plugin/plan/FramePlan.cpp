@@ -12,7 +12,7 @@ namespace
 {
 
 /// Give a light the technique that was chosen for it.
-void take(LightPlan& plan, const AutoChoice& choice, const SceneLights& scene)
+void take(LightPlan& plan, const AutoChoice& choice, const Scene& scene)
 {
   if (choice.way == AutoChoice::Way::Resting)
   {
@@ -21,12 +21,9 @@ void take(LightPlan& plan, const AutoChoice& choice, const SceneLights& scene)
       choice.lightSamples > 0 ? choice.lightSamples : plan.light.lightSamples;
     return;
   }
-  Composition other = choice.way == AutoChoice::Way::Map
-    ? planAsMap(*plan.asked, choice.mapSizeTexels, scene)
-    : planAsCentre(*plan.asked, scene);
-  plan.light = std::move(other.light);
-  plan.estimator = other.estimator;
-  plan.identity = identityOf(plan.light);
+  takeLight(plan,
+    choice.way == AutoChoice::Way::Map ? planAsMap(*plan.asked, choice.mapSizeTexels, scene)
+                                       : planAsCentre(*plan.asked, scene));
 }
 
 /// Have maps for all lights, of any error, if not even one ray a pixel leaves a moving frame within
@@ -69,7 +66,7 @@ void keepTime(AutoPlan& chosen, const std::vector<LightPlan>& lights, const Scen
 void chooseTechniques(FramePlan& plan, const Scene& scene, const FrameWishes& wishes,
   const std::vector<Evidence>& evidence)
 {
-  const auto isAsked = [](const LightPlan& light) { return light.asked.has_value(); };
+  const auto isAsked = [](const LightPlan& light) { return light.asked != nullptr; };
   if (wishes.isShared || std::none_of(plan.lights.begin(), plan.lights.end(), isAsked))
   {
     return;
@@ -88,7 +85,7 @@ void chooseTechniques(FramePlan& plan, const Scene& scene, const FrameWishes& wi
   {
     take(*std::find_if(plan.lights.begin(), plan.lights.end(),
            [&](const LightPlan& light) { return light.light.sceneIndex == choice.sceneIndex; }),
-      choice, scene.lights);
+      choice, scene);
   }
 }
 
@@ -185,8 +182,7 @@ void placeVisibility(FramePlan& plan)
 } // namespace
 
 //------------------------------------------------------------------------------
-FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history,
-  const std::vector<Evidence>& evidence)
+FramePlan planAtRest(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history)
 {
   FramePlan plan;
   LightPlans lights = planLights(scene, wishes);
@@ -206,14 +202,23 @@ FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHis
   plan.transmits = scene.props.transmits;
   plan.colours = scene.props.colours;
   plan.hasShadows = !plan.lights.empty() || plan.sky || wishes.keepVisibility;
-  if (!plan.hasShadows)
-  {
-    return plan;
-  }
+  return plan;
+}
+
+//------------------------------------------------------------------------------
+FramePlan planTechniques(FramePlan plan, const Scene& scene, const FrameWishes& wishes,
+  const std::vector<Evidence>& evidence)
+{
   chooseTechniques(plan, scene, wishes, evidence);
   plan.needsDeferredFacts =
-    !plan.needs && !scene.deferred && whyNotDeferred(plan.lights, wishes, scene).empty();
-  if (plan.needs || plan.needsDeferredFacts)
+    plan.hasShadows && !plan.needs && whyNotDeferred(plan.lights, wishes, scene).empty();
+  return plan;
+}
+
+//------------------------------------------------------------------------------
+FramePlan planDrawing(FramePlan plan, const Scene& scene, const FrameWishes& wishes)
+{
+  if (!plan.hasShadows)
   {
     return plan;
   }

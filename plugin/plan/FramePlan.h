@@ -56,19 +56,23 @@ struct FramePlan
   bool isApproximate = false; ///< true if a picture at rest may differ from it
   AutoHistory history;        ///< for the next frame
 
-  ///@{
-  /// If either is set, the plan is not complete: it is to be made again with this evidence, or with
-  /// Scene::deferred. While it needs evidence, its lights have their resting techniques.
+  /// If set, its lights have their resting techniques until they are planned with this evidence.
   std::optional<EvidenceRequest> needs;
-  bool needsDeferredFacts = false;
-  ///@}
+  bool needsDeferredFacts = false; ///< true if its drawing depends on Scene::deferred
 };
 
-/// Plan a frame.
+///@{
+/// Plan a frame, in three steps: its lights with the techniques of a picture at rest, and its sky;
+/// the techniques of lights that leave them to the pass; how the picture is drawn. Each takes the
+/// plan of the one before.
 /// @param history that the last frame left
-/// @param evidence of this frame, in the order in which plans needed it
-FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history,
+/// @param evidence of this frame, in the order in which plans needed it. While
+///        FramePlan::needs is set, techniques are to be planned again with more.
+FramePlan planAtRest(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history);
+FramePlan planTechniques(FramePlan plan, const Scene& scene, const FrameWishes& wishes,
   const std::vector<Evidence>& evidence);
+FramePlan planDrawing(FramePlan plan, const Scene& scene, const FrameWishes& wishes);
+///@}
 
 /// Facts that decide if shaders write triangle numbers.
 struct NumberingFacts

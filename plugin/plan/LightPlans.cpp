@@ -40,20 +40,20 @@ void shareRays(ShadowLight& light, std::vector<std::string>& misfits)
 void compose(
   LightPlan& plan, const Scene& scene, const FrameWishes& wishes, std::vector<std::string>& misfits)
 {
-  Composition composition = scene.lights.compose(plan.light);
+  Composition composition = scene.lights.compose(std::move(plan.light));
   if (!composition.estimator)
   {
     const char* const fallback = fallbackTechnique(scene, wishes);
+    ShadowLight& light = composition.light;
     misfits.push_back(
-      nameOf(plan.light) + ": " + composition.refusal + ". It uses '" + fallback + "' instead");
-    const int mapSizeTexels = plan.light.mapSizeTexels;
-    static_cast<ShadowSettings&>(plan.light) = {};
-    plan.light.technique = fallback;
-    plan.light.mapSizeTexels = mapSizeTexels;
-    composition = scene.lights.compose(plan.light);
+      nameOf(light) + ": " + composition.refusal + ". It uses '" + fallback + "' instead");
+    const int mapSizeTexels = light.mapSizeTexels;
+    static_cast<ShadowSettings&>(light) = {};
+    light.technique = fallback;
+    light.mapSizeTexels = mapSizeTexels;
+    composition = scene.lights.compose(std::move(light));
   }
-  plan.light = std::move(composition.light);
-  plan.estimator = composition.estimator;
+  takeLight(plan, std::move(composition));
 }
 
 /// Have a light's rays traced if its technique cannot tell how much light translucent casters let
@@ -87,7 +87,7 @@ void keepBudget(LightPlans& plans, const Scene& scene, const FrameWishes& wishes
   const MemoryShares memory =
     shareMemory(needs, wishes.memoryBudget, scene.picture.pixels, mayBeInline);
   const auto automatic = std::count_if(plans.lights.begin(), plans.lights.end(),
-    [](const LightPlan& plan) { return plan.asked.has_value(); });
+    [](const LightPlan& plan) { return plan.asked != nullptr; });
 
   std::vector<LightPlan> casting;
   for (std::size_t i = 0; i < plans.lights.size(); ++i)
@@ -152,11 +152,6 @@ void enter(LightPlans& plans, const SceneFrame& frame)
   const auto isSkipped = [&](LightPlan& plan)
   {
     const std::string reason = enterFrame(plan.light, frame);
-    plan.identity = identityOf(plan.light);
-    if (plan.asked)
-    {
-      enterFrame(*plan.asked, frame);
-    }
     if (!reason.empty())
     {
       plans.skipped.push_back({ plan.light.sceneIndex, reason });
@@ -237,15 +232,17 @@ LightPlans planLights(const Scene& scene, const FrameWishes& wishes)
   plans.skipped = scene.lights.set.skipped;
   plans.misfits = scene.lights.misfits;
   plans.notes = scene.lights.notes;
-  for (ShadowLight light : scene.lights.set.lights)
+  auto identity = scene.lights.identities.begin();
+  for (const ShadowLight& light : scene.lights.set.lights)
   {
+    LightPlan& plan = plans.lights.emplace_back();
+    plan.light = light;
+    plan.identity = *identity++;
     if (wishes.isShared)
     {
-      shareRays(light, plans.misfits);
+      shareRays(plan.light, plans.misfits);
     }
-    LightPlan& plan = plans.lights.emplace_back();
-    plan.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
-    plan.light = std::move(light);
+    plan.asked = isAutomatic(plan.light) ? &light : nullptr;
     compose(plan, scene, wishes, plans.misfits);
     plan.marches = !plan.asked && plan.info().marchesVolumes;
     if (scene.props.transmits)
@@ -276,20 +273,30 @@ LightPlans planLights(const Scene& scene, const FrameWishes& wishes)
 }
 
 //------------------------------------------------------------------------------
-Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const SceneLights& scene)
+void takeLight(LightPlan& plan, Composition other)
+{
+  plan.light = std::move(other.light);
+  plan.estimator = other.estimator;
+  plan.identity.area = plan.light.area ? plan.identity.area : 0;
+}
+
+//------------------------------------------------------------------------------
+Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const Scene& scene)
 {
   ShadowLight light = asked;
   light.technique = plainTechnique;
   light.mapSizeTexels = mapSizeTexels;
-  return scene.compose(std::move(light));
+  enterFrame(light, scene.props.frame);
+  return scene.lights.compose(std::move(light));
 }
 
 //------------------------------------------------------------------------------
-Composition planAsCentre(const ShadowLight& asked, const SceneLights& scene)
+Composition planAsCentre(const ShadowLight& asked, const Scene& scene)
 {
   ShadowLight light = asked;
   light.area.reset();
-  return scene.compose(std::move(light));
+  enterFrame(light, scene.props.frame);
+  return scene.lights.compose(std::move(light));
 }
 
 //------------------------------------------------------------------------------

@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,12 +38,12 @@ struct LightPlan
   ShadowLight light;
   const EstimatorEntry* estimator = nullptr;
   const EstimatorEntry* resting = nullptr; ///< its estimator while the picture rests
-  /// The request of a light that leaves its technique to the pass; none for others.
-  std::optional<ShadowLight> asked;
+  /// The scene's light that leaves its technique to the pass; null for others.
+  const ShadowLight* asked = nullptr;
   /// The largest map that a memory budget allows such a light.
   int mostMapTexels = std::numeric_limits<int>::max();
   std::string budgetReason; ///< LightReport::budgetReason
-  RayIdentity identity;     ///< of the light
+  RayIdentity identity;     ///< as its technique sees the light
   bool marches = false; ///< true if its rays march through volumes, where a VolumeStack would do
   ///@{
   /// Planned last, like all members below.
@@ -90,10 +89,13 @@ bool isBit(const TechniqueInfo& info, const ShadowLight& light);
 /// process know its own casters alone.
 LightPlans planLights(const Scene& scene, const FrameWishes& wishes);
 
+/// Have a light's visibility computed from another light, with the same centre.
+void takeLight(LightPlan& plan, Composition other);
+
 /// Plan a light that leaves its technique to the pass as another light, for one frame.
 /// @return no estimator if it is refused
-Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const SceneLights& scene);
-Composition planAsCentre(const ShadowLight& asked, const SceneLights& scene);
+Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const Scene& scene);
+Composition planAsCentre(const ShadowLight& asked, const Scene& scene);
 
 /// Return what VTK's shaders call for a light.
 /// @param points true if points in no layer show shadows

@@ -30,7 +30,8 @@ void hashColumns(std::size_t& seed, const Matrix& matrix)
 //------------------------------------------------------------------------------
 RayIdentity identityOf(const ShadowLight& light)
 {
-  std::size_t seed = 0;
+  RayIdentity identity;
+  std::size_t& seed = identity.centre;
   hashCombine(seed, static_cast<int>(light.kind));
   hashVector(seed, light.positionWorld);
   hashVector(seed, light.directionWorld);
@@ -40,17 +41,17 @@ RayIdentity identityOf(const ShadowLight& light)
     hashVector(seed, glm::dvec3(light.box->width, light.box->height, light.box->depth));
     hashVector(seed, light.box->upWorld);
   }
-  if (light.area)
-  {
-    hashCombine(seed, static_cast<int>(light.area->shape));
-    hashColumns(seed, light.area->worldFromUnit);
-  }
   if (light.texture)
   {
     hashCombine(seed, light.texture->texture.get());
     hashColumns(seed, light.texture->pictureFromWorld);
   }
-  return { seed };
+  if (light.area)
+  {
+    hashCombine(identity.area, static_cast<int>(light.area->shape));
+    hashColumns(identity.area, light.area->worldFromUnit);
+  }
+  return identity;
 }
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 #include "lights/LightManager.h"
 #include "lights/SceneFrame.h"
 #include "plugin/plan/CostModel.h"
+#include "plugin/plan/RayIdentity.h"
 #include "shadowtech/Registry.h"
 
 #include <cstddef>
@@ -36,8 +37,9 @@ struct MapTraits
 struct SceneLights
 {
   LightSet set;
-  std::vector<std::string> misfits; ///< settings without effect (FrameReport::misfits)
-  std::vector<std::string> notes;   ///< FrameReport::notes
+  std::vector<RayIdentity> identities; ///< of its lights
+  std::vector<std::string> misfits;    ///< settings without effect (FrameReport::misfits)
+  std::vector<std::string> notes;      ///< FrameReport::notes
   /// Completes a light on this machine. The same light gives the same composition.
   std::function<Composition(ShadowLight)> compose;
   std::function<MapTraits(const EstimatorEntry&, const ShadowLight&)> traitsOf;

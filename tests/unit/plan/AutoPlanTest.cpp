@@ -49,7 +49,7 @@ protected:
     resting.light = this->light;
     resting.estimator = &this->rays_;
     resting.identity = identityOf(this->light);
-    resting.asked = this->light;
+    resting.asked = &this->light;
     resting.mostMapTexels = this->mostMapTexels;
     ++this->picture.view;
     AutoPlan planned = planAuto(this->scene, { resting }, this->wishes, this->history, evidence);

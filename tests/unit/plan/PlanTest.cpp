@@ -117,8 +117,18 @@ Scene sceneOf(const std::vector<std::string>& techniques)
     light.mapSizeTexels = 1024;
     light.sceneIndex = static_cast<int>(scene.lights.set.lights.size());
     scene.lights.set.lights.push_back(light);
+    scene.lights.identities.push_back({ 1, 0 });
   }
   return scene;
+}
+
+/// Plan a frame until it needs what is not given.
+FramePlan planFrame(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history,
+  const std::vector<Evidence>& evidence)
+{
+  FramePlan plan = planTechniques(planAtRest(scene, wishes, history), scene, wishes, evidence);
+  const bool isComplete = !plan.needs && (scene.deferred || !plan.needsDeferredFacts);
+  return isComplete ? planDrawing(std::move(plan), scene, wishes) : plan;
 }
 
 std::vector<std::string> techniquesOf(const LightPlans& plans)
@@ -187,7 +197,7 @@ TEST(Plan, givesLightsTheirTechniques)
     }
     for (const LightPlan& plan : plans.lights)
     {
-      EXPECT_EQ(plan.asked.has_value(), plan.light.technique == "silhouette");
+      EXPECT_EQ(plan.asked != nullptr, plan.light.technique == "silhouette");
       if (!plan.budgetReason.empty())
       {
         said.push_back(plan.budgetReason);
@@ -483,7 +493,6 @@ TEST(FramePlans, askForTheWalkOverPropsOnlyIfItDecides)
   EXPECT_TRUE(planFrame(scene, {}, {}, {}).needsDeferredFacts);
   scene.deferred = DeferredFacts{};
   const FramePlan plan = planFrame(scene, {}, {}, {});
-  EXPECT_FALSE(plan.needsDeferredFacts);
   EXPECT_EQ(plan.picture.route.route, Route::Deferred);
 }
 
@@ -671,8 +680,26 @@ TEST(FramePlans, bringLightsIntoTheScenesFrame)
   const FramePlan plan = planFrame(scene, {}, {}, {});
   ASSERT_FALSE(plan.lights.empty());
   EXPECT_EQ(plan.lights[0].light.positionWorld.x, std::ldexp(5.0, -30));
-  EXPECT_EQ(plan.lights[0].identity, identityOf(plan.lights[0].light));
+  EXPECT_EQ(plan.lights[0].identity, scene.lights.identities[0]);
   EXPECT_EQ(plan.lights.size() + plan.skipped.size(), 2u);
+}
+
+/// A technique without samples of areas sees the centre alone: it knows nothing of an area's size.
+TEST(FramePlans, identifyLightsByWhatTheirTechniquesSee)
+{
+  for (const bool samples : { true, false })
+  {
+    Scene scene = sceneOf({ "raytraced" });
+    scene.lights.set.lights[0].area.emplace();
+    scene.lights.identities[0] = { 1, 2 };
+    scene.lights.compose = [&](ShadowLight light)
+    {
+      light.area = samples ? light.area : std::nullopt;
+      return Composition{ std::move(light), &rays(), "" };
+    };
+    const FramePlan plan = planFrame(scene, {}, {}, {});
+    EXPECT_EQ(plan.lights.at(0).identity, (RayIdentity{ 1, samples ? 2u : 0u })) << samples;
+  }
 }
 
 TEST(FramePlans, ofMotionTakeWhatIsChosen)
