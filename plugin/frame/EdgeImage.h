@@ -16,10 +16,10 @@ namespace gnomon
 /// The picture's own visibility at edges of hard shadows, for shaders (hook_edges.glsl). The
 /// lights' bits stay those of the pixels' centres; one more bit marks the pixels that are here.
 ///
-/// It is one texture of whole numbers, to take one unit. The lower part has the size of the picture
-/// and holds the edge pixels' places in a table, which follows in rows of the same width. An edge
-/// pixel has a texel for two lights, the first in the lower half, with visibility in 65534ths.
-/// 65535 stands for that of the pixel's centre.
+/// It is one texture of whole numbers, to take one unit. Below is the picture, with the places of
+/// edge pixels in a table above: column and row of the first texel, in 16 bits each, as llvmpipe
+/// divides slowly. An edge pixel has texels in a row, one for two lights, the first in the lower
+/// half, with visibility in 65534ths. 65535 stands for that of the pixel's centre.
 class EdgeImage
 {
 public:
@@ -32,7 +32,7 @@ public:
   std::size_t bytes() const;
 
 private:
-  void upload(const glm::ivec2& size);
+  void upload(std::size_t width);
 
   std::vector<std::uint32_t> texels_;
   SizedTexture texture_;

@@ -15,9 +15,8 @@ void gnomonFetchEdges()
   uint isEdge = gnomonFetchedBits[gnomonEdgeBit / 32] >> gnomonEdgeBit % 32 & 1u;
   for (int i = 0; i < int(isEdge) * gnomonEdgeTexels; ++i)
   {
-    int width = textureSize(gnomonEdgeImage, 0).x;
-    int place = int(texelFetch(gnomonEdgeImage, gnomonLayerPixel(), 0).r) + i;
-    gnomonEdges[i] = texelFetch(gnomonEdgeImage, ivec2(place % width, place / width), 0).r;
+    int place = int(texelFetch(gnomonEdgeImage, gnomonLayerPixel(), 0).r);
+    gnomonEdges[i] = texelFetch(gnomonEdgeImage, ivec2((place & 0xffff) + i, place >> 16), 0).r;
   }
 }
 

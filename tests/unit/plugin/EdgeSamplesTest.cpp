@@ -233,6 +233,29 @@ TEST_P(EdgeSamplesOf, areOfPicturesAtRestAlone)
   }
 }
 
+/// The edges of a pixel under seven suns take four texels, more than the narrow picture's columns.
+TEST(EdgesUnderSevenSuns, areAsThoseUnderOne)
+{
+  for (const int width : { 3, 64 })
+  {
+    const BuiltinPass scene("posts", width, 512);
+    scene.pass->KeepVisibilityOff();
+    const Picture hard = scene.render("silhouette edge_samples=1");
+    const Picture smooth = scene.render("edge_samples=auto");
+    EXPECT_GT(differingPixels(hard, smooth, 8), 10u);
+    ASSERT_EQ(scene.renderer->GetLights()->GetNumberOfItems(), 1);
+    vtkLight* const sun = lightOf(scene.renderer, 0);
+    sun->SetIntensity(sun->GetIntensity() / 7.0);
+    for (int i = 1; i < 7; ++i)
+    {
+      vtkNew<vtkLight> other;
+      other->DeepCopy(sun);
+      scene.renderer->AddLight(other);
+    }
+    EXPECT_EQ(differingPixels(scene.render("edge_samples=auto"), smooth, 1), 0u) << width;
+  }
+}
+
 /// A lit plate over ground wholly in its shadow, and lit ground before a dark wall.
 TEST_F(EdgeSamples, haveNoFringesAtOutlines)
 {
