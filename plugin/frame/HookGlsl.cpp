@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <regex>
 #include <tuple>
+#include <utility>
 
 namespace gnomon
 {
@@ -124,6 +125,16 @@ void markEndOfMain(std::string& fragmentShader)
     fragmentShader, head, "void gnomonMain()", std::regex_constants::format_first_only);
   fragmentShader +=
     "\n" + declarationMarker + "\nvoid main()\n{\n  gnomonMain();\n  " + endMarker + "\n}\n";
+}
+
+/// Have a shader compute no more of the colour than what decides its discards. VTK fails to draw
+/// instances by a program without their normals.
+void dropColour(const std::string& vertexShader, std::string& fragmentShader)
+{
+  if (vertexShader.find("glyphNormalMatrix") == std::string::npos)
+  {
+    fragmentShader.insert(fragmentShader.rfind('}'), "  gl_FragData[0] = vec4(0.0);\n");
+  }
 }
 
 /// Return VTK's lighting, between the marks. A copy of it needs a scope of its own.
@@ -300,11 +311,18 @@ bool HookGlsl::operator==(const HookGlsl& other) const
 {
   const auto parts = [](const HookGlsl& of)
   {
-    return std::tie(of.variant_.route, of.variant_.receiverPoints, of.variant_.namesTriangles,
+    return std::tie(of.variant_.route, of.variant_.receiverPoints, of.variant_.numbering,
       of.variant_.anySeenThrough, of.variant_.skyLayer, of.declarations_, of.multiplications_,
       of.darkenings_);
   };
   return parts(*this) == parts(other);
+}
+
+//------------------------------------------------------------------------------
+bool HookGlsl::serve(bool receiversStage)
+{
+  const bool hasOwn = this->variant_.numbering == Numbering::Receivers && receiversStage;
+  return std::exchange(this->receiversStage_, hasOwn) != hasOwn;
 }
 
 //------------------------------------------------------------------------------
@@ -319,27 +337,6 @@ std::map<std::string, std::vector<std::string>> HookGlsl::samplers() const
     samplers[(*found)[1]].push_back((*found)[2]);
   }
   return samplers;
-}
-
-//------------------------------------------------------------------------------
-std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader)
-{
-  const std::string main = "\nvoid main(";        // comments begin otherwise
-  const std::string body = "//VTK::PrimID::Impl"; // of VTK's geometry shaders
-  const std::size_t begin = vertexShader.rfind(main);
-  if (begin == std::string::npos ||
-    (!geometryShader.empty() && geometryShader.find(body) == std::string::npos))
-  {
-    return "uniform int gnomonDrawn;\n#define gnomonDrawnVSOutput ivec2(gnomonDrawn, 0)\n";
-  }
-  vertexShader.replace(begin, main.size(), "\nvoid gnomonMain(");
-  vertexShader += "\n" + frameShaders().at("plugin/frame/hook_drawn.vert.glsl");
-  // With a geometry shader, VTK makes the fragment shader read its outputs instead.
-  replace(geometryShader, "//VTK::PrimID::Dec",
-    "flat in ivec2 gnomonDrawnVSOutput[];\nflat out ivec2 gnomonDrawnGSOutput;\n"
-    "//VTK::PrimID::Dec");
-  replace(geometryShader, body, "gnomonDrawnGSOutput = gnomonDrawnVSOutput[i];\n    " + body);
-  return "flat in ivec2 gnomonDrawnVSOutput;\n";
 }
 
 //------------------------------------------------------------------------------
@@ -377,7 +374,6 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
   std::string uniformFlow;
   std::string begin;
   std::string end;
-  bool lightsBySky = false;
   if (receives)
   {
     declarations = this->declarations_;
@@ -391,7 +387,14 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
       "gnomonReceives == 0 || gnomonTranslucent == 1\n    ? 1.0 : gnomonLayer(" +
         std::to_string(this->variant_.skyLayer) + ")");
     begin += this->multiplications_ + sky;
-    lightsBySky = !sky.empty();
+    if (!sky.empty())
+    {
+      // Of physically based materials; other shaders have no such lines.
+      vtkShaderProgram::Substitute(fragmentShader, "vec3 Lo = vec3(0.0);",
+        "vec3 Lo = gnomonSkyView * gnomonSkyLight * (1.0 - metallic) * albedo;");
+      vtkShaderProgram::Substitute(fragmentShader, "vec3 color = iblDiffuse + iblSpecular;",
+        "vec3 color = gnomonSkyView * iblDiffuse + iblSpecular;");
+    }
   }
   if (this->variant_.route != Route::Inline && drawsReceivers)
   {
@@ -410,15 +413,25 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
     {
       if (!receives)
       {
-        declarations = "uniform int gnomonStage;\nuniform int gnomonTranslucent;\n";
+        declarations = "uniform int gnomonTranslucent;\n";
       }
+      // A constant tells the compiler that a program has one stage.
+      declarations =
+        (this->variant_.numbering == Numbering::Receivers
+            ? "const int gnomonStage = " + std::to_string(this->receiversStage_) + ";\n"
+            : "uniform int gnomonStage;\n") +
+        declarations;
       if (this->variant_.anySeenThrough)
       {
         end = "    if (gnomonTranslucent == 1) discard; // it hides no receiver\n" + end;
       }
-      // VTK lights in both stages: a user's code may continue with the colour, and VTK's discard
-      // cuts holes of textures by its alpha. The receivers stage draws no colour.
+      // VTK lights in both stages: its discard cuts holes of textures by the colour's alpha, a
+      // user's code may by the rest. The receivers stage draws no colour.
       end = "if (gnomonStage == 1)\n  {\n" + end + "  }\n";
+      if (receives && this->receiversStage_)
+      {
+        dropColour(vertexShader, fragmentShader);
+      }
     }
     else if (receives)
     {
@@ -440,14 +453,6 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
   replace(fragmentShader, uniformFlowMarker, uniformFlow);
   replace(fragmentShader, beginMarker, begin);
   replace(fragmentShader, endMarker, end);
-  if (lightsBySky)
-  {
-    // Of physically based materials; other shaders have no such lines.
-    vtkShaderProgram::Substitute(fragmentShader, "vec3 Lo = vec3(0.0);",
-      "vec3 Lo = gnomonSkyView * gnomonSkyLight * (1.0 - metallic) * albedo;");
-    vtkShaderProgram::Substitute(fragmentShader, "vec3 color = iblDiffuse + iblSpecular;",
-      "vec3 color = gnomonSkyView * iblDiffuse + iblSpecular;");
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -479,7 +484,7 @@ std::string HookGlsl::writeReceiver(bool receives, const std::string& primitive)
 {
   const std::string fragment = "vec2(gnomonDrawnSurface(), float(" + primitive +
     " + PrimitiveIDOffset + gnomonDrawnVSOutput.y))";
-  if (!receives || !this->variant_.namesTriangles)
+  if (!receives || this->variant_.numbering == Numbering::None)
   {
     return "    gl_FragData[1] = vec4(0.0);\n"
            "    gl_FragData[2] = vec4(0.0);\n";

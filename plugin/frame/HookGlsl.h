@@ -23,15 +23,15 @@ struct HookVariant
   bool receiverPoints = false; ///< image route: the receivers stage writes points and normals, too
   bool multisampled = false;   ///< pixels have several samples, and a surface may cover some of
                                ///< them
-  bool namesTriangles = true;  ///< not on the inline route: triangle numbers may be written
-  bool vtkViewIsRigid = true;  ///< ShownView::viewFromVtkView is the identity
-  bool anySeenThrough = false; ///< true if DrawnProps::seenThrough has some
-  bool anyCatcher = false;     ///< DrawnProps::anyCatcher
-  int layers = 0;              ///< image route: FramePlan::layers
-  int bits = 0;                ///< image route: FramePlan::bits
-  int skyLayer = noSkyLayer;   ///< image route: the layer of the view of the sky
-  int edgeBit = noBit;         ///< image route: FramePlan::edgeBit
-  bool volumes = false;        ///< PicturePlan::shadesVolumes (VolumeHook.h)
+  Numbering numbering = Numbering::All; ///< None on the inline route
+  bool vtkViewIsRigid = true;           ///< ShownView::viewFromVtkView is the identity
+  bool anySeenThrough = false;          ///< true if DrawnProps::seenThrough has some
+  bool anyCatcher = false;              ///< DrawnProps::anyCatcher
+  int layers = 0;                       ///< image route: FramePlan::layers
+  int bits = 0;                         ///< image route: FramePlan::bits
+  int skyLayer = noSkyLayer;            ///< image route: the layer of the view of the sky
+  int edgeBit = noBit;                  ///< image route: FramePlan::edgeBit
+  bool volumes = false;                 ///< PicturePlan::shadesVolumes (VolumeHook.h)
 };
 
 /// Return the expression of the factor of a light's colour if nothing hides the light; a uniform if
@@ -51,8 +51,8 @@ std::string litOf(const CastingLight& casting, int light);
 ///
 /// A shadow catcher is lit twice, as if nothing cast and as it is, and shows the difference.
 ///
-/// On the image route the same programs also serve the receivers stage. A uniform selects the
-/// stage, so VTK rebuilds no shader between stages. On the deferred route they light each fragment
+/// On the image route the same programs also serve the receivers stage, where a uniform selects the
+/// stage, or it has programs of its own (Numbering). On the deferred route they light each fragment
 /// twice, as if all of it were lit and as if none were, and write its triangle.
 class HookGlsl
 {
@@ -60,7 +60,12 @@ public:
   HookGlsl() = default;
   HookGlsl(const HookVariant& variant, const CastingLights& lights);
 
+  /// True if both are alike, whatever stage they serve.
   bool operator==(const HookGlsl& other) const;
+
+  /// Serve a stage.
+  /// @return true if the last one had other programs
+  bool serve(bool receiversStage);
 
   /// The first half of the hook, before VTK's own replacements.
   void mark(
@@ -84,7 +89,8 @@ private:
   std::string writeReceiver(bool receives, const std::string& primitive) const;
 
   HookVariant variant_;
-  bool hasLights_ = false; ///< or a sky
+  bool receiversStage_ = false; ///< of programs of its own
+  bool hasLights_ = false;      ///< or a sky
   std::string extensions_;
   std::string declarations_;
   std::string uniformFlow_;     ///< statements that must be in uniform control flow
@@ -92,12 +98,5 @@ private:
   std::string darkenings_;      ///< deferred route: the same for the colour in shadow
   std::string brightenings_;    ///< with shadow catchers: the same for that without casters
 };
-
-/// Make the vertex shader hand the drawn surface's number and the instance's first primitive to the
-/// fragment shader, as `gnomonDrawnVSOutput` (hook_drawn.vert.glsl). Call it before VTK's
-/// replacements.
-/// @return the fragment shader's declarations. They read the uniform, without instances, if the
-/// vertex shader's main is not found or a geometry shader lacks VTK's marks.
-std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader);
 
 } // namespace gnomon

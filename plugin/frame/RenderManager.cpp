@@ -211,15 +211,16 @@ void RenderManager::configureShaders(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
   this->transmittance_.attach();
-  bool writes = true;
+  Numbering numbering = Numbering::None;
   if (frame.route() != Route::Inline)
   {
     this->receivers_.findStale(s);
-    writes = writesNumbers({ this->receivers_.countRest(), frame.scene.picture.severalViews,
-      frame.scene.props.triangles, this->collector_.occluders().surfaces.size() });
+    numbering =
+      numberingOf({ frame.route(), this->receivers_.countRest(), frame.scene.picture.severalViews,
+        frame.scene.props.triangles, this->collector_.occluders().surfaces.size() });
   }
   this->programs_.shaders.configure(
-    { frame.route(), this->receivers_.readsPoints(), frame.scene.picture.samples > 1, writes,
+    { frame.route(), this->receivers_.readsPoints(), frame.scene.picture.samples > 1, numbering,
       this->stageValues_.viewFromVtkView == glm::dmat4(1.0), frame.scene.props.seenThrough,
       frame.scene.props.catcher, frame.plan.layers, frame.plan.bits,
       frame.plan.sky ? frame.plan.sky->layer : noSkyLayer, frame.plan.edgeBit,

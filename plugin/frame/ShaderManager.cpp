@@ -88,6 +88,10 @@ int ShaderManager::bindTexture(const TextureBinding& texture)
 void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues& values)
 {
   this->window_ = window;
+  if (this->glsl_.serve(values.receiversStage))
+  {
+    this->stageTime_.Modified();
+  }
   this->layersSize_ = values.layersSize;
   this->reductionFactor_ = values.receiversStage ? 1 : values.reductionFactor;
   this->layersFit_ = true;

@@ -89,6 +89,30 @@ NumberCheck TriangleNumbers::check(const ReceiverImages& images, const NumberTru
 }
 
 //------------------------------------------------------------------------------
+std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader)
+{
+  const std::string main = "\nvoid main(";        // comments begin otherwise
+  const std::string body = "//VTK::PrimID::Impl"; // of VTK's geometry shaders
+  const std::size_t begin = vertexShader.rfind(main);
+  if (begin == std::string::npos ||
+    (!geometryShader.empty() && geometryShader.find(body) == std::string::npos))
+  {
+    return "uniform int gnomonDrawn;\n#define gnomonDrawnVSOutput ivec2(gnomonDrawn, 0)\n";
+  }
+  // Programs of both stages place a surface at the same pixels.
+  vertexShader.replace(begin, main.size(), "\ninvariant gl_Position;\n\nvoid gnomonMain(");
+  vertexShader += "\n" + frameShaders().at("plugin/frame/hook_drawn.vert.glsl");
+  // With a geometry shader, VTK makes the fragment shader read its outputs instead.
+  vtkShaderProgram::Substitute(geometryShader, "//VTK::PrimID::Dec",
+    "flat in ivec2 gnomonDrawnVSOutput[];\nflat out ivec2 gnomonDrawnGSOutput;\n"
+    "//VTK::PrimID::Dec",
+    false);
+  vtkShaderProgram::Substitute(
+    geometryShader, body, "gnomonDrawnGSOutput = gnomonDrawnVSOutput[i];\n    " + body, false);
+  return "flat in ivec2 gnomonDrawnVSOutput;\n";
+}
+
+//------------------------------------------------------------------------------
 std::string numberingShader(const std::string& vertexShader, int corners)
 {
   static const std::regex output(

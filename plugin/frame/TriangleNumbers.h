@@ -48,6 +48,13 @@ private:
   int stagesWaited_ = 0;
 };
 
+/// Make the vertex shader hand the drawn surface's number and the instance's first primitive to the
+/// fragment shader, as `gnomonDrawnVSOutput` (hook_drawn.vert.glsl). Call it before VTK's
+/// replacements.
+/// @return the fragment shader's declarations. They read the uniform, without instances, if the
+/// vertex shader's main is not found or a geometry shader lacks VTK's marks.
+std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader);
+
 /// Return a geometry shader that draws a vertex shader's primitives unchanged and hands the
 /// fragment shader their numbers, as `flat in int gnomonPrimitiveGSOutput`.
 /// @param vertexShader whose outputs it hands on

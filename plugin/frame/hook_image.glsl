@@ -5,4 +5,4 @@
 
 uniform sampler2DArray gnomonLayers;
 uniform ivec2 gnomonOrigin; // the window pixel of the layers' first pixel
-uniform int gnomonStage;    // 1: the receivers stage
+// gnomonStage is 1 in the receivers stage.

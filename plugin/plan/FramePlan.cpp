@@ -252,12 +252,19 @@ FramePlan planDrawing(FramePlan plan, const Scene& scene, const FrameWishes& wis
 }
 
 //------------------------------------------------------------------------------
-bool writesNumbers(const NumberingFacts& facts)
+Numbering numberingOf(const NumberingFacts& facts)
 {
   constexpr int patience = 3; // frames
   constexpr std::size_t leastTriangles = 1000;
-  return facts.restingFrames < patience || facts.severalViews ||
-    facts.triangles < leastTriangles * facts.surfaces;
+  if (facts.triangles < leastTriangles * facts.surfaces)
+  {
+    return Numbering::All;
+  }
+  if (facts.route == Route::Image)
+  {
+    return Numbering::Receivers;
+  }
+  return facts.restingFrames < patience || facts.severalViews ? Numbering::All : Numbering::None;
 }
 
 //------------------------------------------------------------------------------

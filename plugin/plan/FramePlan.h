@@ -74,19 +74,20 @@ FramePlan planTechniques(FramePlan plan, const Scene& scene, const FrameWishes& 
 FramePlan planDrawing(FramePlan plan, const Scene& scene, const FrameWishes& wishes);
 ///@}
 
-/// Facts that decide if shaders write triangle numbers.
+/// Facts that decide which programs write triangle numbers.
 struct NumberingFacts
 {
-  int restingFrames = 0; ///< in a row that kept their receivers
+  Route route = Route::Deferred; ///< that draws receivers
+  int restingFrames = 0;         ///< in a row that kept their receivers
   bool severalViews = false;
   std::size_t triangles = 0;
   std::size_t surfaces = 0;
 };
-/// True if shaders write triangle numbers, whether or not this frame takes them. On llvmpipe they
-/// cost 25 ns a triangle or more, even where no image takes them. Switching them off makes VTK
-/// rebuild shaders, which costs some 0.2 ms a surface. So it waits until receivers rest, and for
-/// scenes where eight frames pay for it.
-bool writesNumbers(const NumberingFacts& facts);
+/// Return the programs that write triangle numbers. On llvmpipe these cost 25 ns a triangle or
+/// more, even where no image takes them. Other programs make VTK rebuild shaders: 0.05 to 0.2 ms a
+/// surface. So there are others for large meshes alone. On the deferred route one drawing shades
+/// and numbers, so others wait until receivers rest.
+Numbering numberingOf(const NumberingFacts& facts);
 
 /// Facts that decide if receivers are stored before rays start from them.
 struct TracingFacts

@@ -18,6 +18,14 @@ enum class Route
   Deferred
 };
 
+/// The programs that write triangle numbers.
+enum class Numbering
+{
+  All,       ///< all, in frames that take them and in others
+  Receivers, ///< image route: those that draw receivers and nothing else
+  None
+};
+
 /// A frame's route, and why.
 struct RouteChoice
 {

@@ -2,6 +2,7 @@
 // that the pixel's ray hits.
 
 #include "plugin/frame/ShaderManager.h"
+#include "plugin/frame/TriangleNumbers.h"
 #include "plugin/scene/OccluderCollector.h"
 
 #include "TestData.h"

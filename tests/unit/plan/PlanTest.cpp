@@ -821,13 +821,21 @@ TEST(MotionTimes, forgetRaysThatAreNotTaken)
   EXPECT_GT(limitOf(wishes, times), 80.0);
 }
 
-TEST(FramePlans, writeNumbersUntilReceiversRest)
+TEST(FramePlans, numberLargeMeshesWhereImagesTakeNumbers)
 {
-  EXPECT_TRUE(writesNumbers({ 2, false, 100000, 1 })) << "they do not rest long enough";
-  EXPECT_FALSE(writesNumbers({ 3, false, 100000, 1 }));
-  EXPECT_FALSE(writesNumbers({ 3, false, 1000, 1 }));
-  EXPECT_TRUE(writesNumbers({ 3, false, 999, 1 })) << "rebuilt shaders cost more";
-  EXPECT_TRUE(writesNumbers({ 3, true, 100000, 1 })) << "another view may need them";
+  const auto onDeferred = [](int restingFrames, bool severalViews, std::size_t triangles) {
+    return numberingOf({ Route::Deferred, restingFrames, severalViews, triangles, 1 });
+  };
+  EXPECT_EQ(onDeferred(2, false, 100000), Numbering::All) << "they do not rest long enough";
+  EXPECT_EQ(onDeferred(3, false, 100000), Numbering::None);
+  EXPECT_EQ(onDeferred(3, false, 1000), Numbering::None);
+  EXPECT_EQ(onDeferred(3, false, 999), Numbering::All) << "rebuilt shaders cost more";
+  EXPECT_EQ(onDeferred(3, true, 100000), Numbering::All) << "another view may need them";
+  for (const int restingFrames : { 0, 3 })
+  {
+    EXPECT_EQ(numberingOf({ Route::Image, restingFrames, false, 2000, 2 }), Numbering::Receivers);
+    EXPECT_EQ(numberingOf({ Route::Image, restingFrames, false, 1999, 2 }), Numbering::All);
+  }
 }
 
 TEST(FramePlans, storeReceiversForManyImages)

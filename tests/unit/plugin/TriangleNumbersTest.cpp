@@ -278,5 +278,28 @@ TEST_P(NumberedKinds, areSeenTheSameByGeometryShaders)
   EXPECT_FALSE(right.report().numbersByGeometryShaders);
 }
 
+/// With many triangles a surface, receivers have programs of their own, which VTK rebuilds.
+TEST_P(NumberedKinds, areSeenTheSameByProgramsOfTheirOwn)
+{
+  const MatrixKind& kind = matrixKinds()[GetParam() % matrixKinds().size()];
+  const MatrixLook& look = matrixLooks()[GetParam() % imageBasedLook()];
+  std::vector<Picture> pictures;
+  std::vector<std::vector<float>> visibility;
+  for (const int around : { 8, 240 })
+  {
+    MatrixScene scene(kind, look);
+    scene.add(ballOf({ 0.0, 0.0, -0.5 }, 0.01, around, around / 2)); // under the floor
+    matrixLights().front().add(scene);
+    scene.choose({ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+    drawKept(scene);
+    scene.renderer->GetActiveCamera()->Azimuth(5.0);
+    visibility.push_back(drawKept(scene).visibility.at(0));
+    EXPECT_EQ(scene.report().programCompiles > 0, around == 240);
+    pictures.push_back(scene.render());
+  }
+  EXPECT_EQ(visibility[0], visibility[1]);
+  EXPECT_EQ(differingPixels(pictures[0], pictures[1]), 0u);
+}
+
 } // namespace
 } // namespace gnomon::test
