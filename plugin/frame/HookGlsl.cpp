@@ -63,9 +63,9 @@ std::string multiplicationOf(const CastingLight& casting, int light, const std::
 /// constant saves the shader most of its second lighting.
 std::string darkeningOf(const CastingLight& casting, int light)
 {
+  const std::string index = std::to_string(casting.lightInShaders().shaderIndex);
   return casting.lightInShaders().strength < 1.0 ? multiplicationOf(casting, light, "0.0")
-                                                 : "  vec3 lightColor" +
-      std::to_string(casting.lightInShaders().shaderIndex) + " = vec3(0.0);\n";
+                                                 : "  vec3 lightColor" + index + " = vec3(0.0);\n";
 }
 
 /// Return statements before VTK's lighting for shaders that draw a solid on a sprite. They replace

@@ -60,7 +60,7 @@ public:
   HookGlsl() = default;
   HookGlsl(const HookVariant& variant, const CastingLights& lights);
 
-  /// True if both are alike, whatever stage they serve.
+  /// True if both are alike but for the stage that they serve.
   bool operator==(const HookGlsl& other) const;
 
   /// Serve a stage.

@@ -169,8 +169,9 @@ void RenderManager::readPicture(
   picture.mayRefine = mayRefine;
   picture.drawnPlainly =
     drawnPlainly && !renderer->GetUseSSAO() && !renderer->GetUseHiddenLineRemoval();
+  picture.inSoftware = drawsInSoftware();
   picture.factors =
-    this->frame_.wishes.factors ? *this->frame_.wishes.factors : defaultFactors(drawsInSoftware());
+    this->frame_.wishes.factors ? *this->frame_.wishes.factors : defaultFactors(picture.inSoftware);
 }
 
 //------------------------------------------------------------------------------
@@ -215,9 +216,9 @@ void RenderManager::configureShaders(const vtkRenderState* s)
   if (frame.route() != Route::Inline)
   {
     this->receivers_.findStale(s);
-    numbering =
-      numberingOf({ frame.route(), this->receivers_.countRest(), frame.scene.picture.severalViews,
-        frame.scene.props.triangles, this->collector_.occluders().surfaces.size() });
+    numbering = numberingOf({ frame.route(), frame.scene.picture.inSoftware,
+      this->receivers_.countRest(), frame.scene.picture.severalViews, frame.scene.props.triangles,
+      this->collector_.occluders().surfaces.size() });
   }
   this->programs_.shaders.configure(
     { frame.route(), this->receivers_.readsPoints(), frame.scene.picture.samples > 1, numbering,
@@ -402,8 +403,8 @@ void RenderManager::endFrame(const vtkRenderState* s)
     totals.bytesImages +=
       this->views_.bytesOfImages() + this->visibility_.bytesOfRays() + this->tracer_.bytesOfRays();
   }
-  const bool isTimed =
-    frame.wishes.timeBudget > 0.0 || (frame.wishes.windowTime > 0.0 && drawsInSoftware());
+  const bool isTimed = frame.wishes.timeBudget > 0.0 ||
+    (frame.wishes.windowTime > 0.0 && frame.scene.picture.inSoftware);
   if (frame.plan.moves && isTimed)
   {
     glFinish(); // so that the frame's time is known

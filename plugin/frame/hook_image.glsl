@@ -5,4 +5,4 @@
 
 uniform sampler2DArray gnomonLayers;
 uniform ivec2 gnomonOrigin; // the window pixel of the layers' first pixel
-// gnomonStage is 1 in the receivers stage.
+// gnomonStage: 1 in the receivers stage; a constant in programs of one stage

@@ -260,7 +260,7 @@ Numbering numberingOf(const NumberingFacts& facts)
   {
     return Numbering::All;
   }
-  if (facts.route == Route::Image)
+  if (facts.route == Route::Image && facts.inSoftware)
   {
     return Numbering::Receivers;
   }

@@ -78,6 +78,7 @@ FramePlan planDrawing(FramePlan plan, const Scene& scene, const FrameWishes& wis
 struct NumberingFacts
 {
   Route route = Route::Deferred; ///< that draws receivers
+  bool inSoftware = false;       ///< ScenePicture::inSoftware
   int restingFrames = 0;         ///< in a row that kept their receivers
   bool severalViews = false;
   std::size_t triangles = 0;
@@ -85,8 +86,8 @@ struct NumberingFacts
 };
 /// Return the programs that write triangle numbers. On llvmpipe these cost 25 ns a triangle or
 /// more, even where no image takes them. Other programs make VTK rebuild shaders: 0.05 to 0.2 ms a
-/// surface. So there are others for large meshes alone. On the deferred route one drawing shades
-/// and numbers, so others wait until receivers rest.
+/// surface. So there are others for large meshes alone, and in motion on llvmpipe alone. On the
+/// deferred route one drawing shades and numbers, so others wait until receivers rest.
 Numbering numberingOf(const NumberingFacts& facts);
 
 /// Facts that decide if receivers are stored before rays start from them.

@@ -84,6 +84,7 @@ struct ScenePicture
   bool mayRefine = false;    ///< more frames at rest follow an unfinished one
   bool drawnPlainly = true;  ///< no pass and no mode of the renderer draws props in its own way
   bool drawsMaps = true;     ///< OpenGL is new enough for techniques on the GPU
+  bool inSoftware = false;   ///< OpenGL draws on the CPU
   CostFactors factors{};
 };
 

@@ -4,19 +4,15 @@
 #include "plugin/scene/SolidSizes.h"
 #include "plugin/scene/SurfaceRecord.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtk_versions/CompositeMappers.h"
 #include "shadowtech/base/Occluders.h"
 
 #include "vtkActor.h"
-#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataSet.h"
 #include "vtkMapper.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkUnsignedCharArray.h"
-
-#if GNOMON_VTK_HAS_BLOCK_HELPERS
-#include "vtkCompositePolyDataMapper2.h"
-#endif
 
 #include <algorithm>
 #include <cstddef>
@@ -77,20 +73,6 @@ std::vector<vtkIdType> cellsOfTriangles(
     }
   }
   return cellOf;
-}
-
-/// True if blocks of composite data may have other opacities than their actor.
-bool mayBlocksDiffer(vtkMapper* mapper)
-{
-#if GNOMON_VTK_HAS_BLOCK_HELPERS
-  if (auto* const composite = vtkCompositePolyDataMapper2::SafeDownCast(mapper))
-  {
-    vtkCompositeDataDisplayAttributes* const looks = composite->GetCompositeDataDisplayAttributes();
-    return looks && looks->HasBlockOpacities();
-  }
-#endif
-  static_cast<void>(mapper);
-  return true;
 }
 
 } // namespace

@@ -61,10 +61,15 @@ bool hasBlockBatches(vtkMapper* mapper)
 }
 
 //------------------------------------------------------------------------------
+vtkCompositeDataDisplayAttributes* looksOfBatches(vtkMapper* mapper)
+{
+  return static_cast<vtkCompositePolyDataMapper*>(mapper)->GetCompositeDataDisplayAttributes();
+}
+
+//------------------------------------------------------------------------------
 std::vector<vtkPolyData*> blocksOfBatches(vtkActor* actor, vtkMapper* mapper, bool translucent)
 {
-  auto* composite = static_cast<vtkCompositePolyDataMapper*>(mapper);
-  const BlockWalk walk(actor, mapper, composite->GetCompositeDataDisplayAttributes(), true);
+  const BlockWalk walk(actor, mapper, looksOfBatches(mapper), true);
   return walk.drawn(translucent);
 }
 

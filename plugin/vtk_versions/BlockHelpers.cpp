@@ -41,10 +41,15 @@ bool hasBlockHelpers(vtkMapper* mapper)
 }
 
 //------------------------------------------------------------------------------
+vtkCompositeDataDisplayAttributes* looksOfHelpers(vtkMapper* mapper)
+{
+  return static_cast<vtkCompositePolyDataMapper2*>(mapper)->GetCompositeDataDisplayAttributes();
+}
+
+//------------------------------------------------------------------------------
 std::vector<vtkPolyData*> blocksOfHelpers(vtkActor* actor, vtkMapper* mapper, bool translucent)
 {
-  auto* composite = static_cast<vtkCompositePolyDataMapper2*>(mapper);
-  const BlockWalk walk(actor, mapper, composite->GetCompositeDataDisplayAttributes(), false);
+  const BlockWalk walk(actor, mapper, looksOfHelpers(mapper), false);
   return walk.drawn(translucent);
 }
 

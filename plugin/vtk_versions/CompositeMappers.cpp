@@ -2,6 +2,8 @@
 
 #include "plugin/vtk_versions/BlockDrawers.h"
 
+#include "vtkCompositeDataDisplayAttributes.h"
+
 namespace gnomon
 {
 
@@ -34,6 +36,24 @@ std::vector<vtkPolyData*> drawnBlocks(vtkActor* actor, vtkMapper* mapper, bool t
   return blocksOfBatches(actor, mapper, translucent);
 #else
   return blocksOfParts(mapper, translucent);
+#endif
+}
+
+//------------------------------------------------------------------------------
+bool mayBlocksDiffer(vtkMapper* mapper)
+{
+  const auto differ = [](vtkCompositeDataDisplayAttributes* looks)
+  { return looks && looks->HasBlockOpacities(); };
+#if GNOMON_VTK_HAS_BLOCK_HELPERS
+  if (hasBlockHelpers(mapper))
+  {
+    return differ(looksOfHelpers(mapper));
+  }
+#endif
+#if GNOMON_VTK_HAS_BLOCK_BATCHES
+  return differ(looksOfBatches(mapper));
+#else
+  return true;
 #endif
 }
 

@@ -31,6 +31,9 @@ BlockDrawing blockDrawing(vtkMapper* mapper);
 /// @param mapper whose blockDrawing() is not None
 std::vector<vtkPolyData*> drawnBlocks(vtkActor* actor, vtkMapper* mapper, bool translucent);
 
+/// True if blocks of a mapper of composite data may have other opacities than their actor.
+bool mayBlocksDiffer(vtkMapper* mapper);
+
 /// One draw call of a mapper that is about to draw. Its first triangle has the primitive number
 /// `firstPrimitive`, as gl_PrimitiveID + PrimitiveIDOffset.
 struct DrawCall

@@ -824,18 +824,23 @@ TEST(MotionTimes, forgetRaysThatAreNotTaken)
 TEST(FramePlans, numberLargeMeshesWhereImagesTakeNumbers)
 {
   const auto onDeferred = [](int restingFrames, bool severalViews, std::size_t triangles) {
-    return numberingOf({ Route::Deferred, restingFrames, severalViews, triangles, 1 });
+    return numberingOf({ Route::Deferred, true, restingFrames, severalViews, triangles, 1 });
   };
   EXPECT_EQ(onDeferred(2, false, 100000), Numbering::All) << "they do not rest long enough";
   EXPECT_EQ(onDeferred(3, false, 100000), Numbering::None);
   EXPECT_EQ(onDeferred(3, false, 1000), Numbering::None);
   EXPECT_EQ(onDeferred(3, false, 999), Numbering::All) << "rebuilt shaders cost more";
   EXPECT_EQ(onDeferred(3, true, 100000), Numbering::All) << "another view may need them";
+  const auto onImage = [](bool inSoftware, int restingFrames, std::size_t triangles) {
+    return numberingOf({ Route::Image, inSoftware, restingFrames, false, triangles, 2 });
+  };
   for (const int restingFrames : { 0, 3 })
   {
-    EXPECT_EQ(numberingOf({ Route::Image, restingFrames, false, 2000, 2 }), Numbering::Receivers);
-    EXPECT_EQ(numberingOf({ Route::Image, restingFrames, false, 1999, 2 }), Numbering::All);
+    EXPECT_EQ(onImage(true, restingFrames, 2000), Numbering::Receivers);
+    EXPECT_EQ(onImage(true, restingFrames, 1999), Numbering::All);
   }
+  EXPECT_EQ(onImage(false, 0, 2000), Numbering::All) << "a GPU would wait for rebuilt shaders";
+  EXPECT_EQ(onImage(false, 3, 2000), Numbering::None);
 }
 
 TEST(FramePlans, storeReceiversForManyImages)
