@@ -112,7 +112,6 @@ public:
     OVERCAST = 2 ///< CIE's overcast sky: three times as bright in the zenith as at the horizon
   };
 
-  ///@{
   /**
    * Add the light of a sky, or replace it: 1/pi times the integral of its radiance and the cosine,
    * over the directions that nothing hides. Of `directions` rays from each element their density is
@@ -122,9 +121,13 @@ public:
    * times that, with 16 to 4,096 directions.
    *
    * @param model a SkyModelType; DOME and OVERCAST need an Up
-   * @param directions a power of two in [16, 65536]; GetSkyDirections gives 0 without a sky
+   * @param directions a power of two in [16, 65536]
    */
   void AddSky(int model, int directions = 1024);
+  ///@{
+  /**
+   * The sky that was added; 0 directions without one.
+   */
   int GetSkyModel();
   int GetSkyDirections();
   ///@}

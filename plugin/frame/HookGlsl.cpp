@@ -298,8 +298,9 @@ std::string HookGlsl::lightOfSky(const std::string& fragmentShader, const std::s
     return "";
   }
   // Edges of meshes have their colour in the ambient term, and are unlit.
-  static const std::regex edges(R"(mix\(\s*ambientColor, edgeColor, emix\))");
-  const std::string share = std::regex_search(fragmentShader, edges) ? "emix" : "0.0";
+  static const std::regex edges(R"(mix\(\s*ambientColor, edgeColor, (emix[^)]*)\))");
+  std::smatch edge;
+  const std::string share = std::regex_search(fragmentShader, edge, edges) ? edge.str(1) : "0.0";
   return "  gnomonSkyView = " + view +
     ";\n  ambientColor = mix(\n"
     "    gnomonSkyView * (ambientColor + gnomonSkyLight * diffuseColor), ambientColor, " +
@@ -425,8 +426,7 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
       {
         end = "    if (gnomonTranslucent == 1) discard; // it hides no receiver\n" + end;
       }
-      // VTK lights in both stages: its discard cuts holes of textures by the colour's alpha, a
-      // user's code may by the rest. The receivers stage draws no colour.
+      // VTK lights in both stages: its discard of a hole, and a user's, read the colour.
       end = "if (gnomonStage == 1)\n  {\n" + end + "  }\n";
       if (receives && this->receiversStage_)
       {

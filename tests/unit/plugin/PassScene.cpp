@@ -1,5 +1,6 @@
 #include "PassScene.h"
 
+#include "plugin/plan/CostModel.h"
 #include "shadowtech/base/Gl.h"
 
 #include <vtkRenderPass.h>
@@ -324,6 +325,11 @@ bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec
 {
   const auto [first, last] = spanIn({ lower, upper }, glm::dvec3(floor, 0.0), toLight, end);
   return first <= last;
+}
+
+bool isOnGpu()
+{
+  return !isSoftwareRenderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
 }
 
 const VisibilityImages& drawKept(PassScene& scene, const char* text)

@@ -253,6 +253,9 @@ std::pair<double, double> spanIn(
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
   const glm::dvec3& upper, double end = 1e300);
 
+/// True if OpenGL draws on a GPU, whose memory may have room for huge maps.
+bool isOnGpu();
+
 /// The cone angle of a light that shines in all directions, in degrees.
 inline constexpr double allDirections = 180.0;
 

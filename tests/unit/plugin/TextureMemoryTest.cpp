@@ -4,9 +4,6 @@
 #include "LiveObjects.h"
 #include "PassScene.h"
 
-#include "plugin/plan/CostModel.h"
-#include "shadowtech/base/Gl.h"
-
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -21,12 +18,6 @@ namespace
 
 /// 6 layers of 1 GiB, for which software OpenGL has no room at all.
 constexpr int hugeMap = 16384;
-
-/// True if OpenGL's memory is a GPU's, which may have room for huge maps.
-bool isOnGpu()
-{
-  return !gnomon::isSoftwareRenderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
-}
 
 class TextureMemory : public PassTest
 {

@@ -278,7 +278,7 @@ TEST_P(NumberedKinds, areSeenTheSameByGeometryShaders)
   EXPECT_FALSE(right.report().numbersByGeometryShaders);
 }
 
-/// With many triangles a surface, receivers have programs of their own, which VTK rebuilds.
+/// With many triangles a surface, llvmpipe draws receivers by programs that VTK rebuilds.
 TEST_P(NumberedKinds, areSeenTheSameByProgramsOfTheirOwn)
 {
   const MatrixKind& kind = matrixKinds()[GetParam() % matrixKinds().size()];
@@ -294,7 +294,7 @@ TEST_P(NumberedKinds, areSeenTheSameByProgramsOfTheirOwn)
     drawKept(scene);
     scene.renderer->GetActiveCamera()->Azimuth(5.0);
     visibility.push_back(drawKept(scene).visibility.at(0));
-    EXPECT_EQ(scene.report().programCompiles > 0, around == 240);
+    EXPECT_EQ(scene.report().programCompiles > 0, around == 240 && !isOnGpu());
     pictures.push_back(scene.render());
   }
   EXPECT_EQ(visibility[0], visibility[1]);
