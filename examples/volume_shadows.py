@@ -19,7 +19,7 @@ Samples = numpy.ndarray[Any, numpy.dtype[numpy.floating[Any]]]
 def grid() -> list[Samples]:
     """Coordinates of the samples of a cube from -1 to 1, as x, y, z."""
     axis = numpy.linspace(-1, 1, SIDE)
-    return numpy.meshgrid(axis, axis, axis, indexing="ij")[::-1]
+    return list(numpy.meshgrid(axis, axis, axis, indexing="ij"))[::-1]
 
 
 def porous_ball() -> Samples:
