@@ -19,7 +19,7 @@ struct CastingLight
   const LightPlan& plan;
   LightTechnique* own;                           ///< lasts as long as the frame, as the next
   LightTechnique* atPoints = nullptr;            ///< of ShadedBy::AtPoints; else null
-  std::optional<ShadowLight> lightOfPoints = {}; ///< that has this technique; else none
+  std::optional<ShadowLight> lightOfPoints = {}; ///< of `atPoints`; none without
   LightCounts counts = {};
   bool isStale = true;       ///< true if this frame computes its visibility for all pixels
   bool mayKeepTiles = false; ///< and true if the changes may leave some tiles valid

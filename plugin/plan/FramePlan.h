@@ -84,10 +84,11 @@ struct NumberingFacts
   std::size_t triangles = 0;
   std::size_t surfaces = 0;
 };
-/// Return the programs that write triangle numbers. On llvmpipe these cost 25 ns a triangle or
-/// more, even where no image takes them. Other programs make VTK rebuild shaders: 0.05 to 0.2 ms a
-/// surface. So there are others for large meshes alone, and in motion on llvmpipe alone. On the
-/// deferred route one drawing shades and numbers, so others wait until receivers rest.
+/// Return the programs that write triangle numbers. On llvmpipe numbers cost 25 ns a triangle or
+/// more, even where no image takes them. To change the programs, VTK rebuilds their shaders, which
+/// takes 0.05 to 0.2 ms a surface: large meshes alone pay for that. On llvmpipe the image route
+/// changes them within each frame that draws receivers. A GPU would lose by that, and the deferred
+/// route has one drawing, so there the change waits until receivers rest.
 Numbering numberingOf(const NumberingFacts& facts);
 
 /// Facts that decide if receivers are stored before rays start from them.

@@ -38,7 +38,8 @@ struct LightPlan
   ShadowLight light;
   const EstimatorEntry* estimator = nullptr;
   const EstimatorEntry* resting = nullptr; ///< its estimator while the picture rests
-  /// The scene's light that leaves its technique to the pass; null for others.
+  /// The request of a light that leaves its technique to the pass: the scene's light, in world
+  /// coordinates, which lasts as long as the frame's scene. Null for others.
   const ShadowLight* asked = nullptr;
   /// The largest map that a memory budget allows such a light.
   int mostMapTexels = std::numeric_limits<int>::max();

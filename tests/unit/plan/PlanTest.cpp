@@ -684,6 +684,39 @@ TEST(FramePlans, bringLightsIntoTheScenesFrame)
   EXPECT_EQ(plan.lights.size() + plan.skipped.size(), 2u);
 }
 
+TEST(RayIdentities, differWithAllThatDecidesRays)
+{
+  const auto changed = [](void (*change)(ShadowLight&))
+  {
+    ShadowLight light;
+    light.box = LightBox{ 1.0, 1.0, 1.0 };
+    light.area = ballArea(1.0);
+    light.texture.emplace();
+    change(light);
+    return identityOf(light);
+  };
+  using L = ShadowLight;
+  const RayIdentity before = changed([](L&) {});
+  const std::vector<void (*)(L&)> ofCentre = { [](L& l) { l.kind = LightKind::Spot; },
+    [](L& l) { l.positionWorld.z = 1.0; }, [](L& l) { l.directionWorld.x = 1.0; },
+    [](L& l) { l.coneAngleDegrees = 30.0; }, [](L& l) { l.box.reset(); },
+    [](L& l) { l.box->width = 2.0; }, [](L& l) { l.box->height = 2.0; },
+    [](L& l) { l.box->depth = 2.0; }, [](L& l) { l.box->upWorld.x = 1.0; },
+    [](L& l) { l.texture.reset(); }, [](L& l) { l.texture->pictureFromWorld[0][0] = 3.0f; } };
+  for (std::size_t i = 0; i < ofCentre.size(); ++i)
+  {
+    EXPECT_NE(changed(ofCentre[i]).centre, before.centre) << i;
+    EXPECT_EQ(changed(ofCentre[i]).area, before.area) << i;
+  }
+  for (const auto change : std::vector<void (*)(L&)>{ [](L& l) { l.area = ballArea(2.0); },
+         [](L& l) { l.area->shape = LightArea::Shape::Disk; }, [](L& l) { l.area.reset(); } })
+  {
+    EXPECT_EQ(changed(change).centre, before.centre);
+    EXPECT_NE(changed(change).area, before.area);
+  }
+  EXPECT_EQ(changed([](L& l) { l.intensity = 2.0; }), before) << "no ray depends on it";
+}
+
 /// A technique without samples of areas sees the centre alone: it knows nothing of an area's size.
 TEST(FramePlans, identifyLightsByWhatTheirTechniquesSee)
 {
