@@ -18,6 +18,9 @@ namespace
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
+/// Far above the rounding of a few products, relative to the largest.
+constexpr double clearly = 0x1p-40;
+
 /// Return where the line o + t d is within a distance of the origin. Both vectors lie in a plane or
 /// in space.
 std::optional<Crossing> crossBall(const glm::dvec3& o, const glm::dvec3& d, double radius)
@@ -37,6 +40,34 @@ std::optional<Crossing> crossBall(const glm::dvec3& o, const glm::dvec3& d, doub
   }
   const double half = std::sqrt(rest / lengthSquared);
   return Crossing{ middle - half, middle + half };
+}
+
+/// Return what a ball does to most rays: whether it blocks them; none if rounding might decide that
+/// otherwise than crossBall(), which divides and takes a root.
+/// @param from the ray's origin, relative to the ball's centre
+std::optional<bool> clearlyBlocks(
+  double radius, const glm::dvec3& from, const glm::dvec3& direction, double far)
+{
+  const double lengthSquared = glm::dot(direction, direction);
+  const double toMiddle = -glm::dot(from, direction); // in squared lengths of the direction
+  const double squares = glm::dot(from, from) + radius * radius;
+  const double outside = glm::dot(from, from) - radius * radius;
+  const double discriminant = toMiddle * toMiddle - lengthSquared * outside;
+  if (discriminant < -clearly * squares * lengthSquared)
+  {
+    return false;
+  }
+  if (!(outside > clearly * squares))
+  {
+    return std::nullopt;
+  }
+  if (toMiddle < 0.0)
+  {
+    return false; // behind the ray
+  }
+  const bool blocks = discriminant > clearly * squares * lengthSquared &&
+    toMiddle < (1.0 - clearly) * far * lengthSquared;
+  return blocks ? std::optional(true) : std::nullopt;
 }
 
 /// Return where the line is between a cylinder's ends.
@@ -80,6 +111,19 @@ std::optional<Crossing> crossCylinder(
   const Crossing both{ std::max(around->enters, between->enters),
     std::min(around->leaves, between->leaves) };
   return both.enters <= both.leaves ? std::optional(both) : std::nullopt;
+}
+
+/// Return false if a line passes a cylinder's axis at more than its radius, as most lines through
+/// its box do; none if it may meet the cylinder or its balls.
+std::optional<bool> clearlyPasses(
+  const PlacedSolid& solid, const glm::dvec3& from, const glm::dvec3& direction)
+{
+  const glm::dvec3 across = glm::cross(direction, solid.axis);
+  const double apart = glm::dot(from, across);
+  const double squares = glm::dot(from, from) + solid.radius * solid.radius;
+  const bool passes = apart * apart > solid.radius * solid.radius * glm::dot(across, across) +
+      clearly * squares * glm::dot(direction, direction);
+  return passes ? std::optional(false) : std::nullopt;
 }
 
 /// Return the point of a solid's surface below a point outside, or above a point inside. A point on
@@ -238,6 +282,14 @@ std::optional<Crossing> crossingOf(
 bool blocks(const PlacedSolid& solid, bool oneSided, const glm::dvec3& origin,
   const glm::dvec3& direction, double far)
 {
+  const glm::dvec3 from = origin - solid.centre;
+  const std::optional<bool> clear = solid.kind == Solid::Sphere
+    ? clearlyBlocks(solid.radius, from, direction, far)
+    : clearlyPasses(solid, from, direction);
+  if (clear)
+  {
+    return *clear;
+  }
   const auto crossing = crossingOf(solid, origin, direction);
   const auto isAhead = [far](double t) { return t >= 0.0 && t <= far; };
   const bool onlyOutside = oneSided || solid.kind == Solid::Tube;

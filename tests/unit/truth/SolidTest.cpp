@@ -145,6 +145,34 @@ TEST_P(Solids, linesCrossThemWhereTheyAreInside)
   EXPECT_GT(crossed, 4000);
 }
 
+/// Lines that touch at distances down to rounding, from all around and from inside.
+TEST_P(Solids, raysAreBlockedWhereTheirLinesCross)
+{
+  Random random(9);
+  int blocked = 0;
+  for (int i = 0; i < 200000; ++i)
+  {
+    const PlacedSolid solid = placedSolid(GetParam(), anySolid(random, GetParam(), 10.0));
+    const glm::dvec3 direction = unitVector(random) * std::exp2(uniform(random, -20.0, 20.0));
+    const glm::dvec3 axis = GetParam() == Solid::Sphere ? unitVector(random) : solid.axis;
+    const double off =
+      solid.radius * (1.0 - uniform(random, 0.0, 1.0) * std::exp2(uniform(random, -50.0, 1.0)));
+    const glm::dvec3 origin = solid.centre + off * glm::normalize(glm::cross(direction, axis)) +
+      uniform(random, -1.5, 1.5) * solid.halfLength * axis +
+      uniform(random, -3.0, 1.0) * solid.radius * glm::normalize(direction);
+    const double far = i % 2 == 0 ? INFINITY : solid.radius / glm::length(direction);
+    const bool oneSided = i % 4 < 2;
+    const auto crossing = crossingOf(solid, origin, direction);
+    const auto isAhead = [&](double t) { return crossing && t >= 0.0 && t <= far; };
+    const bool leaves = !oneSided && GetParam() != Solid::Tube && isAhead(crossing->leaves);
+    ASSERT_EQ(blocks(solid, oneSided, origin, direction, far), leaves || isAhead(crossing->enters))
+      << i;
+    blocked += isAhead(crossing->enters) ? 1 : 0;
+  }
+  EXPECT_GT(blocked, 20000);
+  EXPECT_LT(blocked, 150000);
+}
+
 TEST_P(Solids, aRayMeetsTheirSurfaceOrPassesByIt)
 {
   Random random(2);
