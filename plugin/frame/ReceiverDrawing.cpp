@@ -3,7 +3,7 @@
 #include "lights/Hash.h"
 #include "plugin/scene/ActorInternals.h"
 #include "plugin/scene/MapperKind.h"
-#include "plugin/scene/PropStamps.h"
+#include "plugin/scene/PropRecords.h"
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
@@ -164,7 +164,7 @@ bool hasOwnShaders(vtkProp* prop)
 }
 
 //------------------------------------------------------------------------------
-ShownProps readShownProps(const vtkRenderState* s, PropStamps& stamps)
+ShownProps readShownProps(const vtkRenderState* s, PropRecords& records)
 {
   ShownProps shown;
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
@@ -180,7 +180,7 @@ ShownProps readShownProps(const vtkRenderState* s, PropStamps& stamps)
     // Annotations, such as a text with the frame's time, do not change the receivers.
     if (isPlainActor(prop) || (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop)))
     {
-      hashCombine(shown.hash, stamps.of(prop, s->GetRenderer()));
+      hashCombine(shown.hash, records.stamp(prop, s->GetRenderer()));
       if (facts.ofUser)
       {
         static std::atomic<std::size_t> different{ 0 };

@@ -17,7 +17,7 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-class PropStamps;
+class PropRecords;
 
 /// Facts about the props in view, from one walk before a pass is named in their keys.
 struct ShownProps
@@ -31,8 +31,8 @@ struct ShownProps
   bool physicallyBased = false;  ///< VTK shades a part by its physically based model
   bool partsOfBothKinds = false; ///< of an assembly: drawnByPasses() is Some
 };
-/// @param stamps of this frame
-ShownProps readShownProps(const vtkRenderState* s, PropStamps& stamps);
+/// @param records of this frame
+ShownProps readShownProps(const vtkRenderState* s, PropRecords& records);
 
 /// True if a part of a prop has shaders of a user's own. They may move vertices by uniforms, whose
 /// changes VTK does not time.

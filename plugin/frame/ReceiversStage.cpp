@@ -38,8 +38,8 @@ const ShownProps& ReceiversStage::shownProps(const vtkRenderState* s)
 {
   if (!this->shownProps_)
   {
-    this->shownProps_ = readShownProps(s, this->collector_.stamps());
-    const std::vector<std::string> notes = this->collector_.stamps().notes();
+    this->shownProps_ = readShownProps(s, this->collector_.props());
+    const std::vector<std::string> notes = this->collector_.props().notes();
     this->frame_.counts.notes.insert(this->frame_.counts.notes.end(), notes.begin(), notes.end());
   }
   return *this->shownProps_;

@@ -1,7 +1,7 @@
 #include "plugin/frame/RenderManager.h"
 
 #include "lights/Hash.h"
-#include "plugin/scene/PlainProps.h"
+#include "plugin/scene/PropRecords.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/window/PictureTarget.h"
@@ -384,7 +384,7 @@ void RenderManager::endFrame(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
   const PassPrograms& programs = this->programs_;
-  this->collector_.stamps().endFrame(s->GetRenderer());
+  this->collector_.props().endFrame(s->GetRenderer());
   frame.lights.endFrame();
   frame.counts.programCompiles =
     programs.library.compiles() + programs.shaders.rebuilds() - this->compilesBefore_;

@@ -88,20 +88,19 @@ std::size_t DrawnLookup::QuestionHash::operator()(const Question& question) cons
 }
 
 //------------------------------------------------------------------------------
-void DrawnLookup::clear(std::size_t plainProps)
+void DrawnLookup::clear()
 {
   this->held_.clear();
   this->heldAt_.clear();
   this->plain_.clear();
-  this->plain_.reserve(plainProps);
-  this->plainAt_.clear();
   this->answers_.clear();
   this->taken_.clear();
 }
 
 //------------------------------------------------------------------------------
 void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
-  const glm::dmat4& worldFromModel, std::vector<HeldSurface> held, bool isPlain)
+  const glm::dmat4& worldFromModel, std::vector<HeldSurface> held,
+  std::optional<std::size_t> plainNumber)
 {
   const std::size_t number = this->held_.size();
   const bool isGlyph = held.front().isGlyph;
@@ -109,10 +108,10 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   {
     std::sort(held.begin(), held.end(), isBefore);
   }
-  if (isPlain && held.size() == 1 && this->plainAt_.emplace(actor, this->plain_.size()).second)
+  if (plainNumber && held.size() == 1)
   {
-    PlainDrawing& plain = this->plain_.emplace_back();
-    plain.prop = actor;
+    this->plain_.resize(std::max(this->plain_.size(), *plainNumber + 1));
+    PlainDrawing& plain = this->plain_[*plainNumber];
     plain.mapper = mapper;
     plain.held = number;
     const glm::dmat4 columns = glm::transpose(worldFromModel);
@@ -159,9 +158,8 @@ bool DrawnLookup::isAmong(vtkProp* prop, const std::unordered_set<const void*>& 
 std::size_t DrawnLookup::bytes() const
 {
   return bytesOf(this->held_) + bytesOfTable(this->heldAt_) + bytesOf(this->plain_) +
-    bytesOfTable(this->plainAt_) + bytesOfTable(this->answers_) +
-    bytesOfTable(this->translucentReceivers_) + bytesOfTable(this->seenThrough_) +
-    bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_) +
+    bytesOfTable(this->answers_) + bytesOfTable(this->translucentReceivers_) +
+    bytesOfTable(this->seenThrough_) + bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_) +
     bytesOfAll(this->held_, bytesOf<HeldSurface>) +
     bytesOfAll(
       this->drawnSurfaces_, [](const DrawnSurface& drawn) { return bytesOf(drawn.blocks); });
@@ -216,18 +214,13 @@ const DrawnLookup::HeldSurface* DrawnLookup::match(
 
 //------------------------------------------------------------------------------
 /// Return a plain prop's drawing, if the prop is in its place; else null.
-DrawnLookup::PlainDrawing* DrawnLookup::plainHere(vtkProp* prop)
+DrawnLookup::PlainDrawing* DrawnLookup::plainHere(vtkProp* prop, std::optional<std::size_t> number)
 {
-  if (this->nextPlain_ >= this->plain_.size() || this->plain_[this->nextPlain_].prop != prop)
+  if (!number || *number >= this->plain_.size() || !this->plain_[*number].mapper)
   {
-    const auto known = this->plainAt_.find(prop);
-    if (known == this->plainAt_.end())
-    {
-      return nullptr;
-    }
-    this->nextPlain_ = known->second;
+    return nullptr;
   }
-  PlainDrawing& plain = this->plain_[this->nextPlain_++];
+  PlainDrawing& plain = this->plain_[*number];
   // An assembly that has the actor, too, moves it while it draws.
   const bool isHere = std::equal(
     plain.worldFromModel.begin(), plain.worldFromModel.end(), prop->GetMatrix()->GetData());
@@ -277,8 +270,8 @@ std::pair<DrawnSurface, HookedSurface> DrawnLookup::matchBlocks(const HeldSurfac
 }
 
 //------------------------------------------------------------------------------
-HookedSurface DrawnLookup::find(
-  vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders)
+HookedSurface DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop,
+  std::optional<std::size_t> number, const Occluders& occluders)
 {
   const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
   if (!cells || !drawsSurface(mapper, prop, *cells))
@@ -292,7 +285,7 @@ HookedSurface DrawnLookup::find(
     drawn.translucent = true;
     return drawn;
   }
-  PlainDrawing* const here = this->plainHere(prop);
+  PlainDrawing* const here = this->plainHere(prop, number);
   PlainDrawing* const plain =
     here && here->mapper == mapper && *cells == SurfaceCells::Polygons ? here : nullptr;
   if (plain && plain->block.primitiveCount > 0)

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -59,13 +60,13 @@ public:
     std::uint32_t instances = 1;
   };
 
-  /// Remove all surfaces, and make room for those of plain props.
-  void clear(std::size_t plainProps);
+  /// Remove all surfaces.
+  void clear();
   /// Add the opaque surfaces, at least one, that a prop draws with a mapper at a place. Glyphs are
   /// in the order in which VTK draws them.
-  /// @param isPlain true if the prop is a PlainProp
+  /// @param plainNumber PropRecords::numberOf() a PlainProp; none for others
   void add(const vtkProp* actor, const vtkMapper* mapper, const glm::dmat4& worldFromModel,
-    std::vector<HeldSurface> held, bool isPlain);
+    std::vector<HeldSurface> held, std::optional<std::size_t> plainNumber);
   /// Set the actors that draw translucent receivers, and those that are seen through.
   void setDrawers(const std::vector<const void*>& translucentReceivers,
     const std::vector<const void*>& seenThrough);
@@ -77,7 +78,9 @@ public:
   bool anySeenThrough() const { return !this->seenThrough_.empty(); }
   /// Return the facts about the surface that VTK is about to draw. A mapper's lines and points are
   /// not held. Surfaces of the translucent pass are not looked up in the snapshot.
-  HookedSurface find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders);
+  /// @param number PropRecords::numberOf() the prop
+  HookedSurface find(vtkAbstractMapper* mapper, vtkProp* prop, std::optional<std::size_t> number,
+    const Occluders& occluders);
   const std::vector<DrawnSurface>& drawnSurfaces() const { return this->drawnSurfaces_; }
 
   /// Return the bytes of memory in use.
@@ -122,8 +125,7 @@ private:
   /// A plain prop's polygons, which its mapper draws in the same way until the next clear().
   struct PlainDrawing
   {
-    const vtkProp* prop = nullptr;
-    const vtkMapper* mapper = nullptr;
+    const vtkMapper* mapper = nullptr;       ///< null for other props
     std::size_t held = 0;                    ///< index into held_
     std::array<double, 16> worldFromModel{}; ///< as VTK has it, row by row
     DrawnSurface::Block block;               ///< empty until it is drawn first
@@ -132,7 +134,7 @@ private:
   };
 
   static bool isAmong(vtkProp* prop, const std::unordered_set<const void*>& drawers);
-  PlainDrawing* plainHere(vtkProp* prop);
+  PlainDrawing* plainHere(vtkProp* prop, std::optional<std::size_t> number);
   HookedSurface take(PlainDrawing& plain, const Occluders& occluders);
   std::pair<DrawnSurface, HookedSurface> matchBlocks(const HeldSurfaces& held,
     vtkAbstractMapper* mapper, SurfaceCells cells, const Occluders& occluders);
@@ -142,10 +144,8 @@ private:
   std::vector<HeldSurfaces> held_;
   /// Indices into held_ of surfaces that are in no PlainDrawing.
   std::unordered_map<Place, std::size_t, PlaceHash> heldAt_;
-  std::vector<PlainDrawing> plain_;
-  std::unordered_map<const vtkProp*, std::size_t> plainAt_; ///< indices into plain_
-  std::size_t nextPlain_ = 0; ///< index of the next one, if VTK draws in the snapshot's order
-  std::uint32_t frame_ = 0;   ///< number of the present one
+  std::vector<PlainDrawing> plain_; ///< by numbers of props
+  std::uint32_t frame_ = 0;         ///< number of the present one
   std::unordered_map<Question, HookedSurface, QuestionHash> answers_;
   std::unordered_set<const void*> translucentReceivers_;
   std::unordered_set<const void*> seenThrough_;

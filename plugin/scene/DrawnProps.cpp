@@ -20,7 +20,6 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 //------------------------------------------------------------------------------
 DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, TranslucentRole translucent)
 {
-  memory.stamps.beginFrame();
   memory.cutouts.beginFrame();
   memory.images.beginFrame();
   memory.volumes.beginFrame();

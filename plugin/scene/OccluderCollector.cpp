@@ -18,12 +18,11 @@ SnapshotChange OccluderCollector::collect(
 {
   const std::tuple collected(options.readsNormals, options.translucent, ranks.serial());
   const bool areSame =
-    this->propMemory_.plainProps.beginFrame(renderer->GetViewProps(), options.inputsHaveRun) &&
+    this->propMemory_.records.beginFrame(renderer->GetViewProps(), options.inputsHaveRun) &&
     this->collected_ == collected;
   this->lookup_.beginFrame();
   if (!ranks.isAny(!areSame))
   {
-    this->propMemory_.stamps.keepAll();
     return {};
   }
   this->collected_.reset(); // in case of an error
@@ -41,7 +40,8 @@ SnapshotChange OccluderCollector::collect(
     surface.block.normals = options.readsNormals ? surface.block.normals : nullptr;
   }
   const SnapshotChange change = this->surfaces_.update(wanted, std::move(drawn.volumes), ranks);
-  if (change.any)
+  const std::size_t numberings = this->propMemory_.records.numberings();
+  if (std::exchange(this->numberings_, numberings) != numberings || change.any)
   {
     this->indexProps(wanted);
     this->noteOnBoxes_ = this->noteOnBoxes(wanted);
@@ -55,8 +55,7 @@ SnapshotChange OccluderCollector::collect(
 /// Index the snapshot's surfaces by prop and matrix.
 void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
 {
-  this->lookup_.clear(static_cast<std::size_t>(std::count_if(wanted.begin(), wanted.end(),
-    [](const WantedSurface& surface) { return surface.prop->isPlain; })));
+  this->lookup_.clear();
   for (std::size_t i = 0; i < wanted.size();)
   {
     const DrawnProp& prop = *wanted[i].prop;
@@ -73,8 +72,8 @@ void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
     }
     if (!prop.translucent)
     {
-      this->lookup_.add(
-        prop.actor, prop.mapper, prop.worldFromModel, std::move(held), prop.isPlain);
+      this->lookup_.add(prop.actor, prop.mapper, prop.worldFromModel, std::move(held),
+        prop.isPlain ? std::optional(static_cast<std::size_t>(prop.number)) : std::nullopt);
     }
   }
 }
@@ -149,7 +148,8 @@ std::size_t OccluderCollector::bytes() const
 //------------------------------------------------------------------------------
 HookedSurface OccluderCollector::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
 {
-  return this->lookup_.find(mapper, prop, this->occluders());
+  return this->lookup_.find(
+    mapper, prop, this->propMemory_.records.numberOf(prop), this->occluders());
 }
 
 } // namespace gnomon

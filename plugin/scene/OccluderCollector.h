@@ -85,8 +85,8 @@ public:
   bool anySeenThrough() const { return this->lookup_.anySeenThrough(); }
   ///@}
 
-  /// The stamps of the renderer's props, of the frame that collect() has begun.
-  PropStamps& stamps() { return this->propMemory_.stamps; }
+  /// The renderer's props, of the frame that collect() has begun.
+  PropRecords& props() { return this->propMemory_.records; }
 
   /// Memory that all this holds: the snapshot, and what is remembered of each surface and prop.
   std::size_t bytes() const;
@@ -110,6 +110,7 @@ private:
   /// an error.
   std::optional<std::tuple<bool, TranslucentRole, std::uint64_t>> collected_;
   DrawnLookup lookup_;
+  std::size_t numberings_ = 0; ///< PropRecords::numberings() of the lookup
   PropMemory propMemory_;
   std::size_t translucentReceivers_ = 0;
   bool anyCatcher_ = false;

@@ -134,9 +134,8 @@ void PropFinder::addViewProp(vtkProp* viewProp)
     return;
   }
   const auto number = static_cast<std::size_t>(this->number_);
-  if (const PlainProp* plain = this->memory_.plainProps.unchanged(number))
+  if (const PlainProp* plain = this->memory_.records.unchanged(number))
   {
-    this->memory_.stamps.keep(viewProp);
     this->addPlain(*plain);
     return;
   }
@@ -415,7 +414,7 @@ void PropFinder::addTaken(const DrawnActor& taken)
       this->drawn_.props.size() > before)
     {
       this->drawn_.props.back().isPlain =
-        this->memory_.plainProps.remember(static_cast<std::size_t>(this->number_), actor);
+        this->memory_.records.remember(static_cast<std::size_t>(this->number_), actor);
     }
   }
   if (translucent && this->castsTranslucent())

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "plugin/scene/ImageRectangles.h"
-#include "plugin/scene/PlainProps.h"
-#include "plugin/scene/PropStamps.h"
+#include "plugin/scene/PropRecords.h"
 #include "plugin/scene/TextureCutouts.h"
 #include "plugin/scene/VolumeReading.h"
 
@@ -14,15 +13,14 @@ namespace gnomon
 /// findDrawnProps()'s caches of a renderer's props.
 struct PropMemory
 {
-  PlainProps plainProps;
-  PropStamps stamps;
+  PropRecords records;
   TextureCutouts cutouts;
   ImageRectangles images;
   VolumeReading volumes;
 
   std::size_t bytes() const
   {
-    return this->plainProps.bytes() + this->cutouts.bytes() + this->images.bytes() +
+    return this->records.bytes() + this->cutouts.bytes() + this->images.bytes() +
       this->volumes.bytes();
   }
 };

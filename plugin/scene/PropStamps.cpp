@@ -2,7 +2,6 @@
 
 #include "lights/Hash.h"
 #include "plugin/scene/ActorInternals.h"
-#include "plugin/scene/ForgetUnasked.h"
 #include "plugin/scene/MapperKind.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
@@ -47,7 +46,6 @@
 #include <algorithm>
 #include <cstring>
 #include <initializer_list>
-#include <map>
 
 namespace gnomon
 {
@@ -388,81 +386,6 @@ void hashTexture(std::size_t& seed, vtkTexture* texture)
   Stamper stamper(nullptr);
   stamper.addTexture(texture);
   hashCombine(seed, stamper.stamp.hash);
-}
-
-//------------------------------------------------------------------------------
-void PropStamps::beginFrame()
-{
-  forgetUnasked(this->known_);
-  this->due_.clear();
-}
-
-//------------------------------------------------------------------------------
-void PropStamps::keep(vtkProp* prop)
-{
-  const auto known = this->known_.find(prop);
-  if (known != this->known_.end())
-  {
-    known->second.asked = true;
-  }
-}
-
-//------------------------------------------------------------------------------
-std::size_t PropStamps::of(vtkProp* prop, vtkRenderer* renderer)
-{
-  Known& known = this->known_[prop];
-  if (!known.asked)
-  {
-    const PropStamp now = stampOf(prop, renderer);
-    if (now.hash != known.last.hash)
-    {
-      known = { now, now.hash };
-    }
-    known.asked = true;
-  }
-  if (known.mayChangeInDrawing)
-  {
-    this->due_.emplace_back(prop);
-  }
-  return known.stamp;
-}
-
-//------------------------------------------------------------------------------
-void PropStamps::endFrame(vtkRenderer* renderer)
-{
-  for (vtkProp* const prop : this->due_)
-  {
-    Known& known = this->known_[prop];
-    const PropStamp after = stampOf(prop, renderer);
-    known.mayChangeInDrawing = after.hash != known.last.hash;
-    if (!known.wasDrawn)
-    {
-      known.stamp = after.hash; // VTK places some props only while it first draws them
-    }
-    known.wasDrawn = true;
-    known.last = after;
-  }
-  this->due_.clear();
-}
-
-//------------------------------------------------------------------------------
-std::vector<std::string> PropStamps::notes() const
-{
-  std::map<std::string, int> counts;
-  for (const auto& [prop, known] : this->known_)
-  {
-    if (known.last.unknown)
-    {
-      ++counts[known.last.unknown];
-    }
-  }
-  std::vector<std::string> notes;
-  for (const auto& [name, count] : counts)
-  {
-    notes.push_back("only VTK's redraw time tells of changes of " + name + " (" +
-      std::to_string(count) + (count == 1 ? " prop)" : " props)"));
-  }
-  return notes;
 }
 
 } // namespace gnomon

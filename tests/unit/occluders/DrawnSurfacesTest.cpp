@@ -705,6 +705,21 @@ TEST_F(DrawnSurfaces, APlainActorMayHangInAnAssemblyToo)
   }
 }
 
+/// The snapshot stays the same, but the plain props have other numbers.
+TEST_F(DrawnSurfaces, AHiddenPropMayComeAndGoBeforePlainOnes)
+{
+  const auto hidden = makeActor(makeMixed());
+  hidden->VisibilityOff();
+  this->renderer->AddActor(hidden);
+  this->add(makeBumps(4, 5));
+  this->add(makeBumps(5, 4))->SetPosition(1.5, 0.3, 0.2);
+  this->expectRight(this->check());
+  this->renderer->RemoveActor(hidden);
+  const Count count = this->check();
+  EXPECT_EQ(this->collector().drawnSurfaces().size(), 2u);
+  this->expectRight(count);
+}
+
 /// Mirrored matrices swap the sides, as in OpenGL.
 TEST_F(DrawnSurfaces, ASharedMapperServesActorsWithMatricesOfTheirOwn)
 {

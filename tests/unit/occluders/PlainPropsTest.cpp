@@ -5,7 +5,7 @@
 
 #include "TestData.h"
 
-#include "plugin/scene/PlainProps.h"
+#include "plugin/scene/PropRecords.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include "vtkActor2D.h"
@@ -145,7 +145,7 @@ std::string stateOf(OccluderCollector& collector, vtkRenderer* renderer)
   renderer->GetViewProps()->InitTraversal(iterator);
   while (vtkProp* const prop = renderer->GetViewProps()->GetNextProp(iterator))
   {
-    state << "stamp " << collector.stamps().of(prop, renderer) << "\n";
+    state << "stamp " << collector.props().stamp(prop, renderer) << "\n";
   }
   return state.str();
 }
@@ -375,7 +375,7 @@ TEST(PlainProps, AreAllTheSameBesideHiddenPropsAndAnnotations)
   vtkNew<vtkActor2D> annotation;
   scene.renderer->AddViewProp(annotation);
   scene.collector.collect(scene.renderer);
-  PlainProps props;
+  PropRecords props;
   const auto areSame = [&] { return props.beginFrame(scene.renderer->GetViewProps(), false); };
   EXPECT_FALSE(areSame());
   EXPECT_FALSE(areSame()) << "nothing is remembered";
