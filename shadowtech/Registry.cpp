@@ -131,7 +131,6 @@ bool contains(const SettingsTable& table, const Setting& setting)
     [&](const Setting& each) { return &each == &setting; });
 }
 
-/// Return the registry's name of the technique that settings select.
 std::string nameOfTechnique(const ShadowSettings& settings)
 {
   const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
@@ -146,14 +145,12 @@ bool restsSoftly(const ShadowLight& light)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::vector<EstimatorEntry>& estimators()
 {
   static const std::vector<EstimatorEntry> entries = makeEstimators();
   return entries;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<TechniqueEntry>& registry()
 {
   static const std::vector<TechniqueEntry> entries = {
@@ -212,31 +209,26 @@ const std::vector<TechniqueEntry>& registry()
   return entries;
 }
 
-//------------------------------------------------------------------------------
 const EstimatorEntry* findEstimator(const std::string& name)
 {
   return find(estimators(), name);
 }
 
-//------------------------------------------------------------------------------
 std::string estimatorNames()
 {
   return listOf(namesOf(estimators()));
 }
 
-//------------------------------------------------------------------------------
 const TechniqueEntry* findTechnique(const std::string& name)
 {
   return find(registry(), name);
 }
 
-//------------------------------------------------------------------------------
 std::string techniqueNames()
 {
   return std::string(automaticTechnique) + ", " + listOf(namesOf(registry()));
 }
 
-//------------------------------------------------------------------------------
 bool has(const TechniqueInfo& info, const Setting& setting)
 {
   return contains(choiceSettings(), setting) || contains(lightAreaSettings(), setting) ||
@@ -244,20 +236,17 @@ bool has(const TechniqueInfo& info, const Setting& setting)
       [&](const SettingsTable* table) { return contains(*table, setting); });
 }
 
-//------------------------------------------------------------------------------
 bool has(const TechniqueInfo& info, const std::string& settingName)
 {
   const Setting* const setting = findSetting(settingName);
   return setting && has(info, *setting);
 }
 
-//------------------------------------------------------------------------------
 std::string defaultOf(const Setting& setting)
 {
   return setting.name == "technique" ? defaultTechnique : setting.get(ShadowSettings());
 }
 
-//------------------------------------------------------------------------------
 ShadowSettings settingsOf(const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings)
 {
   ShadowSettings values;
@@ -274,13 +263,11 @@ ShadowSettings settingsOf(const TechniqueInfo& info, SettingsOf of, const Shadow
   return values;
 }
 
-//------------------------------------------------------------------------------
 bool isOfLight(const Setting& setting)
 {
   return contains(lightAreaSettings(), setting);
 }
 
-//------------------------------------------------------------------------------
 std::string techniquesWith(const SettingsTable& table)
 {
   std::vector<std::string> names;
@@ -294,7 +281,6 @@ std::string techniquesWith(const SettingsTable& table)
   return names.size() == registry().size() ? "" : listOf(names);
 }
 
-//------------------------------------------------------------------------------
 std::string whoHas(const Setting& setting)
 {
   const auto& tables = settingsTables();
@@ -303,7 +289,6 @@ std::string whoHas(const Setting& setting)
   return "the setting '" + setting.name + "' is for: " + techniquesWith(**found);
 }
 
-//------------------------------------------------------------------------------
 const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
 {
   const std::string name = nameOfTechnique(settings);
@@ -324,13 +309,11 @@ const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
     : *estimator;
 }
 
-//------------------------------------------------------------------------------
 const EstimatorEntry& estimatorOfLight(const ShadowLight& light)
 {
   return restsSoftly(light) ? *findTechnique(restingSoft)->estimator : estimatorOf(light);
 }
 
-//------------------------------------------------------------------------------
 const EstimatorEntry& compose(ShadowLight& light)
 {
   const EstimatorEntry& estimator = estimatorOfLight(light);

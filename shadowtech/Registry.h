@@ -19,10 +19,8 @@ struct EstimatorEntry
   std::function<AnyTechnique()> create;
 };
 
-/// Return all estimators.
 const std::vector<EstimatorEntry>& estimators();
 
-/// Return the estimator of that name; nullptr if there is none.
 const EstimatorEntry* findEstimator(const std::string& name);
 
 /// Return the estimators' names for error messages: "compare, pcf, ...".
@@ -40,7 +38,6 @@ struct TechniqueEntry
 /// Return all techniques, in the order in which users see them listed.
 const std::vector<TechniqueEntry>& registry();
 
-/// Return the technique of that name; nullptr if there is none.
 const TechniqueEntry* findTechnique(const std::string& name);
 
 /// Return the techniques' names for error messages: "auto, nsm, pcf, ...".

@@ -209,7 +209,6 @@ const std::map<std::string, void (*)(MeshBuilder& mesh, const Numbers& n)> shape
     [](MeshBuilder& mesh, const Numbers& n) { addLetter(mesh, n.point(0), n[3], n[4], n[5]); } },
 };
 
-/// Add shapes from an index on.
 void addShapes(
   MeshBuilder& mesh, const nlohmann::json& shapes, std::size_t from, const Vec3& offset)
 {
@@ -341,7 +340,6 @@ std::vector<BuiltinScene> listed(const char* list)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Scene BuiltinScene::make() const
 {
   const Node entry = entryOf(this->name);
@@ -388,21 +386,18 @@ Scene BuiltinScene::make() const
   return scene;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<BuiltinScene>& builtinScenes()
 {
   static const std::vector<BuiltinScene> scenes = listed("scenes");
   return scenes;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<BuiltinScene>& hardScenes()
 {
   static const std::vector<BuiltinScene> scenes = listed("hard");
   return scenes;
 }
 
-//------------------------------------------------------------------------------
 const BuiltinScene* findBuiltinScene(const std::string& name)
 {
   for (const auto* scenes : { &hardScenes(), &builtinScenes() })
@@ -418,7 +413,6 @@ const BuiltinScene* findBuiltinScene(const std::string& name)
   return nullptr;
 }
 
-//------------------------------------------------------------------------------
 std::string builtinSceneNames()
 {
   std::vector<std::string> names;

@@ -9,7 +9,6 @@
 namespace gnomon::tool
 {
 
-/// A scene of BuiltinScenes.json.
 struct BuiltinScene
 {
   std::string name;

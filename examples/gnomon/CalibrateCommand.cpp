@@ -62,7 +62,6 @@ Scene sceneOf(const Setup& setup)
   return scene;
 }
 
-/// The scene in its own window.
 struct MeasuredWindow
 {
   explicit MeasuredWindow(const Setup& setup)
@@ -199,7 +198,6 @@ void calibrate(const CalibrateOptions& options)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addCalibrateCommand(CLI::App& app)
 {
   auto options = std::make_shared<CalibrateOptions>();

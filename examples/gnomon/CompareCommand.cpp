@@ -28,7 +28,6 @@ struct CompareOptions
   bool all = false;  ///< true: compare all techniques
 };
 
-/// Return the plan with the options' techniques and routes.
 ComparisonPlan planOf(const CompareOptions& options, const Scene& scene)
 {
   ComparisonPlan plan = options.plan;
@@ -83,7 +82,6 @@ void compare(CompareOptions options)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addCompareCommand(CLI::App& app)
 {
   CLI::App* const command = app.add_subcommand("compare",

@@ -22,7 +22,6 @@ glm::dvec3 toGlm(const Vec3& v)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<unsigned char> facingPixels(const VisibilityImages& images, const SceneLight& light)
 {
   ShadowLight source;
@@ -49,7 +48,6 @@ std::vector<unsigned char> facingPixels(const VisibilityImages& images, const Sc
   return facing;
 }
 
-//------------------------------------------------------------------------------
 VisibilityError measureError(const VisibilityImages& technique, const VisibilityImages& truth,
   const std::vector<SceneLight>& lights)
 {
@@ -115,7 +113,6 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
   return error;
 }
 
-//------------------------------------------------------------------------------
 Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& verdicts)
 {
   Picture result = picture;

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace gnomon::tool
@@ -80,7 +79,6 @@ inline constexpr std::array<const char*, 3> motionNames = { "static", "camera mo
 inline constexpr std::array<const char*, 3> motionKeys = { "static", "camera_moving",
   "light_moving" };
 
-/// The names of the peers.
 inline constexpr const char* plainTechnique = "plain VTK";
 inline constexpr const char* shadowMapPassTechnique = "vtkShadowMapPass";
 

@@ -139,7 +139,6 @@ std::vector<VariantSpec> listVariants(
   return specs;
 }
 
-/// A variant and its measurements.
 struct Variant : FrameVariant
 {
   Variant(const VariantSpec& spec, const Scene& scene, const ComparisonPlan& plan)
@@ -348,7 +347,6 @@ VisibilityImages visibilityOf(Variant& variant, const Scene& scene, const Visibi
   return std::move(found.images);
 }
 
-/// Store the classes of a variant's pixels.
 void takeClasses(Variant& variant, const VisibilityImages& images)
 {
   std::int64_t traced = 0;
@@ -492,7 +490,6 @@ std::vector<Panel> drawFirstPanels(const ComparisonPlan& plan, const Scene& scen
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<std::string> allTechniques()
 {
   std::vector<std::string> names;
@@ -503,14 +500,12 @@ std::vector<std::string> allTechniques()
   return names;
 }
 
-//------------------------------------------------------------------------------
 std::map<std::string, std::string> truthSettings(int samples, const std::string& seed)
 {
   return { { "light_samples", std::to_string(samples) }, { "light_seed", seed },
     { "light_sampling", "sobol" } };
 }
 
-//------------------------------------------------------------------------------
 bool castsSoftShadows(const ComparisonPlan& plan, const Scene& scene)
 {
   const vtkSmartPointer<vtkRenderer> renderer =
@@ -520,7 +515,6 @@ bool castsSoftShadows(const ComparisonPlan& plan, const Scene& scene)
     lights.begin(), lights.end(), [](const ShadowLight& light) { return light.area.has_value(); });
 }
 
-//------------------------------------------------------------------------------
 std::vector<std::string> usualTechniques(bool soft)
 {
   return soft
@@ -528,7 +522,6 @@ std::vector<std::string> usualTechniques(bool soft)
     : std::vector<std::string>{ "nsm", "pcf", "vsm", "pssm", "silhouette", truthTechnique };
 }
 
-//------------------------------------------------------------------------------
 ComparisonResults runComparison(
   const Scene& original, const ComparisonPlan& plan, const ComparisonEvents& events)
 {

@@ -14,7 +14,6 @@
 namespace gnomon::tool
 {
 
-/// The plan of a comparison.
 struct ComparisonPlan
 {
   /// Names of the registry, with optional settings: "nsm", "pcf:kernel=box:projection=lispsm". A
@@ -31,7 +30,6 @@ struct ComparisonPlan
   int truthSamples = 4096; ///< samples per area light and pixel of the truth
 };
 
-/// The pictures of a variant.
 struct VariantPictures
 {
   Picture picture;
@@ -69,7 +67,6 @@ struct ComparisonEvents
 };
 inline constexpr int firstPanelPixels = 640;
 
-/// Return all techniques of the registry.
 std::vector<std::string> allTechniques();
 
 /// True if a casting light of the scene has an area of the plan's size.

@@ -78,7 +78,6 @@ void diff(const DiffOptions& options)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 ImageDifference compareImages(const ChannelImage& a, const std::string& nameA,
   const ChannelImage& b, const std::string& nameB, double maxDifference)
 {
@@ -138,7 +137,6 @@ ImageDifference compareImages(const ChannelImage& a, const std::string& nameA,
   return result;
 }
 
-//------------------------------------------------------------------------------
 void addDiffCommand(CLI::App& app)
 {
   CLI::App* const command =

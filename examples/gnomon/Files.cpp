@@ -20,7 +20,6 @@ namespace gnomon::tool
 
 namespace fs = std::filesystem;
 
-//------------------------------------------------------------------------------
 std::size_t requireReadableFile(const std::string& path)
 {
   std::error_code error;
@@ -48,7 +47,6 @@ std::size_t requireReadableFile(const std::string& path)
   return static_cast<std::size_t>(bytes);
 }
 
-//------------------------------------------------------------------------------
 std::string readWholeFile(const std::string& path, std::size_t largestBytes)
 {
   const std::size_t bytes = requireReadableFile(path);
@@ -66,7 +64,6 @@ std::string readWholeFile(const std::string& path, std::size_t largestBytes)
   return text;
 }
 
-//------------------------------------------------------------------------------
 void requireWritableFile(
   const std::string& path, const std::string& option, const std::vector<std::string>& extensions)
 {
@@ -104,7 +101,6 @@ void requireWritableFile(
   }
 }
 
-//------------------------------------------------------------------------------
 void writeWholeFile(const std::string& path, const std::string& bytes)
 {
   std::error_code ignored;
@@ -140,13 +136,11 @@ void writeWholeFile(const std::string& path, const std::string& bytes)
   }
 }
 
-//------------------------------------------------------------------------------
 std::string fileStem(const std::string& name)
 {
   return std::regex_replace(name, std::regex("[^A-Za-z0-9_-]"), "-");
 }
 
-//------------------------------------------------------------------------------
 std::string lowerExtension(const std::string& path)
 {
   std::string extension = std::filesystem::path(path).extension().string();

@@ -47,7 +47,6 @@ vtkSmartPointer<vtkRenderPass> makeShadowMapPass(int mapSizeTexels)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string VariantSpec::routeName() const
 {
   return !this->pointwise                              ? ""
@@ -55,7 +54,6 @@ std::string VariantSpec::routeName() const
                                                        : "image";
 }
 
-//------------------------------------------------------------------------------
 std::string VariantSpec::name() const
 {
   std::string text = this->technique;
@@ -68,7 +66,6 @@ std::string VariantSpec::name() const
   return text;
 }
 
-//------------------------------------------------------------------------------
 ShadowSettings settingsOf(const VariantSpec& spec)
 {
   ShadowSettings settings;
@@ -80,7 +77,6 @@ ShadowSettings settingsOf(const VariantSpec& spec)
   return settings;
 }
 
-//------------------------------------------------------------------------------
 VariantSpec parseTechnique(const std::string& text)
 {
   std::istringstream parts(text);
@@ -127,7 +123,6 @@ VariantSpec parseTechnique(const std::string& text)
   return spec;
 }
 
-//------------------------------------------------------------------------------
 void setUp(vtkGnomonShadowPass* pass, const VariantSpec& spec)
 {
   pass->SetSettings(nullptr);
@@ -145,7 +140,6 @@ void setUp(vtkGnomonShadowPass* pass, const VariantSpec& spec)
   }
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec)
 {
   if (spec.isGnomon())
@@ -157,7 +151,6 @@ vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec)
   return spec.technique == shadowMapPassTechnique ? makeShadowMapPass(spec.mapSizeTexels) : nullptr;
 }
 
-//------------------------------------------------------------------------------
 Scene withoutShadowSettings(Scene scene)
 {
   for (SceneLight& light : scene.lights)
@@ -171,7 +164,6 @@ Scene withoutShadowSettings(Scene scene)
   return scene;
 }
 
-//------------------------------------------------------------------------------
 FrameVariant::FrameVariant(const VariantSpec& spec, const Scene& scene, int width, int height)
   : spec_(spec)
   , scene_(scene)
@@ -183,7 +175,6 @@ FrameVariant::FrameVariant(const VariantSpec& spec, const Scene& scene, int widt
   this->window_->AddRenderer(this->renderer_);
 }
 
-//------------------------------------------------------------------------------
 bool FrameVariant::awaitsMap() const
 {
   const auto awaits = [](const LightReport& light) { return !light.mapReason.empty(); };
@@ -192,7 +183,6 @@ bool FrameVariant::awaitsMap() const
       this->pass()->GetReport().lights.begin(), this->pass()->GetReport().lights.end(), awaits);
 }
 
-//------------------------------------------------------------------------------
 double drawTimed(vtkRenderWindow* window)
 {
   window->MakeCurrent();
@@ -202,7 +192,6 @@ double drawTimed(vtkRenderWindow* window)
   return steadyMilliseconds() - start;
 }
 
-//------------------------------------------------------------------------------
 double FrameVariant::drawFrame(Motion motion, int step)
 {
   this->turnCamera(motion == Motion::Camera ? step * stepDegrees : 0.0);
@@ -215,7 +204,6 @@ double FrameVariant::drawFrame(Motion motion, int step)
   return drawTimed(this->window_);
 }
 
-//------------------------------------------------------------------------------
 void FrameVariant::turnCamera(double degrees)
 {
   if (degrees == this->cameraDegrees_)
@@ -236,7 +224,6 @@ void FrameVariant::turnCamera(double degrees)
   }
 }
 
-//------------------------------------------------------------------------------
 // Each light turns around its target about an axis across its direction, so the direction always
 // changes.
 void FrameVariant::turnLights(double degrees)
@@ -263,7 +250,6 @@ void FrameVariant::turnLights(double degrees)
   }
 }
 
-//------------------------------------------------------------------------------
 double median(std::vector<double> values)
 {
   if (values.empty())
@@ -275,7 +261,6 @@ double median(std::vector<double> values)
   return *middle;
 }
 
-//------------------------------------------------------------------------------
 std::vector<double> timeFrames(std::size_t ways, int frames,
   const std::function<double(std::size_t way, int step)>& draw,
   const std::function<void()>& roundDone)
@@ -301,13 +286,11 @@ std::vector<double> timeFrames(std::size_t ways, int frames,
   return medians;
 }
 
-//------------------------------------------------------------------------------
 std::int64_t residentBytes()
 {
   return 1024 * static_cast<std::int64_t>(vtksys::SystemInformation().GetProcMemoryUsed());
 }
 
-//------------------------------------------------------------------------------
 std::string processorName()
 {
   vtksys::SystemInformation system;
@@ -316,7 +299,6 @@ std::string processorName()
     std::to_string(std::thread::hardware_concurrency()) + " threads";
 }
 
-//------------------------------------------------------------------------------
 std::string openGlName(vtkRenderWindow* window)
 {
   const std::string capabilities = window->ReportCapabilities();

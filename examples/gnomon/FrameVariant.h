@@ -43,7 +43,6 @@ struct VariantSpec
   std::string name() const;
 };
 
-/// Return a variant's settings of lights' shadows.
 ShadowSettings settingsOf(const VariantSpec& spec);
 
 /// Parse a text such as "pcf:kernel=box:projection=lispsm" as a variant without map size and route.
@@ -124,7 +123,6 @@ std::int64_t residentBytes();
 /// Return the processor's model and its number of hardware threads.
 std::string processorName();
 
-/// Return renderer and version of a window's OpenGL.
 std::string openGlName(vtkRenderWindow* window);
 
 } // namespace gnomon::tool

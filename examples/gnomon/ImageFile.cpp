@@ -46,7 +46,6 @@ void requireReasonableSize(
   }
 }
 
-/// Return the suffix of an image channel's name.
 const char* suffixOf(LightChannel channel)
 {
   return channel == LightChannel::Red ? ".R"
@@ -131,7 +130,6 @@ void writeExr(const std::string& path, int width, int height, Imf::Header& heade
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Picture capture(vtkRenderWindow* window)
 {
   const int* const size = window->GetSize();
@@ -155,7 +153,6 @@ Picture capture(vtkRenderWindow* window)
   return picture;
 }
 
-//------------------------------------------------------------------------------
 std::vector<unsigned char> encodePng(const Picture& picture)
 {
   png_image image{};
@@ -174,7 +171,6 @@ std::vector<unsigned char> encodePng(const Picture& picture)
   return bytes;
 }
 
-//------------------------------------------------------------------------------
 Picture classPicture(const VisibilityImages& images, std::optional<int> sceneIndex)
 {
   for (std::size_t light = 0; light < images.classes.size(); ++light)
@@ -195,7 +191,6 @@ Picture classPicture(const VisibilityImages& images, std::optional<int> sceneInd
   return {};
 }
 
-//------------------------------------------------------------------------------
 void writePicture(const Picture& picture, const std::string& path)
 {
   requireWritableFile(path, "picture", { ".png", ".exr" });
@@ -217,7 +212,6 @@ void writePicture(const Picture& picture, const std::string& path)
   }
 }
 
-//------------------------------------------------------------------------------
 Picture readPicture(const std::string& path)
 {
   const std::string extension = lowerExtension(path);
@@ -254,7 +248,6 @@ Picture readPicture(const std::string& path)
   return picture;
 }
 
-//------------------------------------------------------------------------------
 ChannelImage readChannels(const std::string& path)
 {
   requireReadableFile(path);
@@ -319,7 +312,6 @@ ChannelImage readChannels(const std::string& path)
   }
 }
 
-//------------------------------------------------------------------------------
 ChannelImage channelsOf(const Picture& picture, float unit)
 {
   ChannelImage image;
@@ -333,7 +325,6 @@ ChannelImage channelsOf(const Picture& picture, float unit)
   return image;
 }
 
-//------------------------------------------------------------------------------
 void writeVisibility(const VisibilityImages& images, const std::string& path,
   const std::map<std::string, std::string>& attributes)
 {
@@ -362,7 +353,6 @@ void writeVisibility(const VisibilityImages& images, const std::string& path,
   writeExr(path, images.width, images.height, header, planes);
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> readImage(const std::string& path)
 {
   vtkSmartPointer<vtkImageReader2> reader;
@@ -384,7 +374,6 @@ vtkSmartPointer<vtkImageData> readImage(const std::string& path)
   return reader->GetOutput();
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkTexture> readTexture(const std::string& path)
 {
   auto texture = vtkSmartPointer<vtkTexture>::New();

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,7 +43,6 @@ struct ChannelImage
   int width = 0;
   int height = 0;
   std::map<std::string, std::vector<float>> channels;
-  /// The header's text attributes.
   std::map<std::string, std::string> header;
   /// The origin of positions, in world coordinates: the header attribute `origin`, or zero without
   /// it.
@@ -56,7 +54,6 @@ struct ChannelImage
 /// @return without pixels if there are none
 Picture classPicture(const VisibilityImages& images, std::optional<int> sceneIndex = std::nullopt);
 
-/// Return the window's picture after its last Render().
 Picture capture(vtkRenderWindow* window);
 
 /// Write a .png, or an .exr with the channels R, G and B as floats in [0, 1]. These are display
@@ -65,7 +62,6 @@ Picture capture(vtkRenderWindow* window);
 /// fails
 void writePicture(const Picture& picture, const std::string& path);
 
-/// Return a picture as the bytes of a .png, for embedding.
 std::vector<unsigned char> encodePng(const Picture& picture);
 
 /// Read a .png with 8 bits per channel and without transparency (grey becomes RGB), or the channels

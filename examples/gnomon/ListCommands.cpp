@@ -46,7 +46,6 @@ void printSettings()
   }
 }
 
-/// Print the page docs/guide/settings.md.
 void printSettingsPage()
 {
   std::cout
@@ -72,7 +71,6 @@ void printSettingsPage()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addTechniquesCommand(CLI::App& app)
 {
   app.add_subcommand("techniques", "List the shadow techniques")
@@ -87,7 +85,6 @@ void addTechniquesCommand(CLI::App& app)
       });
 }
 
-//------------------------------------------------------------------------------
 void addSettingsCommand(CLI::App& app)
 {
   auto asPage = std::make_shared<bool>(false);
@@ -96,7 +93,6 @@ void addSettingsCommand(CLI::App& app)
   command->callback([asPage] { *asPage ? printSettingsPage() : printSettings(); });
 }
 
-//------------------------------------------------------------------------------
 void addScenesCommand(CLI::App& app)
 {
   auto exported = std::make_shared<std::vector<std::string>>();

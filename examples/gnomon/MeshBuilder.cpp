@@ -12,47 +12,40 @@
 namespace gnomon::tool
 {
 
-//------------------------------------------------------------------------------
 Frame::Frame(const Vec3& axis)
   : right(normalized(cross(std::abs(axis[1]) < 0.9 ? up : Vec3{ 1.0, 0.0, 0.0 }, axis)))
   , back(cross(right, axis))
 {
 }
 
-//------------------------------------------------------------------------------
 Vec3 Frame::at(double angle) const
 {
   return std::cos(angle) * this->right + std::sin(angle) * this->back;
 }
 
-//------------------------------------------------------------------------------
 Vec3 leaning(const Vec3& axis, double lean, double turn)
 {
   return std::cos(lean) * axis + std::sin(lean) * Frame(axis).at(turn);
 }
 
-//------------------------------------------------------------------------------
 Vec3 around(double share)
 {
   const double angle = share == 1.0 ? 0.0 : 2.0 * vtkMath::Pi() * share;
   return { std::cos(angle), 0.0, -std::sin(angle) };
 }
 
-//------------------------------------------------------------------------------
 MeshBuilder::MeshBuilder()
 {
   this->normals_->SetName("Normals");
   this->normals_->SetNumberOfComponents(3);
 }
 
-//------------------------------------------------------------------------------
 vtkIdType MeshBuilder::addVertex(const SurfacePoint& point)
 {
   this->normals_->InsertNextTuple(point.normal.data());
   return this->points_->InsertNextPoint(point.position.data());
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addPolygon(const std::vector<Vec3>& corners)
 {
   const Vec3 normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
@@ -67,7 +60,6 @@ void MeshBuilder::addPolygon(const std::vector<Vec3>& corners)
   }
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addPlane(const Vec3& center, double side)
 {
   const double h = 0.5 * side;
@@ -75,7 +67,6 @@ void MeshBuilder::addPlane(const Vec3& center, double side)
     center + Vec3{ h, 0.0, -h }, center + Vec3{ -h, 0.0, -h } });
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addBox(const Vec3& low, const Vec3& high)
 {
   // A corner is three bits: whether its x, y and z are high.
@@ -93,7 +84,6 @@ void MeshBuilder::addBox(const Vec3& low, const Vec3& high)
   }
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addPatch(
   int columns, int rows, const std::function<SurfacePoint(double u, double v)>& surface)
 {
@@ -128,7 +118,6 @@ void MeshBuilder::addPatch(
   }
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addSheet(
   int columns, int rows, const std::function<Vec3(double u, double v)>& place)
 {
@@ -146,7 +135,6 @@ void MeshBuilder::addSheet(
     });
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addLathe(const Axis& axis, const std::vector<ProfilePoint>& profile, int segments)
 {
   // Two arbitrary directions perpendicular to the axis. The helper must not be parallel to it.
@@ -170,7 +158,6 @@ void MeshBuilder::addLathe(const Axis& axis, const std::vector<ProfilePoint>& pr
   }
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addLimb(
   const Vec3& from, const Vec3& to, double radius, double taper, int segments)
 {
@@ -178,7 +165,6 @@ void MeshBuilder::addLimb(
     { { radius, 0.0 }, { taper * radius, length(to - from) } }, segments);
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addDisc(const Vec3& center, double radius, int segments, bool facesUp)
 {
   const Vec3 normal{ 0.0, facesUp ? 1.0 : -1.0, 0.0 };
@@ -194,7 +180,6 @@ void MeshBuilder::addDisc(const Vec3& center, double radius, int segments, bool 
   }
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addCone(
   const Vec3& base, double height, double bottomRadius, double topRadius, int segments)
 {
@@ -213,7 +198,6 @@ void MeshBuilder::addCone(
   }
 }
 
-//------------------------------------------------------------------------------
 void MeshBuilder::addSphere(const Vec3& center, double radius, int slices, int stacks)
 {
   this->addPatch(slices, stacks,
@@ -228,7 +212,6 @@ void MeshBuilder::addSphere(const Vec3& center, double radius, int slices, int s
     });
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> MeshBuilder::build() const
 {
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
@@ -238,7 +221,6 @@ vtkSmartPointer<vtkPolyData> MeshBuilder::build() const
   return mesh;
 }
 
-//------------------------------------------------------------------------------
 SceneModel makeModel(
   const std::string& name, vtkSmartPointer<vtkPolyData> surface, const Vec3& color)
 {
@@ -250,7 +232,6 @@ SceneModel makeModel(
   return model;
 }
 
-//------------------------------------------------------------------------------
 SceneModel makeTriangles(const std::string& name, const std::vector<Vec3>& corners)
 {
   vtkNew<vtkPoints> points;
@@ -269,7 +250,6 @@ SceneModel makeTriangles(const std::string& name, const std::vector<Vec3>& corne
   return makeModel(name, surface, casterColor);
 }
 
-//------------------------------------------------------------------------------
 SceneModel makePlane(const Vec3& center, double side)
 {
   MeshBuilder mesh;
@@ -277,7 +257,6 @@ SceneModel makePlane(const Vec3& center, double side)
   return makeModel("plane", mesh.build(), planeColor);
 }
 
-//------------------------------------------------------------------------------
 SceneLight makeSun(const Vec3& travel, double intensity)
 {
   SceneLight light;
@@ -286,7 +265,6 @@ SceneLight makeSun(const Vec3& travel, double intensity)
   return light;
 }
 
-//------------------------------------------------------------------------------
 SceneCamera makeCamera(const Vec3& position, const Vec3& target, double fovDegrees)
 {
   SceneCamera camera;

@@ -64,7 +64,6 @@ public:
   /// Add a horizontal square around a point, facing up.
   void addPlane(const Vec3& center, double side);
 
-  /// Add a box between two corners.
   void addBox(const Vec3& low, const Vec3& high);
 
   /// Add a smooth patch of columns x rows cells over u, v in [0, 1], two triangles each. The front
@@ -115,7 +114,6 @@ Vec3 around(double share);
 SceneModel makeModel(
   const std::string& name, vtkSmartPointer<vtkPolyData> surface, const Vec3& color);
 inline constexpr Vec3 planeColor{ 0.75, 0.75, 0.72 };
-/// The colour of casters that have none of their own.
 inline constexpr Vec3 casterColor{ 0.75, 0.5, 0.4 };
 /// Return a model of separate triangles, from three corners each: double coordinates, no normals.
 SceneModel makeTriangles(const std::string& name, const std::vector<Vec3>& corners);

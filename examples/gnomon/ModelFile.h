@@ -16,7 +16,6 @@ struct Model
   std::vector<std::string> notes;    ///< see Scene::notes
 };
 
-/// The largest size of a model's file.
 inline constexpr std::size_t largestModelBytes = std::size_t{ 4 } << 30;
 
 /// Read a model with VTK's reader for its file type: .obj .ply .stl .vtp .3ds .glb .gltf. Surfaces

@@ -121,7 +121,6 @@ void addArch(MeshBuilder& mesh, const Bay& bay, double pier)
   }
 }
 
-/// Add an open sheet of cloth.
 void addFabric(MeshBuilder& mesh, const std::function<Vec3(double u, double v)>& place)
 {
   mesh.addSheet(64, 64, place);
@@ -147,7 +146,6 @@ void addBanner(MeshBuilder& mesh, const Bay& bay, int i)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addArcades(Scene& scene)
 {
   MeshBuilder arcades;
@@ -182,7 +180,6 @@ void addArcades(Scene& scene)
   add(scene, "balustrades", balustrades, { 0.82, 0.77, 0.68 });
 }
 
-//------------------------------------------------------------------------------
 void addCloth(Scene& scene)
 {
   const std::pair<const char*, Vec3> dyes[] = { { "red cloth", { 0.68, 0.18, 0.16 } },
@@ -215,7 +212,6 @@ void addCloth(Scene& scene)
   add(scene, "awnings", awnings, { 0.9, 0.84, 0.7 });
 }
 
-//------------------------------------------------------------------------------
 /// The pots have open rims and stand in front of the columns; the plants have open leaves.
 void addPlants(Scene& scene)
 {

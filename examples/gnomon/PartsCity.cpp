@@ -224,7 +224,6 @@ void addBlock(std::array<CityMesh, 4>& towers, CityMesh& pavement, int column, i
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addCity(Scene& scene)
 {
   const Vec3 colors[] = { { 0.78, 0.72, 0.62 }, { 0.6, 0.64, 0.7 }, { 0.7, 0.52, 0.43 },

@@ -128,7 +128,6 @@ private:
   Random random_;
 };
 
-//------------------------------------------------------------------------------
 const Vec3 boxCenter{ -13.0, 0.0, 10.0 }; ///< of the flower box
 
 struct Species
@@ -189,7 +188,6 @@ void addFlower(const Species& species, const Vec3& foot, Random& random, MeshBui
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addTrees(Scene& scene)
 {
   MeshBuilder wood, leaves;
@@ -201,7 +199,6 @@ void addTrees(Scene& scene)
   add(scene, "leaves", leaves, { 0.34, 0.52, 0.22 });
 }
 
-//------------------------------------------------------------------------------
 void addFlowers(Scene& scene)
 {
   Random random(20);
@@ -233,7 +230,6 @@ void addFlowers(Scene& scene)
   add(scene, "hearts", hearts, { 0.9, 0.72, 0.2 });
 }
 
-//------------------------------------------------------------------------------
 /// Blades of grass are open sheets of one triangle, in tufts where a mower cannot go.
 void addGrass(Scene& scene)
 {

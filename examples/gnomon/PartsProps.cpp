@@ -246,7 +246,6 @@ Prop stainedPane()
   return actor;
 }
 
-/// Return a ball of voxels.
 Prop volumeProp()
 {
   constexpr int side = 16;
@@ -427,7 +426,6 @@ void place(vtkProp3D* prop, const Vec3& at)
   }
 }
 
-//------------------------------------------------------------------------------
 // A double helix wound around a ring, as balls and sticks.
 
 constexpr double windingRadius = 50.0;
@@ -483,7 +481,6 @@ Prop helixProp()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addProps(Scene& scene)
 {
   constexpr std::size_t columns = 6;
@@ -502,13 +499,11 @@ void addProps(Scene& scene)
   }
 }
 
-//------------------------------------------------------------------------------
 void addMolecule(Scene& scene)
 {
   scene.props.push_back({ "molecule", helixProp });
 }
 
-//------------------------------------------------------------------------------
 void addImpostors(Scene& scene)
 {
   scene.props.push_back({ "balls",

@@ -17,7 +17,6 @@
 namespace gnomon::tool
 {
 
-//------------------------------------------------------------------------------
 void addModelOnPlane(Scene& scene, const std::string& file, const Vec3& color)
 {
   const char* folder = std::getenv("GNOMON_MODELS");
@@ -49,7 +48,6 @@ void addModelOnPlane(Scene& scene, const std::string& file, const Vec3& color)
   scene.lights = { makeSun({ -1.0, -1.6, -1.0 }) };
 }
 
-//------------------------------------------------------------------------------
 // The building: rooms in rows of pairs. Doors join the rooms of a pair and consecutive rows, so a
 // few rooms are visible from each. Lengths are metres.
 
@@ -85,7 +83,6 @@ void addRooms(Scene& scene)
   add(scene, "rooms", mesh, { 0.8, 0.78, 0.72 });
 }
 
-//------------------------------------------------------------------------------
 void addBuildingLamps(Scene& scene)
 {
   for (int i = 0; i < 64; ++i)
@@ -99,7 +96,6 @@ void addBuildingLamps(Scene& scene)
   }
 }
 
-//------------------------------------------------------------------------------
 // The office
 
 /// Some books lean out of line.
@@ -127,7 +123,6 @@ void addBooks(Scene& scene)
   add(scene, "blue books", blue, { 0.26, 0.38, 0.52 });
 }
 
-//------------------------------------------------------------------------------
 void addDeskThings(Scene& scene)
 {
   const Vec3 top{ 0.5, 0.75, -1.0 }; // of the desk
@@ -156,7 +151,6 @@ void addDeskThings(Scene& scene)
   add(scene, "paper", paper, { 0.92, 0.92, 0.9 });
 }
 
-//------------------------------------------------------------------------------
 // The terrain: a square kilometre
 
 namespace
@@ -189,7 +183,6 @@ Vec3 scattered(int i, std::uint32_t kind)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addTerrain(Scene& scene)
 {
   constexpr int cells = 256;
@@ -234,7 +227,6 @@ void addTerrain(Scene& scene)
   add(scene, "posts", posts, { 0.7, 0.5, 0.35 });
 }
 
-//------------------------------------------------------------------------------
 // Textures
 
 namespace
@@ -274,7 +266,6 @@ void addScreen(Scene& scene, const std::string& name, int columns, int rows,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addScreens(Scene& scene)
 {
   addScreen(
@@ -294,7 +285,6 @@ void addScreens(Scene& scene)
     12.0, 7.0, 64, [](double u, double v) { return std::hypot(u - 0.5, v - 0.5) < 0.37; });
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> makePanes()
 {
   constexpr int texels = 40; // of a side
@@ -318,7 +308,6 @@ vtkSmartPointer<vtkImageData> makePanes()
   return image;
 }
 
-//------------------------------------------------------------------------------
 // Hard cases
 
 void addThinPosts(Scene& scene)
@@ -333,7 +322,6 @@ void addThinPosts(Scene& scene)
   }
 }
 
-//------------------------------------------------------------------------------
 void addSlivers(Scene& scene)
 {
   std::vector<Vec3> corners;

@@ -66,7 +66,6 @@ void paste(const Picture& from, Picture& to, int left, int top)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Picture sideBySide(const std::vector<Panel>& panels)
 {
   const Picture& first = panels.at(0).picture;
@@ -81,7 +80,6 @@ Picture sideBySide(const std::vector<Panel>& panels)
   return joined;
 }
 
-//------------------------------------------------------------------------------
 std::optional<Place> worstPlace(
   const std::vector<float>& differences, int width, int height, int side)
 {
@@ -111,7 +109,6 @@ std::optional<Place> worstPlace(
   return worst;
 }
 
-//------------------------------------------------------------------------------
 Picture cropped(const Picture& picture, const Place& place)
 {
   Picture result{ place.side, place.side, {} };
@@ -123,7 +120,6 @@ Picture cropped(const Picture& picture, const Place& place)
   return result;
 }
 
-//------------------------------------------------------------------------------
 Picture reduced(const Picture& picture, int mostPixels)
 {
   const int block =
@@ -146,7 +142,6 @@ Picture reduced(const Picture& picture, int mostPixels)
   return result;
 }
 
-//------------------------------------------------------------------------------
 std::string dataUri(const Picture& picture)
 {
   if (picture.rgb.empty())

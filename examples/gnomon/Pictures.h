@@ -9,7 +9,6 @@
 namespace gnomon::tool
 {
 
-/// A picture and its title.
 struct Panel
 {
   std::string title;
@@ -39,7 +38,6 @@ struct Place
 std::optional<Place> worstPlace(
   const std::vector<float>& differences, int width, int height, int side);
 
-/// Return a place of a picture.
 Picture cropped(const Picture& picture, const Place& place);
 
 /// Return a picture reduced by an integer factor, with sides of at most `mostPixels`.

@@ -112,8 +112,7 @@ public:
       ::close(handle);
     }
   }
-  Guard(const Guard&) = delete;
-  Guard& operator=(const Guard&) = delete;
+  Guard& operator=(Guard&&) = delete; ///< nor copied
 
   /// Return the first printed line that is not a warning; empty if there is none.
   std::string firstError() const
@@ -175,7 +174,6 @@ private:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<std::string> readGuarded(
   const std::string& path, std::size_t bytes, const std::function<void()>& read)
 {

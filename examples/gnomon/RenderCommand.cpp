@@ -16,7 +16,6 @@
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonOffScreenWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/vtkGnomonFrameReport.h"
@@ -77,7 +76,6 @@ struct RenderOptions
   std::string classes;
 };
 
-/// Return a canonical path.
 std::filesystem::path fullPath(const std::string& path)
 {
   std::error_code ignored; // on errors, the path stays unchanged
@@ -402,7 +400,6 @@ void render(const RenderOptions& options)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 PictureSize parseSize(const std::string& text)
 {
   std::smatch sides;
@@ -417,7 +414,6 @@ PictureSize parseSize(const std::string& text)
   return size;
 }
 
-//------------------------------------------------------------------------------
 void requireDrawable(const PictureSize& size, int mostTexels, int mostColumns, int mostRows)
 {
   const int columns = std::min(mostTexels, mostColumns);
@@ -432,7 +428,6 @@ void requireDrawable(const PictureSize& size, int mostTexels, int mostColumns, i
   }
 }
 
-//------------------------------------------------------------------------------
 void addRenderCommand(CLI::App& app)
 {
   auto options = std::make_shared<RenderOptions>();

@@ -31,7 +31,6 @@ namespace gnomon::tool
 namespace
 {
 
-/// Return a scene with one model.
 Scene makeModelScene(const std::string& path, bool ground)
 {
   Model model = readModelFile(path);
@@ -151,7 +150,6 @@ void setClippingRange(vtkRenderer* renderer, const Scene& scene, double aspect)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Scene loadScene(const std::string& nameOrPath, std::optional<bool> ground)
 {
   if (const BuiltinScene* builtin = findBuiltinScene(nameOrPath))
@@ -177,7 +175,6 @@ Scene loadScene(const std::string& nameOrPath, std::optional<bool> ground)
     "\", expected .json (a scene file) or one of: " + modelFileTypes());
 }
 
-//------------------------------------------------------------------------------
 void setLights(vtkRenderer* renderer, const std::vector<SceneLight>& lights)
 {
   renderer->RemoveAllLights();
@@ -187,7 +184,6 @@ void setLights(vtkRenderer* renderer, const std::vector<SceneLight>& lights)
   }
 }
 
-//------------------------------------------------------------------------------
 void setCamera(vtkCamera* camera, const SceneCamera& source)
 {
   camera->SetPosition(source.position.data());
@@ -198,7 +194,6 @@ void setCamera(vtkCamera* camera, const SceneCamera& source)
   camera->SetParallelScale(source.parallelScale.value_or(1.0));
 }
 
-//------------------------------------------------------------------------------
 void placeDefaultLight(Scene& scene, double aspect)
 {
   if (!scene.hasDefaultLight)
@@ -219,7 +214,6 @@ void placeDefaultLight(Scene& scene, double aspect)
   }
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect)
 {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();

@@ -23,7 +23,6 @@ namespace gnomon::tool
 
 using Vec3 = std::array<double, 3>;
 
-/// One surface of a scene.
 struct SceneModel
 {
   std::string name;

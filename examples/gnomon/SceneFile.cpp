@@ -5,6 +5,10 @@
 #include "ImageFile.h"
 #include "ModelFile.h"
 #include "SceneFraming.h"
+#include "Text.h"
+#include "Vec3.h"
+
+#include "lights/SettingsTable.h"
 
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
@@ -17,6 +21,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <variant>
 
 namespace gnomon::tool
 {
@@ -60,7 +65,6 @@ void describe(JsonMembers& members, SceneModel& model, std::optional<Vec3>& colo
   members.add("one_sided", model.oneSided, &JsonValue::boolean);
 }
 
-/// Read an entry of "models": the surfaces of its file.
 std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem::path& folder,
   std::map<std::string, Model>& loaded, std::vector<std::string>& notes)
 {
@@ -157,9 +161,132 @@ void describe(JsonMembers& members, Scene& scene, std::optional<double>& ambient
   members.add("ambient", ambient, numberIn({ 0.0, 1.0 }));
 }
 
+constexpr NumberRange lightIntensity{ 0.0, 1e6 };
+constexpr NumberRange coneAngleDegrees{ 0.01, 89.9 };
+constexpr NumberRange fieldOfViewDegrees{ 0.01, 179.0 };
+constexpr NumberRange extent{ 1e-30, 1e30 };
+
+Vec3 readDirection(const JsonValue& value)
+{
+  const Vec3 direction = value.numbers<3>(anyCoordinate);
+  if (length(direction) == 0.0)
+  {
+    value.fail("a direction that is not zero");
+  }
+  return direction;
+}
+
+/// Return a reader of a target, which must differ from the position.
+auto targetOf(const Vec3& position)
+{
+  return [&position](const JsonValue& value)
+  {
+    const Vec3 target = value.numbers<3>(anyCoordinate);
+    if (target == position)
+    {
+      value.fail("a target that is not the position");
+    }
+    return target;
+  };
+}
+
+/// Add an up direction, which must not be parallel to the direction from position to target.
+void addUp(JsonMembers& members, Vec3& up, const Vec3& forward)
+{
+  members.add("up", up, readDirection);
+  constexpr double smallestSine = 1e-6;
+  if (members.reads() && length(cross(normalized(forward), normalized(up))) < smallestSine)
+  {
+    members.place("up").fail("an up direction that is not parallel to the view, as [0, 1, 0] is "
+                             "by default");
+  }
+}
+
+std::string readSetting(const JsonValue& value, const Setting& setting)
+{
+  ShadowSettings scratch;
+  if (const auto* range = std::get_if<IntegerSetting>(&setting.values))
+  {
+    setting.write(scratch, value.integer(range->smallest, range->largest));
+  }
+  else if (const auto* reals = std::get_if<RealSetting>(&setting.values))
+  {
+    setting.write(scratch, value.number({ reals->smallest, reals->largest }));
+  }
+  else if (!setting.set(scratch, value.text()))
+  {
+    value.fail(setting.expected());
+  }
+  return setting.get(scratch);
+}
+
+/// Read or write the area of an area light. A rectangle's width lies along cross(travel, up), its
+/// height across that.
+void describe(JsonMembers& members, SceneLight::Area& area, const Vec3& travel,
+  std::optional<std::string>& texture, const std::filesystem::path& folder)
+{
+  std::string shape = area.rectangle || members.reads() ? "rectangle" : "disk";
+  members.add("shape", shape, oneOf({ "rectangle", "disk" }));
+  area.rectangle = shape == "rectangle";
+  if (area.rectangle)
+  {
+    members.add("width", area.width, numberIn(extent), true);
+    members.add("height", area.height, numberIn(extent), true);
+  }
+  else
+  {
+    members.add("radius", area.radius, numberIn(extent), true);
+  }
+  if (area.rectangle || texture || members.place("texture").present())
+  {
+    addUp(members, area.up, travel);
+  }
+  members.add("texture", texture,
+    [&](const JsonValue& file)
+    {
+      file.refuseOnError([&] { area.texture = readImage((folder / file.text()).string()); });
+      return file.text();
+    });
+}
+
+nlohmann::json parseScalar(const std::string& text)
+{
+  if (const std::optional<long long> whole = parseNumber<long long>(text))
+  {
+    return *whole;
+  }
+  const std::optional<double> number = parseNumber<double>(text);
+  return number ? nlohmann::json(*number) : nlohmann::json(text);
+}
+
+/// Parse "key=value;key=value" as the JSON object of a scene file. Values with commas become
+/// arrays.
+nlohmann::json parseAssignments(const std::string& source, const std::string& text)
+{
+  nlohmann::json object = nlohmann::json::object();
+  for (const std::string& assignment : split(text, ';'))
+  {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+    {
+      throw BadInput(source + ": found \"" + assignment + "\", expected key=value;key=value...");
+    }
+    const std::string key = assignment.substr(0, equals);
+    nlohmann::json elements;
+    for (const std::string& element : split(assignment.substr(equals + 1), ','))
+    {
+      elements.push_back(parseScalar(element));
+    }
+    if (!object.emplace(key, elements.size() > 1 ? elements : elements[0]).second)
+    {
+      throw BadInput(source + ": key \"" + key + "\" occurs twice, expected once");
+    }
+  }
+  return object;
+}
+
 } // namespace
 
-//------------------------------------------------------------------------------
 std::optional<double> readSurroundings(
   JsonMembers& members, const std::filesystem::path& folder, Scene& scene)
 {
@@ -175,7 +302,6 @@ std::optional<double> readSurroundings(
   return ambient;
 }
 
-//------------------------------------------------------------------------------
 Scene readSceneFile(const std::string& path, std::optional<bool> ground)
 {
   const nlohmann::json document = readJsonFile(path);
@@ -227,7 +353,6 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground)
   return scene;
 }
 
-//------------------------------------------------------------------------------
 std::string exportScene(const Scene& scene, const std::string& folder)
 {
   if (!scene.props.empty())
@@ -266,6 +391,135 @@ std::string exportScene(const Scene& scene, const std::string& folder)
 
   writeWholeFile(path, json.dump(2) + "\n");
   return path;
+}
+
+void describe(JsonMembers& members, SceneLight& light, std::optional<std::string>& texture,
+  const std::filesystem::path& folder)
+{
+  using Type = SceneLight::Type;
+  std::string type = light.area ? "area"
+    : light.type == Type::Spot  ? "spot"
+    : light.type == Type::Point ? "point"
+                                : "directional";
+  members.add("type", type, oneOf({ "directional", "spot", "point", "area" }), true);
+  if (type == "directional")
+  {
+    Vec3 travel = light.target - light.position;
+    members.add("direction", travel, readDirection, true);
+    if (members.reads())
+    {
+      travel = normalized(travel);
+      light.position = -travel;
+    }
+    if (light.box || members.place("box").present())
+    {
+      light.box = light.box.value_or(SceneLight::Box());
+      members.addObject("box", *light.box,
+        [&](JsonMembers& ofBox, SceneLight::Box& box)
+        {
+          ofBox.add("position", light.position, numbersIn<3>(anyCoordinate), true);
+          addUp(ofBox, box.up, travel);
+          ofBox.add("width", box.width, numberIn(extent), true);
+          ofBox.add("height", box.height, numberIn(extent), true);
+          ofBox.add("depth", box.depth, numberIn(extent), true);
+          light.target = light.position + travel;
+        });
+    }
+  }
+  else
+  {
+    members.add("position", light.position, numbersIn<3>(anyCoordinate), true);
+    if (type != "point")
+    {
+      members.add("target", light.target, targetOf(light.position), true);
+    }
+    else if (members.reads())
+    {
+      light.target = light.position - Vec3{ 0.0, 1.0, 0.0 }; // arbitrary
+    }
+    const bool isSpot = type == "spot" || light.type == Type::Spot ||
+      (type == "area" && members.place("cone_angle").present());
+    light.type = isSpot ? Type::Spot : Type::Point;
+    if (isSpot)
+    {
+      members.add("cone_angle", light.coneAngleDegrees, numberIn(coneAngleDegrees));
+    }
+  }
+  if (type == "area")
+  {
+    light.area = light.area.value_or(SceneLight::Area());
+    describe(members, *light.area, light.target - light.position, texture, folder);
+  }
+  members.add("color", light.color, numbersIn<3>(colorChannel));
+  members.add("intensity", light.intensity, numberIn(lightIntensity));
+  for (const auto& [name, text] : light.settings)
+  {
+    const bool isChoice = std::holds_alternative<ChoiceSetting>(findSetting(name)->values);
+    members.write(name, isChoice ? nlohmann::json(text) : nlohmann::json::parse(text));
+  }
+  for (const Setting* setting : shadowSettings())
+  {
+    if (const JsonValue value = members.place(setting->name); value.present())
+    {
+      light.settings[setting->name] = readSetting(value, *setting);
+    }
+  }
+  members.refuseOthers();
+}
+
+void describe(JsonMembers& members, SceneCamera& camera, bool complete)
+{
+  members.add("position", camera.position, numbersIn<3>(anyCoordinate), complete);
+  members.add("target", camera.target, targetOf(camera.position), complete);
+  if (camera.target == camera.position)
+  {
+    members.place("position").fail("a position that is not the scene's target");
+  }
+  addUp(members, camera.up, camera.target - camera.position);
+  if (const JsonValue angle = members.place("fov"); angle.present())
+  {
+    if (members.place("parallel_scale").present())
+    {
+      angle.refuse("means nothing for a parallel camera, which \"parallel_scale\" makes");
+    }
+    camera.parallelScale.reset();
+  }
+  members.add("parallel_scale", camera.parallelScale, numberIn(extent));
+  if (!camera.parallelScale)
+  {
+    members.add("fov", camera.fovDegrees, numberIn(fieldOfViewDegrees));
+  }
+  members.refuseOthers();
+}
+
+SceneLight parseLight(const std::string& spec)
+{
+  const std::string source = "--light " + spec;
+  const std::size_t colon = spec.find(':');
+  if (colon == std::string::npos)
+  {
+    throw BadInput(source + ": no type, expected for example directional:direction=-1,-2,-1");
+  }
+  nlohmann::json object = parseAssignments(source, spec.substr(colon + 1));
+  if (!object.emplace("type", spec.substr(0, colon)).second)
+  {
+    throw BadInput(source + ": unknown key \"type\", expected the type in front of the colon only");
+  }
+  JsonMembers members(JsonValue(source, object));
+  SceneLight light;
+  std::optional<std::string> texture;
+  describe(members, light, texture, {});
+  return light;
+}
+
+SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults)
+{
+  const std::string source = "--camera " + spec;
+  const nlohmann::json object = parseAssignments(source, spec);
+  JsonMembers members(JsonValue(source, object));
+  SceneCamera camera = defaults;
+  describe(members, camera, false);
+  return camera;
 }
 
 } // namespace gnomon::tool

@@ -93,7 +93,6 @@ void visitCells(vtkPolyData* surface, const Visit& visit)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::array<double, 6> boundsWorld(const Scene& scene)
 {
   vtkBoundingBox box;
@@ -118,7 +117,6 @@ std::array<double, 6> boundsWorld(const Scene& scene)
   return bounds;
 }
 
-//------------------------------------------------------------------------------
 SceneCamera framingCamera(const Scene& scene, bool withShadow)
 {
   const std::array<double, 6> bounds = boundsWorld(scene);
@@ -137,7 +135,6 @@ SceneCamera framingCamera(const Scene& scene, bool withShadow)
   return camera;
 }
 
-//------------------------------------------------------------------------------
 void addGround(Scene& scene)
 {
   const std::array<double, 6> bounds = boundsWorld(scene);
@@ -150,7 +147,6 @@ void addGround(Scene& scene)
   scene.models.back().name = "ground";
 }
 
-//------------------------------------------------------------------------------
 DepthRange visibleDepths(const Scene& scene, double aspect)
 {
   const Vec3& eye = scene.camera.position;
@@ -212,7 +208,6 @@ DepthRange visibleDepths(const Scene& scene, double aspect)
   return range;
 }
 
-//------------------------------------------------------------------------------
 SceneLight defaultLight()
 {
   SceneLight light;
@@ -220,7 +215,6 @@ SceneLight defaultLight()
   return light;
 }
 
-//------------------------------------------------------------------------------
 void setAmbient(Scene& scene, double share)
 {
   for (SceneModel& model : scene.models)
@@ -229,7 +223,6 @@ void setAmbient(Scene& scene, double share)
   }
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkProperty> defaultProperty()
 {
   auto property = vtkSmartPointer<vtkProperty>::New();
@@ -239,7 +232,6 @@ vtkSmartPointer<vtkProperty> defaultProperty()
   return property;
 }
 
-//------------------------------------------------------------------------------
 void paint(SceneModel& model, const Vec3& color)
 {
   model.property = defaultProperty();

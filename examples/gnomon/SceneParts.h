@@ -36,7 +36,6 @@ void addModelOnPlane(Scene& scene, const std::string& file, const Vec3& color);
 /// Return the picture of a window: two by two coloured panes between dark bars.
 vtkSmartPointer<vtkImageData> makePanes();
 
-/// Add a model to a scene.
 inline void add(
   Scene& scene, const std::string& name, const MeshBuilder& mesh, const Vec3& color = casterColor)
 {

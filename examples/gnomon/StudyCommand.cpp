@@ -86,7 +86,6 @@ void dropRepeated(std::vector<Value>& values)
     values.end());
 }
 
-/// A scene from a view.
 struct Case
 {
   std::string scene;
@@ -183,7 +182,6 @@ Rows finishedRows(const std::string& file, const Case& of)
   }
 }
 
-/// Run a case, and write its rows to a file.
 Rows runCase(const std::string& file, const Case& of, const ComparisonEvents& events)
 {
   Scene scene = loadScene(of.scene);
@@ -248,7 +246,6 @@ void study(StudyOptions options)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addStudyCommand(CLI::App& app)
 {
   CLI::App* const command = app.add_subcommand("study",

@@ -6,7 +6,6 @@
 namespace gnomon::tool
 {
 
-//------------------------------------------------------------------------------
 std::vector<std::string> split(const std::string& text, char separator)
 {
   std::vector<std::string> parts;
@@ -21,7 +20,6 @@ std::vector<std::string> split(const std::string& text, char separator)
   return parts;
 }
 
-//------------------------------------------------------------------------------
 std::vector<std::string> splitWords(const std::string& text)
 {
   constexpr const char* whiteSpace = " \t\r\n\v\f";
@@ -36,20 +34,17 @@ std::vector<std::string> splitWords(const std::string& text)
   return words;
 }
 
-//------------------------------------------------------------------------------
 std::string quotedWord(const std::vector<std::string>& words, std::size_t number)
 {
   return number < words.size() ? quoted(words[number]) : "the line's end";
 }
 
-//------------------------------------------------------------------------------
 std::string quoted(const std::string& text)
 {
   constexpr std::size_t longest = 60;
   return '"' + (text.size() > longest ? text.substr(0, longest) + "..." : text) + '"';
 }
 
-//------------------------------------------------------------------------------
 std::string oneLine(const std::string& text)
 {
   std::string line = text;

@@ -36,7 +36,6 @@ std::string withoutOrigin(const std::string& message)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 class VtkMessages::Window : public vtkOutputWindow
 {
 public:
@@ -53,7 +52,6 @@ public:
 };
 vtkStandardNewMacro(VtkMessages::Window);
 
-//------------------------------------------------------------------------------
 VtkMessages::VtkMessages()
   : window_(vtkSmartPointer<Window>::New())
   , previous_(vtkOutputWindow::GetInstance())
@@ -64,20 +62,17 @@ VtkMessages::VtkMessages()
   vtkOutputWindow::SetInstance(this->window_);
 }
 
-//------------------------------------------------------------------------------
 VtkMessages::~VtkMessages()
 {
   vtkOutputWindow::SetInstance(this->previous_);
   vtkLogger::SetStderrVerbosity(this->previousVerbosity_);
 }
 
-//------------------------------------------------------------------------------
 const std::vector<std::string>& VtkMessages::errors() const
 {
   return this->window_->errors;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<std::string>& VtkMessages::warnings() const
 {
   return this->window_->warnings;

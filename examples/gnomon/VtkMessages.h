@@ -22,8 +22,7 @@ class VtkMessages
 public:
   VtkMessages();
   ~VtkMessages();
-  VtkMessages(const VtkMessages&) = delete;
-  VtkMessages& operator=(const VtkMessages&) = delete;
+  VtkMessages& operator=(VtkMessages&&) = delete; ///< nor copied
 
   /// Return the texts caught, each on one line and without VTK's prefix of the source file.
   const std::vector<std::string>& errors() const;

@@ -27,7 +27,6 @@ inline bool isDecided(Certainty certainty)
   return certainty != Certainty::Uncertain && certainty != Certainty::Reached;
 }
 
-/// A triangle as the camera sees it.
 struct ReceiverTriangle
 {
   std::uint32_t triangle; ///< of the snapshot; never one of a surface with instances

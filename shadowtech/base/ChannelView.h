@@ -19,8 +19,7 @@ public:
     this->show(first, second);
   }
   ~ChannelView() { this->show(GL_RED, GL_GREEN); }
-  ChannelView(const ChannelView&) = delete;
-  ChannelView& operator=(const ChannelView&) = delete;
+  ChannelView& operator=(ChannelView&&) = delete; ///< nor copied
 
 private:
   void show(GLenum first, GLenum second) const

@@ -60,8 +60,7 @@ std::uint8_t texelOf(const CutoutMask& mask, int x, int y)
         static_cast<std::size_t>(column)];
 }
 
-/// Return the place of texture coordinates in texels.
-glm::vec2 placeOf(const CutoutMask& mask, const glm::vec2& coordinates)
+glm::vec2 placeInTexels(const CutoutMask& mask, const glm::vec2& coordinates)
 {
   return { reduced(coordinates.x, mask.wrap) * static_cast<float>(mask.width),
     reduced(coordinates.y, mask.wrap) * static_cast<float>(mask.height) };
@@ -69,11 +68,10 @@ glm::vec2 placeOf(const CutoutMask& mask, const glm::vec2& coordinates)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool CutoutMask::isDrawn(const glm::vec2& textureCoordinates) const
 {
   const auto texelDrawn = [this](int x, int y) { return texelOf(*this, x, y) > 0; };
-  const glm::vec2 place = placeOf(*this, textureCoordinates);
+  const glm::vec2 place = placeInTexels(*this, textureCoordinates);
   if (!this->interpolated)
   {
     return texelDrawn(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)));
@@ -90,11 +88,10 @@ bool CutoutMask::isDrawn(const glm::vec2& textureCoordinates) const
     (nextRow && texelDrawn(x, y + 1)) || (nextColumn && nextRow && texelDrawn(x + 1, y + 1));
 }
 
-//------------------------------------------------------------------------------
 double CutoutMask::alphaAt(const glm::vec2& textureCoordinates) const
 {
   constexpr double full = 255.0;
-  const glm::vec2 place = placeOf(*this, textureCoordinates);
+  const glm::vec2 place = placeInTexels(*this, textureCoordinates);
   if (!this->interpolated)
   {
     const glm::ivec2 texel(glm::floor(place));

@@ -18,8 +18,7 @@ class GlContextLost
 public:
   GlContextLost() { lost = true; }
   ~GlContextLost() { lost = false; }
-  GlContextLost(const GlContextLost&) = delete;
-  GlContextLost& operator=(const GlContextLost&) = delete;
+  GlContextLost& operator=(GlContextLost&&) = delete; ///< nor copied
 
   inline static thread_local bool lost = false;
 };

@@ -26,7 +26,6 @@ void beginReading()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 GLuint GlStateGuard::stateOf(GLenum name)
 {
   GLint value = 0;
@@ -34,7 +33,6 @@ GLuint GlStateGuard::stateOf(GLenum name)
   return static_cast<GLuint>(value);
 }
 
-//------------------------------------------------------------------------------
 GlStateGuard::GlStateGuard()
 {
   for (std::size_t i = 0; i < switches_.size(); ++i)
@@ -68,7 +66,6 @@ GlStateGuard::GlStateGuard()
   }
 }
 
-//------------------------------------------------------------------------------
 GlStateGuard::~GlStateGuard()
 {
   for (int unit = 0; unit < textureUnits; ++unit)
@@ -116,7 +113,6 @@ GlStateGuard::~GlStateGuard()
   }
 }
 
-//------------------------------------------------------------------------------
 void readFramebuffer(
   GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size, GLenum format, void* floats)
 {
@@ -130,7 +126,6 @@ void readFramebuffer(
   glReadPixels(origin.x, origin.y, size.x, size.y, format, GL_FLOAT, floats);
 }
 
-//------------------------------------------------------------------------------
 void readDepths(
   GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size, std::vector<float>& depths)
 {
@@ -138,7 +133,6 @@ void readDepths(
   readFramebuffer(framebuffer, origin, size, GL_DEPTH_COMPONENT, depths.data());
 }
 
-//------------------------------------------------------------------------------
 void readTexture(GLuint texture, GLenum format, GLenum type, void* texels)
 {
   const GlStateGuard guard;
@@ -148,7 +142,6 @@ void readTexture(GLuint texture, GLenum format, GLenum type, void* texels)
   glGetTexImage(GL_TEXTURE_2D, 0, format, type, texels);
 }
 
-//------------------------------------------------------------------------------
 StorageBindingsGuard::StorageBindingsGuard()
 {
   glGetIntegerv(GL_SHADER_STORAGE_BUFFER_BINDING, &this->general_);
@@ -157,7 +150,6 @@ StorageBindingsGuard::StorageBindingsGuard()
   glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, 0, &this->size_);
 }
 
-//------------------------------------------------------------------------------
 StorageBindingsGuard::~StorageBindingsGuard()
 {
   const auto indexed = static_cast<GLuint>(this->indexed_);

@@ -17,14 +17,12 @@ class GlStateGuard
 public:
   GlStateGuard();
   ~GlStateGuard();
-  GlStateGuard(const GlStateGuard&) = delete;
-  GlStateGuard& operator=(const GlStateGuard&) = delete;
+  GlStateGuard& operator=(GlStateGuard&&) = delete; ///< nor copied
 
   /// The number of texture units whose 2D and 2D array bindings are restored.
   static constexpr int textureUnits = 12;
 
 private:
-  /// Return a number of the state.
   static GLuint stateOf(GLenum name);
 
   static constexpr std::array<GLenum, 12> switches_ = { GL_DEPTH_TEST, GL_CLIP_DISTANCE0,
@@ -84,8 +82,7 @@ class StorageBindingsGuard
 public:
   StorageBindingsGuard();
   ~StorageBindingsGuard();
-  StorageBindingsGuard(const StorageBindingsGuard&) = delete;
-  StorageBindingsGuard& operator=(const StorageBindingsGuard&) = delete;
+  StorageBindingsGuard& operator=(StorageBindingsGuard&&) = delete; ///< nor copied
 
 private:
   GLint general_ = 0, indexed_ = 0;

@@ -30,7 +30,6 @@ inline std::string glslDefine(const std::string& name, double value)
   return "#define " + name + " float(" + glslNumber(value) + ")\n";
 }
 
-/// Return the name of one element of an array of uniforms.
 inline std::string glslElement(const std::string& name, std::size_t index)
 {
   return name + "[" + std::to_string(index) + "]";

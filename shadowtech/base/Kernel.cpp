@@ -9,7 +9,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 KernelUnits kernelUnits(const ShadowLight& light)
 {
   if (light.kernel.widthAcross > 0.0)
@@ -19,7 +18,6 @@ KernelUnits kernelUnits(const ShadowLight& light)
   return isWarped(light) ? KernelUnits::Even : KernelUnits::Texels;
 }
 
-//------------------------------------------------------------------------------
 MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent)
 {
   MapReach reach;
@@ -48,7 +46,6 @@ MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent)
   return reach;
 }
 
-//------------------------------------------------------------------------------
 std::string kernelDefines(const ShadowLight& light)
 {
   const KernelUnits units = kernelUnits(light);
@@ -56,7 +53,6 @@ std::string kernelDefines(const ShadowLight& light)
     glslDefine("KERNEL_ACROSS_LIGHT", units == KernelUnits::Across);
 }
 
-//------------------------------------------------------------------------------
 Uniform kernelUnit(const MapReach& reach)
 {
   const bool across = reach.unitAcross > 0.0;

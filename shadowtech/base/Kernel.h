@@ -17,7 +17,6 @@ enum class KernelUnits
   Across
 };
 
-/// Return the unit of a light's kernel.
 KernelUnits kernelUnits(const ShadowLight& light);
 
 /// How far a kernel reaches: the texels read around each of its points, and its square and disc in

@@ -79,7 +79,6 @@ std::vector<std::uint8_t> findCreases(const Occluders& occluders, const Surface&
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::vector<std::uint32_t>& Patches::numbers(
   const Occluders& occluders, const Surface& surface)
 {
@@ -91,7 +90,6 @@ const std::vector<std::uint32_t>& Patches::numbers(
   return this->numbers_;
 }
 
-//------------------------------------------------------------------------------
 bool Patches::isAtCrease(const Occluders& occluders, const Surface& surface, std::uint32_t triangle)
 {
   if (this->positionsVersion_.load(std::memory_order_acquire) != surface.positionsVersion)
@@ -107,7 +105,6 @@ bool Patches::isAtCrease(const Occluders& occluders, const Surface& surface, std
   return (this->creased_[corners.x] | this->creased_[corners.y] | this->creased_[corners.z]) != 0;
 }
 
-//------------------------------------------------------------------------------
 std::size_t Patches::bytes() const
 {
   return sizeof(*this) + bytesOf(this->numbers_) + bytesOf(this->creased_);

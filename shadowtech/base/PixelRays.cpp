@@ -5,7 +5,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 PixelRays pixelRays(
   const glm::dmat4& clipFromView, const glm::dmat4& centredFromView, int width, int height)
 {

@@ -25,7 +25,6 @@ inline glm::dvec3 centredVertex(
     : position;
 }
 
-/// Return a triangle's corners in centred coordinates.
 inline std::array<glm::dvec3, 3> centredCorners(const Occluders& occluders, const Surface& surface,
   std::uint32_t instance, std::uint32_t triangle)
 {

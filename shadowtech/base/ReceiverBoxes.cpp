@@ -28,7 +28,6 @@ ReceiverBoxes::Level groupsOf(const ReceiverBoxes::Level& level)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Bounds boxOf(
   const ReceiverPixels& receivers, std::size_t first, std::size_t columns, std::size_t rows)
 {
@@ -56,7 +55,6 @@ Bounds boxOf(
     : inflated({ glm::dvec3(lower), glm::dvec3(upper) }, static_cast<double>(offset));
 }
 
-//------------------------------------------------------------------------------
 ReceiverBoxes::ReceiverBoxes(const ReceiverPixels& receivers, const Occluders& occluders)
   : width_(static_cast<std::size_t>(receivers.width))
   , height_(static_cast<std::size_t>(receivers.height))
@@ -92,7 +90,6 @@ ReceiverBoxes::ReceiverBoxes(const ReceiverPixels& receivers, const Occluders& o
   }
 }
 
-//------------------------------------------------------------------------------
 std::size_t ReceiverBoxes::bytes() const
 {
   return bytesOf(this->receives_) +

@@ -63,7 +63,6 @@ void meetSpan(const SeenTriangle& seen,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void projectFlat(
   const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span, ReceiverPixels& receivers)
 {
@@ -96,7 +95,6 @@ void projectFlat(
   }
 }
 
-//------------------------------------------------------------------------------
 void findCurves(const SeenTriangle& seen, const PixelSpan& span, ReceiverPixels& receivers)
 {
   using Row = std::array<float, ReceiverTile::mostColumns>;
@@ -114,7 +112,6 @@ void findCurves(const SeenTriangle& seen, const PixelSpan& span, ReceiverPixels&
   }
 }
 
-//------------------------------------------------------------------------------
 void projectSolid(
   const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span, ReceiverPixels& receivers)
 {
@@ -134,7 +131,6 @@ void projectSolid(
   }
 }
 
-//------------------------------------------------------------------------------
 void projectSpan(
   const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span, ReceiverPixels& receivers)
 {
@@ -145,7 +141,6 @@ void projectSpan(
   }
 }
 
-//------------------------------------------------------------------------------
 void leaveUncovered(const PixelSpan& span, ReceiverPixels& receivers)
 {
   for (const auto plane : ReceiverPixels::planes)

@@ -49,7 +49,6 @@ void projectFlat(const SeenTriangle& seen, const PixelRays& rays, const PixelSpa
 void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span,
   ReceiverPixels& receivers);
 
-/// Compute the receivers of a span that shows a solid.
 void projectSolid(const SeenTriangle& seen, const PixelRays& rays, const PixelSpan& span,
   ReceiverPixels& receivers);
 
@@ -57,7 +56,6 @@ void projectSolid(const SeenTriangle& seen, const PixelRays& rays, const PixelSp
 /// @param span only its indices into the arrays count
 void findCurves(const SeenTriangle& seen, const PixelSpan& span, ReceiverPixels& receivers);
 
-/// Mark a span's pixels as not covered.
 void leaveUncovered(const PixelSpan& span, ReceiverPixels& receivers);
 
 } // namespace gnomon

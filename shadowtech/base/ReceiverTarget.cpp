@@ -4,7 +4,6 @@
 
 namespace gnomon
 {
-//------------------------------------------------------------------------------
 void ReceiverTarget::begin(int width, int height, bool withPoints)
 {
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->outerDrawFramebuffer_);
@@ -20,7 +19,6 @@ void ReceiverTarget::begin(int width, int height, bool withPoints)
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
-//------------------------------------------------------------------------------
 void ReceiverTarget::bind()
 {
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
@@ -29,7 +27,6 @@ void ReceiverTarget::bind()
   glDisablei(GL_BLEND, 2);
 }
 
-//------------------------------------------------------------------------------
 void ReceiverTarget::allocate(int width, int height, bool withPoints)
 {
   const GlStateGuard guard;
@@ -59,7 +56,6 @@ void ReceiverTarget::allocate(int width, int height, bool withPoints)
   this->withPoints_ = withPoints;
 }
 
-//------------------------------------------------------------------------------
 void ReceiverTarget::end(bool blending)
 {
   if (blending)
@@ -71,7 +67,6 @@ void ReceiverTarget::end(bool blending)
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(this->outerReadFramebuffer_));
 }
 
-//------------------------------------------------------------------------------
 void ReceiverTarget::fill(int width, int height, const std::vector<glm::vec4>& fragments,
   const std::vector<glm::vec4>& points)
 {
@@ -92,7 +87,6 @@ void ReceiverTarget::fill(int width, int height, const std::vector<glm::vec4>& f
   upload(this->points_, points);
 }
 
-//------------------------------------------------------------------------------
 void ReceiverTarget::read(ReceiverImages& images) const
 {
   images.width = this->width_;
@@ -104,14 +98,12 @@ void ReceiverTarget::read(ReceiverImages& images) const
     images.fragments.data());
 }
 
-//------------------------------------------------------------------------------
 void ReceiverTarget::readDepths(std::vector<float>& depths) const
 {
   gnomon::readDepths(
     this->framebuffer_.name(), glm::ivec2(0), { this->width_, this->height_ }, depths);
 }
 
-//------------------------------------------------------------------------------
 std::size_t ReceiverTarget::bytes() const
 {
   return this->fragments_.bytes() + this->points_.bytes() + this->depth_.bytes();

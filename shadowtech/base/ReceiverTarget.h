@@ -38,7 +38,6 @@ public:
   void fill(int width, int height, const std::vector<glm::vec4>& fragments,
     const std::vector<glm::vec4>& points);
 
-  /// Read the fragments back.
   void read(ReceiverImages& images) const;
   /// Read the window depths back, one per pixel.
   void readDepths(std::vector<float>& depths) const;

@@ -11,8 +11,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -202,7 +200,6 @@ struct TileMaking
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Receivers::Receivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
   const Occluders& occluders, ReceiverPixels& stored, bool findCurves)
   : images_(&images)
@@ -216,7 +213,6 @@ Receivers::Receivers(const ReceiverImages& images, const std::vector<DrawnSurfac
   stored.resize(0, 0);
 }
 
-//------------------------------------------------------------------------------
 Receivers::Receivers(const ReceiverPixels& stored)
   : stored_(&stored)
   , width_(static_cast<std::size_t>(stored.width))
@@ -224,13 +220,11 @@ Receivers::Receivers(const ReceiverPixels& stored)
 {
 }
 
-//------------------------------------------------------------------------------
 Drawn Receivers::drawn(const ReceiverDecider* decider) const
 {
   return { *this->images_, *this->drawnSurfaces_, *this->occluders_, decider, this->findCurves_ };
 }
 
-//------------------------------------------------------------------------------
 void Receivers::visitTiles(const std::function<void(const ReceiverTile&)>& visit,
   const ReceiverDecider* decider, const std::vector<std::uint8_t>* skipped) const
 {
@@ -253,7 +247,6 @@ void Receivers::visitTiles(const std::function<void(const ReceiverTile&)>& visit
     });
 }
 
-//------------------------------------------------------------------------------
 const ReceiverPixels& Receivers::all()
 {
   if (!this->stored_)

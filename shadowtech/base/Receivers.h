@@ -53,7 +53,6 @@ struct ReceiverPixels
 
   static constexpr std::uint32_t notCovered = 0xffffffffu;
 
-  /// All arrays of floats.
   static const std::array<std::vector<float> ReceiverPixels::*, 7> planes;
 
   std::size_t size() const

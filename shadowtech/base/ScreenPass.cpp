@@ -3,7 +3,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 GLuint ScreenPass::use(
   ShaderLibrary& shaders, const std::string& fragmentGlsl, const std::vector<std::string>& defines)
 {
@@ -11,7 +10,6 @@ GLuint ScreenPass::use(
     fragmentGlsl, defines);
 }
 
-//------------------------------------------------------------------------------
 GLuint ScreenPass::use(ShaderLibrary& shaders, const std::string& vertexGlsl,
   const std::string& fragmentGlsl, const std::vector<std::string>& defines)
 {
@@ -21,7 +19,6 @@ GLuint ScreenPass::use(ShaderLibrary& shaders, const std::string& vertexGlsl,
   return program;
 }
 
-//------------------------------------------------------------------------------
 void ScreenPass::attach(const std::vector<Image>& images, int width, int height)
 {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->framebuffer_.create());
@@ -51,14 +48,12 @@ void ScreenPass::attach(const std::vector<Image>& images, int width, int height)
   glDisable(GL_DEPTH_TEST);
 }
 
-//------------------------------------------------------------------------------
 void ScreenPass::fill(const std::vector<Image>& images, int width, int height)
 {
   this->attach(images, width, height);
   this->draw(static_cast<GLuint>(images.size()));
 }
 
-//------------------------------------------------------------------------------
 void ScreenPass::fillQuads(const std::vector<Image>& images, int width, int height, int quads)
 {
   this->attach(images, width, height);
@@ -67,7 +62,6 @@ void ScreenPass::fillQuads(const std::vector<Image>& images, int width, int heig
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, quads);
 }
 
-//------------------------------------------------------------------------------
 void ScreenPass::fillBound(const glm::ivec2& origin, const glm::ivec2& size)
 {
   glViewport(origin.x, origin.y, size.x, size.y);
@@ -77,7 +71,6 @@ void ScreenPass::fillBound(const glm::ivec2& origin, const glm::ivec2& size)
   this->draw(1);
 }
 
-//------------------------------------------------------------------------------
 void ScreenPass::openState(GLuint outputs)
 {
   glDisable(GL_SCISSOR_TEST);
@@ -96,7 +89,6 @@ void ScreenPass::openState(GLuint outputs)
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-//------------------------------------------------------------------------------
 void ScreenPass::draw(GLuint outputs)
 {
   openState(outputs);

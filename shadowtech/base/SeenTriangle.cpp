@@ -25,7 +25,6 @@ bool isFinite(const glm::dvec3& vector)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isFinite(const PixelRays& rays)
 {
   return isFinite(rays.firstOrigin) && isFinite(rays.originPerColumn) &&
@@ -33,7 +32,6 @@ bool isFinite(const PixelRays& rays)
     isFinite(rays.directionPerColumn) && isFinite(rays.directionPerRow);
 }
 
-//------------------------------------------------------------------------------
 TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   const std::vector<DrawnSurface>& drawnSurfaces, const Occluders& occluders)
 {
@@ -85,7 +83,6 @@ TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   return { block.surface, surface.firstTriangle + triangle, instance, drawn };
 }
 
-//------------------------------------------------------------------------------
 void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen)
 {
   const Occluders& occluders = drawn.occluders;
@@ -180,7 +177,6 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
   seen.noise = noise(seen, seen.normal, doubleArea);
 }
 
-//------------------------------------------------------------------------------
 glm::dvec3 closestToRay(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& origin,
   const glm::dvec3& direction, bool parallel)
 {
@@ -222,7 +218,6 @@ glm::dvec3 closestToRay(const std::array<glm::dvec3, 3>& corners, const glm::dve
   return closest;
 }
 
-//------------------------------------------------------------------------------
 glm::dvec3 inwards(
   const glm::dvec3& edge, const std::array<glm::dvec3, 3>& corners, double footprint)
 {
@@ -232,7 +227,6 @@ glm::dvec3 inwards(
   return length > 2.0 * step ? edge + step / length * toMiddle : edge + 0.5 * toMiddle;
 }
 
-//------------------------------------------------------------------------------
 const SeenTriangle& SeenTriangles::find(const Drawn& drawn, const glm::vec2& fragment)
 {
   const float primitive = std::abs(fragment.y);

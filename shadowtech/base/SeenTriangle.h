@@ -19,7 +19,6 @@ namespace gnomon
 
 constexpr std::uint32_t notFound = 0xffffffffu;
 
-/// A fragment's triangle in the snapshot.
 struct TriangleOfFragment
 {
   std::uint32_t surface = notFound;
@@ -84,7 +83,6 @@ constexpr float primitiveLimit = 16777216.0f;
 TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   const std::vector<DrawnSurface>& drawnSurfaces, const Occluders& occluders);
 
-/// True if all of a picture's rays have finite numbers.
 bool isFinite(const PixelRays& rays);
 
 /// The size of pixels on triangles.

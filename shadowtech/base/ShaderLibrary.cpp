@@ -97,8 +97,7 @@ public:
       throw ShaderError("a shader does not compile:\n" + log + "\n" + source);
     }
   }
-  Shader(const Shader&) = delete;
-  Shader& operator=(const Shader&) = delete;
+  Shader& operator=(Shader&&) = delete; ///< nor copied
   ~Shader() { glDeleteShader(this->name); }
 
   const GLuint name;
@@ -106,7 +105,6 @@ public:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string ShaderLibrary::source(const std::string& path)
 {
   std::set<std::string> seen;
@@ -115,7 +113,6 @@ std::string ShaderLibrary::source(const std::string& path)
   return text;
 }
 
-//------------------------------------------------------------------------------
 std::string numberedForLight(const std::string& text, int light)
 {
   const std::string suffix = "_LIGHT";
@@ -138,7 +135,6 @@ std::string numberedForLight(const std::string& text, int light)
   return numbered.append(text, copied);
 }
 
-//------------------------------------------------------------------------------
 GLuint ShaderLibrary::program(
   const std::vector<Stage>& stages, const std::vector<std::string>& defines)
 {
@@ -182,7 +178,6 @@ GLuint ShaderLibrary::program(
   return program.name();
 }
 
-//------------------------------------------------------------------------------
 void ShaderLibrary::setUniform(GLuint program, const Uniform& uniform)
 {
   const GLint location = glGetUniformLocation(program, uniform.name.c_str());
@@ -215,7 +210,6 @@ void ShaderLibrary::setUniform(GLuint program, const Uniform& uniform)
   std::visit(Setter{ location }, uniform.value);
 }
 
-//------------------------------------------------------------------------------
 int ShaderLibrary::setUniforms(
   GLuint program, const std::vector<Uniform>& uniforms, int light, int firstUnit)
 {

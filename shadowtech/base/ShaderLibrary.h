@@ -27,7 +27,6 @@ public:
   /// @throws ShaderError for a file that is not embedded
   static std::string source(const std::string& path);
 
-  /// A shader stage of a program.
   struct Stage
   {
     GLenum type;        ///< GL_VERTEX_SHADER, ...
@@ -49,7 +48,6 @@ public:
   static int setUniforms(
     GLuint program, const std::vector<Uniform>& uniforms, int light, int firstUnit);
 
-  /// Return the number of programs compiled so far.
   int compiles() const { return this->compiles_; }
 
 private:

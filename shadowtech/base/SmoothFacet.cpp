@@ -33,7 +33,6 @@ std::optional<std::array<glm::vec3, 3>> turnedNormals(const glm::dmat3& turn,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::optional<std::array<glm::vec3, 3>> cornerNormals(
   const Occluders& occluders, const TriangleOfFragment& found, const glm::dvec3& normal, bool back)
 {
@@ -49,7 +48,6 @@ std::optional<std::array<glm::vec3, 3>> cornerNormals(
     occluders.triangles[found.triangle] - surface.firstVertex, normal);
 }
 
-//------------------------------------------------------------------------------
 float largestHeightOf(const std::vector<glm::vec3>& positions,
   const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& normals)
 {
@@ -79,7 +77,6 @@ float largestHeightOf(const std::vector<glm::vec3>& positions,
   return flatArea > 0.01 * curvedArea ? 0.0f : largest;
 }
 
-//------------------------------------------------------------------------------
 SmoothFacet::SmoothFacet(
   const std::array<glm::dvec3, 3>& corners, const std::array<glm::vec3, 3>& normals)
   : first_(corners[0])
@@ -96,7 +93,6 @@ SmoothFacet::SmoothFacet(
   }
 }
 
-//------------------------------------------------------------------------------
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]
 #endif
@@ -134,7 +130,6 @@ SmoothFacet::look(std::size_t count, const PointArrays& points, float* heights,
   }
 }
 
-//------------------------------------------------------------------------------
 float SmoothFacet::largestHeight() const
 {
   std::array<std::array<float, 4>, 3> places, normals;

@@ -5,7 +5,6 @@
 #include "shadowtech/base/ShadowRay.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -211,7 +210,6 @@ SolidMesh cylinderMesh(std::uint32_t sides, bool isTube)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 PlacedSolid placedSolid(Solid kind, const glm::mat4x3& centredFromSource)
 {
   const glm::dmat4x3 matrix(centredFromSource);
@@ -224,7 +222,6 @@ PlacedSolid placedSolid(Solid kind, const glm::mat4x3& centredFromSource)
   return solid;
 }
 
-//------------------------------------------------------------------------------
 Bounds boundsOf(const PlacedSolid& solid)
 {
   glm::dvec3 reach(solid.radius);
@@ -243,7 +240,6 @@ Bounds boundsOf(const PlacedSolid& solid)
   return { solid.centre - reach, solid.centre + reach };
 }
 
-//------------------------------------------------------------------------------
 Bounds solidsBounds(Solid kind, const std::vector<glm::mat4x3>& centredFromSource)
 {
   Bounds bounds;
@@ -257,7 +253,6 @@ Bounds solidsBounds(Solid kind, const std::vector<glm::mat4x3>& centredFromSourc
   return bounds;
 }
 
-//------------------------------------------------------------------------------
 std::optional<Crossing> crossingOf(
   const PlacedSolid& solid, const glm::dvec3& origin, const glm::dvec3& direction)
 {
@@ -278,7 +273,6 @@ std::optional<Crossing> crossingOf(
   return crossing;
 }
 
-//------------------------------------------------------------------------------
 bool blocks(const PlacedSolid& solid, bool oneSided, const glm::dvec3& origin,
   const glm::dvec3& direction, double far)
 {
@@ -296,7 +290,6 @@ bool blocks(const PlacedSolid& solid, bool oneSided, const glm::dvec3& origin,
   return crossing && (isAhead(crossing->enters) || (!onlyOutside && isAhead(crossing->leaves)));
 }
 
-//------------------------------------------------------------------------------
 SolidPoint seenPoint(
   const PlacedSolid& solid, const glm::dvec3& origin, const glm::dvec3& direction)
 {
@@ -316,13 +309,11 @@ SolidPoint seenPoint(
   return point;
 }
 
-//------------------------------------------------------------------------------
 float noiseOf(const PlacedSolid& solid, const SolidPoint& point)
 {
   return 2.0f * storageNoise(point.normal, glm::abs(point.position) + solid.halfLength);
 }
 
-//------------------------------------------------------------------------------
 SolidMesh meshOf(Solid kind, std::size_t count)
 {
   constexpr std::size_t mostTriangles = 1u << 20;

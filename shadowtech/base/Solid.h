@@ -29,7 +29,6 @@ enum class Solid : std::uint8_t
   Tube
 };
 
-/// A solid in centred coordinates.
 struct PlacedSolid
 {
   Solid kind;
@@ -66,7 +65,6 @@ std::optional<Crossing> crossingOf(
 bool blocks(const PlacedSolid& solid, bool oneSided, const glm::dvec3& origin,
   const glm::dvec3& direction, double far);
 
-/// A point on a solid's surface.
 struct SolidPoint
 {
   glm::dvec3 position;

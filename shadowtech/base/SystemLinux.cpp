@@ -9,7 +9,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 double availableBytes()
 {
   std::ifstream file("/proc/meminfo");
@@ -24,7 +23,6 @@ double availableBytes()
   return std::numeric_limits<double>::infinity();
 }
 
-//------------------------------------------------------------------------------
 std::array<char, 512> nameOfMachine()
 {
   std::array<char, 512> name{};
@@ -35,7 +33,6 @@ std::array<char, 512> nameOfMachine()
   return name;
 }
 
-//------------------------------------------------------------------------------
 long processNumber()
 {
   return getpid();

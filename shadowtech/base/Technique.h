@@ -87,7 +87,6 @@ struct TechniqueInfo
   {
     return std::find(this->settings.begin(), this->settings.end(), &table) != this->settings.end();
   }
-  /// True if it bakes maps from the light.
   bool bakesMap() const { return this->has(viewSettings()); }
 };
 
@@ -245,7 +244,6 @@ public:
 using AnyTechnique = std::variant<std::unique_ptr<PointwiseTechnique>,
   std::unique_ptr<GpuScreenTechnique>, std::unique_ptr<CpuScreenTechnique>>;
 
-/// Return the technique as the base of all kinds.
 inline Technique& baseOf(const AnyTechnique& technique)
 {
   return std::visit([](const auto& any) -> Technique& { return *any; }, technique);

@@ -111,7 +111,6 @@ std::string offerSmaller(int sizeTexels, const IsRoom& isRoom)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 double TextureShape::bytes() const
 {
   const double bytesOfChannel = this->format.type == GL_UNSIGNED_BYTE ? 1.0
@@ -125,7 +124,6 @@ double TextureShape::bytes() const
   return texels * bytesOfChannel * this->format.channels * (this->layers > 0 ? this->layers : 1);
 }
 
-//------------------------------------------------------------------------------
 void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, int height,
   int layers, const char* what, int levels)
 {
@@ -136,7 +134,6 @@ void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, i
   }
 }
 
-//------------------------------------------------------------------------------
 void allocateMap(
   GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers, int levels)
 {
@@ -153,7 +150,6 @@ void allocateMap(
   throw TextureMemoryError(describe(shape, "a map") + offer);
 }
 
-//------------------------------------------------------------------------------
 /// Return true if the texture has this shape; else note the shape for its allocation.
 bool SizedTexture::has(const TextureShape& shape)
 {
@@ -163,7 +159,6 @@ bool SizedTexture::has(const TextureShape& shape)
     before.levels == shape.levels;
 }
 
-//------------------------------------------------------------------------------
 bool SizedTexture::allocate(
   const TexelFormat& format, int width, int height, int layers, const char* what, int levels)
 {
@@ -175,7 +170,6 @@ bool SizedTexture::allocate(
   return true;
 }
 
-//------------------------------------------------------------------------------
 bool SizedTexture::allocateMap(const TexelFormat& format, int sizeTexels, int layers, int levels)
 {
   if (this->has({ format, sizeTexels, sizeTexels, layers, levels }))
@@ -186,13 +180,11 @@ bool SizedTexture::allocateMap(const TexelFormat& format, int sizeTexels, int la
   return true;
 }
 
-//------------------------------------------------------------------------------
 std::size_t SizedTexture::bytes() const
 {
   return *this ? static_cast<std::size_t>(this->shape_.bytes()) : 0;
 }
 
-//------------------------------------------------------------------------------
 void requireRoomForMap(std::size_t bytesOfTexel, int sizeTexels, int layers)
 {
   const auto bytes = [&](int side)
@@ -207,7 +199,6 @@ void requireRoomForMap(std::size_t bytesOfTexel, int sizeTexels, int layers)
   }
 }
 
-//------------------------------------------------------------------------------
 void requireRoomForPicture(int width, int height, int samples)
 {
   constexpr double floatsOfSample = 5.0; // red, green, blue, alpha and depth
@@ -221,7 +212,6 @@ void requireRoomForPicture(int width, int height, int samples)
   }
 }
 
-//------------------------------------------------------------------------------
 int mostMapSamples()
 {
   GLint most = std::numeric_limits<GLint>::max();
@@ -234,7 +224,6 @@ int mostMapSamples()
   return std::max(most, 1);
 }
 
-//------------------------------------------------------------------------------
 void allocateSamples(
   GlRenderbuffer& samples, const TexelFormat& format, int sizeTexels, int samplesPerTexel)
 {

@@ -25,7 +25,6 @@ struct TexelFormat
   GLenum type = GL_FLOAT; ///< of a channel: GL_FLOAT, GL_UNSIGNED_INT, GL_UNSIGNED_BYTE
 };
 
-/// A texture's format and size.
 struct TextureShape
 {
   TexelFormat format{};

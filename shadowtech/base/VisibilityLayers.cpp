@@ -32,7 +32,6 @@ std::uint8_t maskOf(int bit)
   return static_cast<std::uint8_t>(1 << bit % bitsOfByte);
 }
 
-/// A format of the image of bits.
 struct BitsFormat
 {
   std::size_t bytesOfPixel;
@@ -75,7 +74,6 @@ void visitBytes(std::size_t pixels, std::size_t stride, const Visit& visit)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void VisibilityLayers::resize(int width, int height, int layers, int bits)
 {
   if (this->have(width, height, layers, bits))
@@ -106,7 +104,6 @@ void VisibilityLayers::resize(int width, int height, int layers, int bits)
   this->bitsOfPixels_.assign(this->bytesOfPixel_ * this->pixels(), 0);
 }
 
-//------------------------------------------------------------------------------
 void VisibilityLayers::estimate(int layer, const PointwiseTechnique& technique,
   const ShadowLight& light, const ReceiverTarget& receivers, const ReceiverSpace& space,
   ShaderLibrary& shaders, std::vector<std::uint8_t>* classes)
@@ -141,13 +138,11 @@ void VisibilityLayers::estimate(int layer, const PointwiseTechnique& technique,
   readTexture(ofPixels.name(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, classes->data());
 }
 
-//------------------------------------------------------------------------------
 void VisibilityLayers::fill(int layer)
 {
   this->screenPass_.fill({ { this->texture_.name(), layer } }, this->width_, this->height_);
 }
 
-//------------------------------------------------------------------------------
 void VisibilityLayers::upload(int firstLayer, const std::vector<float>& visibility)
 {
   const GlStateGuard guard;
@@ -159,7 +154,6 @@ void VisibilityLayers::upload(int firstLayer, const std::vector<float>& visibili
     static_cast<GLsizei>(visibility.size() / this->pixels()), GL_RED, GL_FLOAT, visibility.data());
 }
 
-//------------------------------------------------------------------------------
 void VisibilityLayers::fillBit(int bit, const std::vector<float>& visibility)
 {
   const std::uint8_t lit = maskOf(bit);
@@ -172,7 +166,6 @@ void VisibilityLayers::fillBit(int bit, const std::vector<float>& visibility)
   this->bitsChanged_ = true;
 }
 
-//------------------------------------------------------------------------------
 void VisibilityLayers::darkenBits(
   const std::vector<int>& bits, const std::vector<std::uint8_t>& receives)
 {
@@ -196,7 +189,6 @@ void VisibilityLayers::darkenBits(
   }
 }
 
-//------------------------------------------------------------------------------
 void VisibilityLayers::markBit(int bit, const std::vector<std::uint32_t>& pixels)
 {
   const std::uint8_t mark = maskOf(bit);
@@ -210,7 +202,6 @@ void VisibilityLayers::markBit(int bit, const std::vector<std::uint32_t>& pixels
   this->bitsChanged_ = true;
 }
 
-//------------------------------------------------------------------------------
 bool VisibilityLayers::uploadBits()
 {
   if (!std::exchange(this->bitsChanged_, false))
@@ -228,7 +219,6 @@ bool VisibilityLayers::uploadBits()
   return true;
 }
 
-//------------------------------------------------------------------------------
 void VisibilityLayers::readBit(int bit, std::vector<float>& visibility) const
 {
   const std::uint8_t lit = maskOf(bit);
@@ -239,7 +229,6 @@ void VisibilityLayers::readBit(int bit, std::vector<float>& visibility) const
     { to[pixel] = (from[place] & lit) != 0 ? 1.0f : 0.0f; });
 }
 
-//------------------------------------------------------------------------------
 void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
 {
   const GlStateGuard guard;
@@ -252,7 +241,6 @@ void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
     framebuffer.name(), glm::ivec2(0), { this->width_, this->height_ }, GL_RED, visibility.data());
 }
 
-//------------------------------------------------------------------------------
 std::size_t VisibilityLayers::bytes() const
 {
   return this->pixels() *

@@ -42,7 +42,6 @@ vec4 lastFit()
 #endif
 }
 
-// Return the fragment's place across the light.
 vec2 across()
 {
   vec4 fit = lastFit();

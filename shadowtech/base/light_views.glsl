@@ -49,7 +49,6 @@ uniform int viewOfFace_LIGHT[6]; // -1: it sees no caster
 #ifndef GNOMON_LIGHT_VIEWS
 #define GNOMON_LIGHT_VIEWS
 
-// A point in the space of the view that sees it.
 struct ViewPoint
 {
   vec3 position;
@@ -83,7 +82,6 @@ vec3 cubeFaceFromLight(int face, vec3 v)
   return (face & 1) == 0 ? along : against;
 }
 
-// The inverse of cubeFaceFromLight().
 vec3 lightFromCubeFace(int face, vec3 v)
 {
   vec3 along = face < 2 ? v.zxy : face < 4 ? v.yzx : v;

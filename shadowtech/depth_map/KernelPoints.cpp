@@ -58,27 +58,23 @@ std::array<glm::dvec2, poissonPoints> throwDarts()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::array<glm::dvec2, poissonPoints>& poissonDisc()
 {
   static const std::array<glm::dvec2, poissonPoints> points = throwDarts();
   return points;
 }
 
-//------------------------------------------------------------------------------
 double wrappedDistance(const glm::dvec2& a, const glm::dvec2& b)
 {
   const glm::dvec2 away = glm::abs(a - b);
   return glm::length(glm::min(away, 2.0 - away));
 }
 
-//------------------------------------------------------------------------------
 double largestPoissonDistance(int points)
 {
   return std::sqrt(2.0 / std::sqrt(3.0) * 4.0 / points);
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::dvec2> poissonSquare(int points)
 {
   Random random;
@@ -104,7 +100,6 @@ std::vector<glm::dvec2> poissonSquare(int points)
   return result;
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::vec2> jitteredDiscs(int grid, int discs)
 {
   Random random;

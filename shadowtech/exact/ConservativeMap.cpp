@@ -32,7 +32,6 @@ float above(float depth)
   return std::isfinite(depth) ? depth + depthRounding * (1.0f + std::abs(depth)) : depth;
 }
 
-/// Return the bounds that follow from a finished cell.
 TexelBounds boundsOf(const Cell& cell)
 {
   TexelBounds bounds;
@@ -109,7 +108,6 @@ void lookAt(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 LookUp lookUpOf(const CasterScene& scene, const LightView& view)
 {
   LookUp lookUp;
@@ -125,7 +123,6 @@ LookUp lookUpOf(const CasterScene& scene, const LightView& view)
   return lookUp;
 }
 
-//------------------------------------------------------------------------------
 MapRule certainRule(Covering covering)
 {
   return [covering](const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders,
@@ -147,7 +144,6 @@ MapRule certainRule(Covering covering)
   };
 }
 
-//------------------------------------------------------------------------------
 ConservativeMap::ConservativeMap(
   const LightView& view, bool hasBox, const LookUp& lookUp, std::vector<TexelBounds> texels)
   : view_(view)
@@ -161,7 +157,6 @@ ConservativeMap::ConservativeMap(
   }
 }
 
-//------------------------------------------------------------------------------
 void ConservativeMap::buildLevels()
 {
   const std::vector<TexelBounds>* finer = &this->texels_;
@@ -194,13 +189,11 @@ void ConservativeMap::buildLevels()
   }
 }
 
-//------------------------------------------------------------------------------
 CasterScene ConservativeMap::sceneOf(const Occluders& occluders) const
 {
   return casterScene(this->view_, this->hasBox_, this->lookUp_.size, occluders);
 }
 
-//------------------------------------------------------------------------------
 Certainty ConservativeMap::ask(const CasterScene& scene, const MapPolygon& triangle,
   double leastOffset, double mostOffset, bool onCaster) const
 {
@@ -245,7 +238,6 @@ Certainty ConservativeMap::ask(const CasterScene& scene, const MapPolygon& trian
                                                                            : Certainty::Shadow;
 }
 
-//------------------------------------------------------------------------------
 Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) const
 {
   if (this->texels_.empty())
@@ -319,7 +311,6 @@ Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) co
   return lit ? Certainty::Lit : Certainty::Shadow;
 }
 
-//------------------------------------------------------------------------------
 void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, std::size_t count,
   const std::vector<std::uint8_t>& onCaster, Certainty* certain) const
 {
@@ -365,7 +356,6 @@ void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, st
   }
 }
 
-//------------------------------------------------------------------------------
 std::size_t ConservativeMap::bytes() const
 {
   return bytesOf(this->texels_) + bytesOfAll(this->levels_, bytesOf<TexelBounds>);

@@ -39,7 +39,6 @@ struct TexelBounds
   }
 };
 
-/// How to look up receivers in a map, in float.
 struct LookUp
 {
   /// Maps centred positions to MapPoint's X, Y, Q and W, with Q / W lacking `depthOffset`. As part

@@ -26,7 +26,6 @@ void visitCells(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void drawPolygon(
   const MapPolygon& polygon, const PolygonOnTexels& texels, int width, Span rows, Cell* cells)
 {
@@ -77,7 +76,6 @@ void drawPolygon(
   }
 }
 
-//------------------------------------------------------------------------------
 void drawNoise(const PolygonOnTexels& texels, int width, Span rows, Cell* cells)
 {
   const Span drawn = texels.rows();
@@ -95,7 +93,6 @@ void drawNoise(const PolygonOnTexels& texels, int width, Span rows, Cell* cells)
   }
 }
 
-//------------------------------------------------------------------------------
 bool allTexels(const MapPolygon& polygon, double margin, int width,
   const std::function<bool(int x, int y, float nearest, float farthest)>& agrees)
 {
@@ -115,7 +112,6 @@ bool allTexels(const MapPolygon& polygon, double margin, int width,
   return true;
 }
 
-//------------------------------------------------------------------------------
 void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* cells)
 {
   std::vector<PolygonOnTexels> triangles;
@@ -176,7 +172,6 @@ void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* ce
   }
 }
 
-//------------------------------------------------------------------------------
 void drawEndOfPart(const MapSegment& segment, double margin, int width, Span rows, Cell* cells)
 {
   visitCells(segment, margin, width, rows, cells,
@@ -187,7 +182,6 @@ void drawEndOfPart(const MapSegment& segment, double margin, int width, Span row
     });
 }
 
-//------------------------------------------------------------------------------
 void drawSegment(const MapSegment& segment, double margin, int width, Span rows, Cell* cells)
 {
   visitCells(segment, margin, width, rows, cells,

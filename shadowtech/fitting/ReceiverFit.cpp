@@ -43,8 +43,7 @@ public:
       static_cast<GLboolean>(this->layered_), this->layer_, static_cast<GLenum>(this->access_),
       static_cast<GLenum>(this->format_));
   }
-  ComputeBindingsGuard(const ComputeBindingsGuard&) = delete;
-  ComputeBindingsGuard& operator=(const ComputeBindingsGuard&) = delete;
+  ComputeBindingsGuard& operator=(ComputeBindingsGuard&&) = delete; ///< nor copied
 
 private:
   StorageBindingsGuard buffer_;
@@ -58,7 +57,6 @@ Rectangle coveredBeforeFit(const ShadowLight& light, const MapTexels& texels)
   return isWarped(light) ? wholeMap : texels.covered();
 }
 
-/// Use a compute program with the light's views.
 void useProgram(const char* path, const ShadowLight& light, const std::vector<Uniform>& uniforms,
   ShaderLibrary& shaders, const std::vector<std::string>& defines)
 {
@@ -97,7 +95,6 @@ void setNearest()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<glm::vec4> chosenWarpRows(
   const LightView& view, const glm::dmat3& mapFromAcross, int sizeTexels)
 {
@@ -109,7 +106,6 @@ std::vector<glm::vec4> chosenWarpRows(
   return rows;
 }
 
-//------------------------------------------------------------------------------
 void ReceiverFit::allocate(int views, int rows)
 {
   if (this->views_ == views && this->rows_ == rows)
@@ -128,7 +124,6 @@ void ReceiverFit::allocate(int views, int rows)
   this->rows_ = rows;
 }
 
-//------------------------------------------------------------------------------
 /// Choose the view's warp by the pixels of a grid.
 void ReceiverFit::chooseWarp(const ShadowLight& light, const LightView& view,
   std::vector<Uniform> uniforms, ShaderLibrary& shaders)
@@ -172,7 +167,6 @@ void ReceiverFit::chooseWarp(const ShadowLight& light, const LightView& view,
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-//------------------------------------------------------------------------------
 void ReceiverFit::compute(const ShadowLight& light, const LightViews& views,
   const ReceiverTextures& receivers, const glm::dmat4& centredFromView, ShaderLibrary& shaders)
 {

@@ -32,7 +32,25 @@ class CasterPlacements
 {
 public:
   /// @param occluders must outlive this
-  explicit CasterPlacements(const Occluders& occluders);
+  explicit CasterPlacements(const Occluders& occluders)
+    : occluders_(occluders)
+  {
+    for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+    {
+      const Surface& surface = occluders.surfaces[i];
+      this->firstOfSurface_.push_back(static_cast<std::uint32_t>(this->placements_.size()));
+      const std::size_t instances = surface.isInstanced() ? surface.centredFromSource.size() : 1;
+      for (std::size_t instance = 0; surface.casts && instance < instances; ++instance)
+      {
+        if (!surface.isInstanced() || !Surface::isLeftOut(surface.centredFromSource[instance]))
+        {
+          this->placements_.push_back({ static_cast<std::uint32_t>(i),
+            static_cast<std::uint32_t>(instance), this->triangleCount_ });
+          this->triangleCount_ += surface.triangleCount;
+        }
+      }
+    }
+  }
 
   std::size_t triangleCount() const { return this->triangleCount_; }
   const Placement& operator[](std::uint32_t placement) const
@@ -101,11 +119,23 @@ public:
   static constexpr int rows = 16; ///< per band
 
   /// @param size side of the map, in texels
-  explicit CasterBands(int size);
+  explicit CasterBands(int size)
+    : size_(size)
+    , lists_([size] { return Lists(static_cast<std::size_t>((size + rows - 1) / rows)); })
+  {
+  }
 
   /// Add an item to all bands that it touches.
   /// @param low, high the item's least and largest y on the map, in texels
-  void add(double low, double high, const BandItem& item);
+  void add(double low, double high, const BandItem& item)
+  {
+    const Span span = spanOf(low, high, this->size_);
+    Lists& lists = this->lists_.local();
+    for (int band = span.first / rows; band <= span.last / rows && span.first <= span.last; ++band)
+    {
+      lists[static_cast<std::size_t>(band)].push_back(item);
+    }
+  }
 
   template <typename Visit>
   void visit(int band, const Visit& visitItem) const

@@ -243,7 +243,6 @@ void findSharp(const Occluders& occluders, const Surface& surface, SurfaceEdges&
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void updateCasterEdges(const Occluders& occluders, const Surface& surface, SurfaceEdges& edges)
 {
   std::vector<std::uint32_t> welded = weldedVertices(occluders, surface);
@@ -260,14 +259,12 @@ void updateCasterEdges(const Occluders& occluders, const Surface& surface, Surfa
   findSharp(occluders, surface, edges);
 }
 
-//------------------------------------------------------------------------------
 std::size_t SurfaceEdges::bytes() const
 {
   return bytesOf(this->edges) + bytesOf(this->ofTriangle) + bytesOf(this->rims) +
     bytesOf(this->welded);
 }
 
-//------------------------------------------------------------------------------
 void CasterEdges::update(const Occluders& occluders)
 {
   if (this->versions_ == occluders.versions())
@@ -285,7 +282,6 @@ void CasterEdges::update(const Occluders& occluders)
   this->versions_ = occluders.versions();
 }
 
-//------------------------------------------------------------------------------
 void CasterEdges::joinParts(const Occluders& occluders)
 {
   this->parts_.resize(occluders.triangles.size());
@@ -329,7 +325,6 @@ void CasterEdges::joinParts(const Occluders& occluders)
   }
 }
 
-//------------------------------------------------------------------------------
 std::size_t CasterEdges::bytes() const
 {
   return this->seams_.bytes() + bytesOf(this->parts_) + this->kept_.bytes();

@@ -59,7 +59,6 @@ struct Rim
   std::array<NormalCone, 2> corners; ///< cones around its `from` and `to`
 };
 
-/// The edges of one surface.
 struct SurfaceEdges
 {
   std::vector<CasterEdge> edges;

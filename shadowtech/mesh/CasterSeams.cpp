@@ -237,7 +237,6 @@ std::vector<Place> sharpPlaces(const std::vector<std::pair<PlacedRim, PlacedRim>
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void CasterSeams::update(const Occluders& occluders, const std::vector<const SurfaceEdges*>& edges)
 {
   this->bySurface_.assign(occluders.surfaces.size(), {});
@@ -270,7 +269,6 @@ void CasterSeams::update(const Occluders& occluders, const std::vector<const Sur
   }
 }
 
-//------------------------------------------------------------------------------
 const Seam* CasterSeams::at(std::size_t surface, std::uint32_t edge) const
 {
   const std::vector<Seam>& seams = this->bySurface_[surface];
@@ -279,7 +277,6 @@ const Seam* CasterSeams::at(std::size_t surface, std::uint32_t edge) const
   return found != seams.end() && found->edge == edge ? &*found : nullptr;
 }
 
-//------------------------------------------------------------------------------
 std::size_t CasterSeams::bytes() const
 {
   return bytesOf(this->bySurface_) + bytesOfAll(this->bySurface_, bytesOf<Seam>);

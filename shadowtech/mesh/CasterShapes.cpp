@@ -186,7 +186,6 @@ double largestTexelsPerAcross(const LightView& view, double size)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 glm::dmat4 MapSpace::mapFromCentred(double constant) const
 {
   const glm::dmat3& map = this->texelFromAcross;
@@ -201,7 +200,6 @@ glm::dmat4 MapSpace::mapFromCentred(double constant) const
   return mapFromView * this->viewFromCentred;
 }
 
-//------------------------------------------------------------------------------
 CasterScene casterScene(
   const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders)
 {
@@ -254,7 +252,6 @@ CasterScene casterScene(
     positional ? position : -glm::dvec3(centredFromView[2]) };
 }
 
-//------------------------------------------------------------------------------
 std::pair<double, double> MapPolygon::rows() const
 {
   const auto [low, high] = std::minmax_element(this->corners.begin(),
@@ -263,7 +260,6 @@ std::pair<double, double> MapPolygon::rows() const
   return { low->y, high->y };
 }
 
-//------------------------------------------------------------------------------
 MapPolygon polygonOf(
   const CasterScene& scene, const Surface& surface, std::uint32_t instance, std::uint32_t triangle)
 {
@@ -339,7 +335,6 @@ MapPolygon polygonOf(
   return polygon;
 }
 
-//------------------------------------------------------------------------------
 MapPlane planeOf(const MapPolygon& polygon)
 {
   MapPlane plane;
@@ -368,7 +363,6 @@ MapPlane planeOf(const MapPolygon& polygon)
   return plane;
 }
 
-//------------------------------------------------------------------------------
 EdgeKind kindOf(const CasterEdge& edge, std::int8_t firstFacing, std::int8_t secondFacing)
 {
   if (firstFacing == 0 || secondFacing == 0)
@@ -383,7 +377,6 @@ EdgeKind kindOf(const CasterEdge& edge, std::int8_t firstFacing, std::int8_t sec
   return edge.sharp ? EdgeKind::Sharp : EdgeKind::Inner;
 }
 
-//------------------------------------------------------------------------------
 bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t instance,
   const CasterEdge& edge, EdgeKind kind, MapSegment& segment)
 {

@@ -176,7 +176,6 @@ MapPlane planeOf(const MapPolygon& polygon);
 MapPolygon polygonOf(
   const CasterScene& scene, const Surface& surface, std::uint32_t instance, std::uint32_t triangle);
 
-/// An edge on the map.
 struct MapSegment
 {
   std::array<MapCorner, 2> ends;

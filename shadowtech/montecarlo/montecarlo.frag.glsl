@@ -32,7 +32,6 @@ layout(location = 3) out float layerGreen;
 layout(location = 4) out float layerBlue;
 #endif
 
-// A receiver of the light.
 struct Receiver
 {
   vec3 position;

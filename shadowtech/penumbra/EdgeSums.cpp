@@ -80,7 +80,6 @@ std::uint32_t countOf(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void EdgeSums::setRays(
   const glm::mat3& shaftFromCentred, const LightSamples::Coordinates& directions, std::size_t count)
 {
@@ -95,14 +94,12 @@ void EdgeSums::setRays(
     this->uncertain_.begin() + static_cast<std::ptrdiff_t>(count), this->uncertain_.end(), 1);
 }
 
-//------------------------------------------------------------------------------
 void EdgeSums::add(const std::vector<SeenEdge>& edges)
 {
   addEdges(edges.data(), edges.size(), this->x_.data(), this->y_.data(), this->x_.size(),
     this->sums_.data(), this->uncertain_.data());
 }
 
-//------------------------------------------------------------------------------
 EdgeSums::Fewest EdgeSums::fewest() const
 {
   const std::int32_t least =
@@ -119,7 +116,6 @@ EdgeSums::Fewest EdgeSums::fewest() const
   return { first, countOf(least, this->sums_.data(), this->uncertain_.data(), this->sums_.size()) };
 }
 
-//------------------------------------------------------------------------------
 void EdgeSums::appendUncertain(std::vector<std::uint32_t>& rays) const
 {
   const std::size_t before = rays.size();

@@ -40,7 +40,6 @@ public:
   void setRays(const glm::mat3& shaftFromCentred, const LightSamples::Coordinates& directions,
     std::size_t count);
 
-  /// Add the weights of edges to the sums.
   void add(const std::vector<SeenEdge>& edges);
 
   /// The rays with the least sum, among rays that pass all edges on a certain side.

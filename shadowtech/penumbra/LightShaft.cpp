@@ -44,7 +44,6 @@ glm::dmat3 axesAlong(const glm::dvec3& z, const glm::dmat3& area)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::optional<LightShaft> LightShaft::make(const ShaftLight& light, const RayStarts& starts)
 {
   LightShaft shaft;
@@ -96,7 +95,6 @@ std::optional<LightShaft> LightShaft::make(const ShaftLight& light, const RaySta
   return shaft;
 }
 
-//------------------------------------------------------------------------------
 /// Set the sides around all that a start sees within slopes(), as edges are counted up to there.
 /// @return false if there is no shaft
 bool LightShaft::laySides(const Bounds& startsShaft)
@@ -135,7 +133,6 @@ bool LightShaft::laySides(const Bounds& startsShaft)
   return steepest.x < mostSlope && steepest.y < mostSlope;
 }
 
-//------------------------------------------------------------------------------
 /// Set where rays end. That is the plane of a flat light, or of a box's near face; else the box
 /// around the light.
 /// @param area of the light, in the shaft's coordinates
@@ -184,7 +181,6 @@ bool LightShaft::layEnds(const ShaftLight& light, const glm::dmat3& area, const 
   return this->firstEnd_ > startsShaft.upper.z;
 }
 
-//------------------------------------------------------------------------------
 LightShaft::Slopes LightShaft::slopes(const glm::dvec3& start) const
 {
   Slopes slopes;
@@ -202,7 +198,6 @@ LightShaft::Slopes LightShaft::slopes(const glm::dvec3& start) const
   return slopes;
 }
 
-//------------------------------------------------------------------------------
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]
 #endif
@@ -222,7 +217,6 @@ bool LightShaft::mayMeet(const Bounds& centred) const
   return outside == 0;
 }
 
-//------------------------------------------------------------------------------
 bool LightShaft::mayReachEnds(const Bounds& centred) const
 {
   const glm::dvec3 centre = centred.centre();
@@ -232,7 +226,6 @@ bool LightShaft::mayReachEnds(const Bounds& centred) const
     end.distance;
 }
 
-//------------------------------------------------------------------------------
 glm::dvec2 LightShaft::extentAlong(const glm::dvec3& centred, const Slopes& slopes) const
 {
   const glm::dvec3 along = this->shaftFromCentred_ * centred;
@@ -243,7 +236,6 @@ glm::dvec2 LightShaft::extentAlong(const glm::dvec3& centred, const Slopes& slop
   return { ofMiddle - more, ofMiddle + more };
 }
 
-//------------------------------------------------------------------------------
 bool LightShaft::passes(
   const glm::dvec3& from, const glm::dvec3& to, double length, double uncertain) const
 {

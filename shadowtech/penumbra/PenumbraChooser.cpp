@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -279,7 +278,6 @@ private:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<PixelClass> classesOfPenumbra()
 {
   std::vector<PixelClass> classes = classesOfTracing();
@@ -287,7 +285,6 @@ std::vector<PixelClass> classesOfPenumbra()
   return classes;
 }
 
-//------------------------------------------------------------------------------
 void PenumbraChooser::choose(
   TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays, bool again) const
 {

@@ -6,21 +6,18 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 void RayStarts::clear()
 {
   this->starts_.clear();
   this->bounds_ = {};
 }
 
-//------------------------------------------------------------------------------
 void RayStarts::add(const glm::vec3& start)
 {
   this->starts_.push_back(start);
   this->bounds_.add(glm::dvec3(start));
 }
 
-//------------------------------------------------------------------------------
 void RayStarts::finish()
 {
   const std::size_t padded = (this->starts_.size() + together - 1) / together * together;
@@ -35,7 +32,6 @@ void RayStarts::finish()
   }
 }
 
-//------------------------------------------------------------------------------
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]
 #endif

@@ -25,7 +25,6 @@ public:
   auto end() const { return this->starts_.end(); }
   const Bounds& bounds() const { return this->bounds_; }
 
-  /// Return the least and the most of EdgeTriangle::behind() over the starts.
   glm::dvec2 behind(const EdgeTriangle& triangle) const;
 
 private:

@@ -21,7 +21,6 @@ constexpr double mostSlopes = 0.25;
 
 } // namespace
 
-//------------------------------------------------------------------------------
 ShaftEdges::Found ShaftEdges::find(
   const EdgeTree& tree, const LightShaft& shaft, const RayStarts& starts, std::size_t most)
 {
@@ -56,7 +55,6 @@ ShaftEdges::Found ShaftEdges::find(
   return found;
 }
 
-//------------------------------------------------------------------------------
 ShaftEdges::Found ShaftEdges::visit(std::uint32_t link)
 {
   if (BvhLink::isLeaf(link))
@@ -86,7 +84,6 @@ ShaftEdges::Found ShaftEdges::visit(std::uint32_t link)
   return Found::All;
 }
 
-//------------------------------------------------------------------------------
 /// Return true if all starts lie on one side of all triangles in a node, and the same for each.
 bool ShaftEdges::isAlike(const Bounds& bounds, const EdgeTree::Cone& cone) const
 {
@@ -112,7 +109,6 @@ bool ShaftEdges::isAlike(const Bounds& bounds, const EdgeTree::Cone& cone) const
     EdgeRounding::ofHeight * EdgeRounding::unit * farthest * farthest * cone.mostPerHeight;
 }
 
-//------------------------------------------------------------------------------
 ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
 {
   const bool boxMeets = this->shaft_->mayMeet(this->tree_->bounds(record));
@@ -162,7 +158,6 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
   return this->edges_.size() - this->strips_.size() <= this->most_ ? Found::All : Found::TooMany;
 }
 
-//------------------------------------------------------------------------------
 const ShaftEdges::Sight& ShaftEdges::look(std::uint32_t number)
 {
   Looked& looked = this->looked_[number % sightsKept];
@@ -173,7 +168,6 @@ const ShaftEdges::Sight& ShaftEdges::look(std::uint32_t number)
   return looked.sight;
 }
 
-//------------------------------------------------------------------------------
 ShaftEdges::Sight ShaftEdges::sightOf(const EdgeTriangle& triangle, std::uint32_t number) const
 {
   const double behind = triangle.behind(this->centre_);
@@ -187,7 +181,6 @@ ShaftEdges::Sight ShaftEdges::sightOf(const EdgeTriangle& triangle, std::uint32_
       : std::max(EdgeRounding::wider, static_cast<double>(triangle.longest / triangle.height)) };
 }
 
-//------------------------------------------------------------------------------
 /// Return EdgeTriangle::isLeft() for all starts.
 bool ShaftEdges::isLeft(std::uint32_t number) const
 {
@@ -201,7 +194,6 @@ bool ShaftEdges::isLeft(std::uint32_t number) const
     this->tree_->reach(number, this->centre_) + this->half_, along, this->shaft_->longestSlope());
 }
 
-//------------------------------------------------------------------------------
 /// @param reach bound of how far from its ends its triangles' corners are
 /// @param width the largest Sight::width of its triangles
 /// @param height the least Sight::height of its triangles
@@ -223,7 +215,6 @@ ShaftEdges::Closeness ShaftEdges::closeness(const glm::dvec3& from, const glm::d
   return { uncertain, half + EdgeRounding::beyond(half, longest, farthest, height) };
 }
 
-//------------------------------------------------------------------------------
 /// Add a triangle's side as a strip: only rounding close to its line matters.
 void ShaftEdges::takeStrip(std::uint32_t triangle, std::size_t side,
   const std::array<glm::dvec3, 3>& placed, const Sight& sight)
@@ -254,7 +245,6 @@ void ShaftEdges::takeStrip(std::uint32_t triangle, std::size_t side,
     from, to, close);
 }
 
-//------------------------------------------------------------------------------
 void ShaftEdges::takeEdge(const TreeEdge& edge)
 {
   const glm::dvec3 from = this->shaft_->toShaft(edge.from);
@@ -290,7 +280,6 @@ void ShaftEdges::takeEdge(const TreeEdge& edge)
   }
 }
 
-//------------------------------------------------------------------------------
 void ShaftEdges::add(
   const Edge& edge, const glm::dvec3& from, const glm::dvec3& to, const Closeness& close)
 {
@@ -307,7 +296,6 @@ void ShaftEdges::add(
   this->anywhere_.push_back(anywhere ? std::numeric_limits<double>::infinity() : 0.0);
 }
 
-//------------------------------------------------------------------------------
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]
 #endif

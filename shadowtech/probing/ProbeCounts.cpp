@@ -22,19 +22,16 @@ double wilson(const WrongProbes& probes, double z)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 double WrongProbes::leastShare() const
 {
   return wilson(*this, -2.0);
 }
 
-//------------------------------------------------------------------------------
 double WrongProbes::mostShare() const
 {
   return wilson(*this, 2.0);
 }
 
-//------------------------------------------------------------------------------
 void SquaredErrors::add(const SquaredErrors& others)
 {
   this->points += others.points;
@@ -43,7 +40,6 @@ void SquaredErrors::add(const SquaredErrors& others)
   this->expected = std::max(this->expected, others.expected);
 }
 
-//------------------------------------------------------------------------------
 double SquaredErrors::rms(double z) const
 {
   const double size =

@@ -74,7 +74,6 @@ HalfPlane withoutCorner(const Edge& in, const Edge& out, double offset)
   return { nx, ny, -(nx * out.from.x + ny * out.from.y) - offset * (1.0 + cosine) };
 }
 
-/// The two layers of a texel.
 struct Layers
 {
   float dilated = std::numeric_limits<float>::infinity();
@@ -223,7 +222,6 @@ TechniqueInfo infoOfPublished(const std::string& name)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Span TexelRegion::row(int y, int width) const
 {
   RowRange range{ -std::numeric_limits<double>::infinity(),
@@ -236,7 +234,6 @@ Span TexelRegion::row(int y, int width) const
   return range.texels(0.5, width);
 }
 
-//------------------------------------------------------------------------------
 TexelRegion dilatedRegion(const MapPolygon& polygon, double offset)
 {
   TexelRegion region;
@@ -259,7 +256,6 @@ TexelRegion dilatedRegion(const MapPolygon& polygon, double offset)
   return region;
 }
 
-//------------------------------------------------------------------------------
 TexelRegion erodedRegion(const MapPolygon& polygon, const SharedSides& shared, double offset)
 {
   const auto stays = [&](const Edge& edge) { return edge.side != noSide && shared[edge.side]; };
@@ -279,7 +275,6 @@ TexelRegion erodedRegion(const MapPolygon& polygon, const SharedSides& shared, d
   return region;
 }
 
-//------------------------------------------------------------------------------
 MapRule publishedRule(PublishedLayers layers)
 {
   return [layers](const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders,
@@ -300,7 +295,6 @@ MapRule publishedRule(PublishedLayers layers)
   };
 }
 
-//------------------------------------------------------------------------------
 const std::vector<ConservativeEntry>& publishedCrsm()
 {
   static const std::vector<ConservativeEntry> entries = {

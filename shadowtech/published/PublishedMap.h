@@ -43,7 +43,6 @@ struct TexelRegion
   double low = 0.0, high = 0.0; ///< bounds of its rows
 
   void add(const HalfPlane& side) { this->sides[this->count++] = side; }
-  /// Return the texels that it holds in a row.
   Span row(int y, int width) const;
 };
 

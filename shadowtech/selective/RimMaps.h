@@ -1,11 +1,16 @@
 #pragma once
 
+#include "lights/LightAt.h"
+#include "lights/LightSpace.h"
 #include "lights/LightViews.h"
 #include "lights/ShadowLight.h"
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/selective/TriangleMaps.h"
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -27,7 +32,34 @@ public:
   /// @return the number of maps baked
   /// @throws TextureMemoryError without enough memory
   int update(const ShadowLight& light, const ViewFitting& fitting, const Occluders& occluders,
-    std::size_t points);
+    std::size_t points)
+  {
+    this->textured_ = light.texture ? light.area : std::nullopt;
+    const std::vector<glm::dvec3> offsets = rimOf(*light.area, points);
+    if (this->points_.size() != points)
+    {
+      this->points_ = std::vector<Point>(points);
+    }
+    // Casters outside the centre's box cast nothing.
+    const std::optional<glm::dvec4> begins =
+      light.box ? std::optional(nearFaceCentred(light, fitting.centreWorld)) : std::nullopt;
+    int drawn = 0;
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      Point& point = this->points_[i];
+      point.offset = offsets[i];
+      LightViews views = fitLightViews(lightAt(light, offsets[i], fitting), fitting);
+      if (point.views == views)
+      {
+        continue;
+      }
+      point.views = {}; // stays empty if memory runs out
+      point.maps.bake(views, light.mapSizeTexels, occluders, begins);
+      point.views = std::move(views);
+      ++drawn;
+    }
+    return drawn;
+  }
 
   /// Return true if the texels of all points' maps confirm a receiver's status.
   ///
@@ -39,9 +71,28 @@ public:
   /// @param toCentre from the receiver to the light's centre; of length 1 for directional lights
   /// @param inShadow the status to confirm
   bool agree(const glm::dvec3& origin, const glm::vec3& normal, const glm::vec3& toCentre,
-    Neighbourhood neighbourhood, bool inShadow) const;
+    Neighbourhood neighbourhood, bool inShadow) const
+  {
+    if (!inShadow && this->cutsTexture(normal, toCentre))
+    {
+      return false;
+    }
+    return std::all_of(this->points_.begin(), this->points_.end(),
+      [&](const Point& point)
+      {
+        if (!facesLight(normal, toCentre + point.offset))
+        {
+          return true;
+        }
+        const std::optional<PlaceOnMaps> place = point.maps.find(origin, normal);
+        return place ? place->shadows() == inShadow && place->agree(neighbourhood) : !inShadow;
+      });
+  }
 
-  std::size_t bytes() const;
+  std::size_t bytes() const
+  {
+    return bytesOfAll(this->points_, [](const Point& point) { return point.maps.bytes(); });
+  }
 
 private:
   struct Point
@@ -52,7 +103,12 @@ private:
   };
   /// Return true if the light has a texture, and part of its area is behind the receiver's plane.
   /// @param toCentre to the light, which the receiver faces
-  bool cutsTexture(const glm::vec3& normal, const glm::vec3& toCentre) const;
+  bool cutsTexture(const glm::vec3& normal, const glm::vec3& toCentre) const
+  {
+    return this->textured_ &&
+      !facesLight(
+        normal, toCentre - static_cast<float>(this->textured_->extentAlong(normal)) * normal);
+  }
 
   std::vector<Point> points_;
   std::optional<LightArea> textured_; ///< the light's area; empty without a texture

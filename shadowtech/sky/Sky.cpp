@@ -29,7 +29,6 @@ int bitsOf(int count)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 float radianceOf(const Sky& sky, const glm::vec3& direction)
 {
   if (sky.model == SkyModel::Uniform)
@@ -44,7 +43,6 @@ float radianceOf(const Sky& sky, const glm::vec3& direction)
   return sky.model == SkyModel::Dome ? 1.0f : 3.0f / 7.0f * (1.0f + 2.0f * sine);
 }
 
-//------------------------------------------------------------------------------
 double openView(const Sky& sky, const glm::vec3& normal)
 {
   if (sky.model == SkyModel::Uniform)
@@ -62,7 +60,6 @@ double openView(const Sky& sky, const glm::vec3& normal)
   return 3.0 / 7.0 * dome + 4.0 / (7.0 * pi) * (std::sin(angle) + (pi - angle) * cosine);
 }
 
-//------------------------------------------------------------------------------
 SkyDirections::SkyDirections(int count)
   : count_(count)
   , columnBits_((bitsOf(count) + 1) / 2)
@@ -70,13 +67,11 @@ SkyDirections::SkyDirections(int count)
 {
 }
 
-//------------------------------------------------------------------------------
 bool SkyDirections::isCount(int count)
 {
   return count >= static_cast<int>(batches) && count <= 65536 && (count & (count - 1)) == 0;
 }
 
-//------------------------------------------------------------------------------
 glm::vec3 SkyDirections::local(int i, const SamplePixel& pixel) const
 {
   const glm::uvec3 fractions = this->points_.point(i, pixel);
@@ -86,7 +81,6 @@ glm::vec3 SkyDirections::local(int i, const SamplePixel& pixel) const
   return { disk.x, disk.y, z };
 }
 
-//------------------------------------------------------------------------------
 std::size_t SkyDirections::batchOf(int i) const
 {
   constexpr std::size_t order[4][4] = { { 0, 8, 2, 10 }, { 12, 4, 14, 6 }, { 3, 11, 1, 9 },
@@ -94,7 +88,6 @@ std::size_t SkyDirections::batchOf(int i) const
   return order[i >> this->columnBits_ & 3][i & 3];
 }
 
-//------------------------------------------------------------------------------
 glm::mat3 rotationFromZ(const glm::vec3& to)
 {
   const float sign = std::copysign(1.0f, to.z);
@@ -104,7 +97,6 @@ glm::mat3 rotationFromZ(const glm::vec3& to)
     { b, sign + to.y * to.y * a, -to.y }, to };
 }
 
-//------------------------------------------------------------------------------
 double SkySums::view(double open) const
 {
   const double all = std::accumulate(this->all_.begin(), this->all_.end(), 0.0);
@@ -112,7 +104,6 @@ double SkySums::view(double open) const
                    : 0.0;
 }
 
-//------------------------------------------------------------------------------
 double SkySums::error(double open) const
 {
   const double all = std::accumulate(this->all_.begin(), this->all_.end(), 0.0);

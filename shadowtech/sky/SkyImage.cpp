@@ -176,7 +176,6 @@ struct SkyPacket
 
 } // namespace
 
-//------------------------------------------------------------------------------
 SkyImage::SkyImage(int directions)
   : directions_(directions)
 {
@@ -197,13 +196,11 @@ SkyImage::SkyImage(int directions)
   }
 }
 
-//------------------------------------------------------------------------------
 void SkyImage::clear()
 {
   this->batches_ = 0;
 }
 
-//------------------------------------------------------------------------------
 std::size_t SkyImage::trace(const Sky& sky, const Receivers& receivers, const Occluders& occluders,
   const EmbreeTracer& tracer, std::size_t batches)
 {
@@ -221,7 +218,6 @@ std::size_t SkyImage::trace(const Sky& sky, const Receivers& receivers, const Oc
   return rays;
 }
 
-//------------------------------------------------------------------------------
 /// Add rays to the sums. Without batches, these begin at 0.
 std::size_t SkyImage::traceAll(const Sky& sky, const Receivers& receivers,
   const Occluders& occluders, const EmbreeTracer& tracer, std::size_t sideOfBlock,
@@ -271,7 +267,6 @@ std::size_t SkyImage::traceAll(const Sky& sky, const Receivers& receivers,
   return rays;
 }
 
-//------------------------------------------------------------------------------
 void SkyImage::view(std::vector<float>& view) const
 {
   view.resize(this->all_.size());
@@ -283,7 +278,6 @@ void SkyImage::view(std::vector<float>& view) const
   }
 }
 
-//------------------------------------------------------------------------------
 std::size_t SkyImage::traceFew(const Sky& sky, const ReceiverPixels& receivers,
   const Occluders& occluders, const EmbreeTracer& tracer)
 {
@@ -339,7 +333,6 @@ std::size_t SkyImage::traceFew(const Sky& sky, const ReceiverPixels& receivers,
   return rays;
 }
 
-//------------------------------------------------------------------------------
 std::size_t SkyImage::bytes() const
 {
   return bytesOf(this->all_) + bytesOf(this->seen_) + bytesOf(this->open_) +

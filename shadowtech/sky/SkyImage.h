@@ -32,7 +32,6 @@ public:
   explicit SkyImage(int directions);
 
   int directions() const { return this->directions_.count(); }
-  /// The number of batches that were traced.
   std::size_t batches() const { return this->batches_; }
 
   /// Forget what was traced.

@@ -17,7 +17,6 @@ namespace gnomon
 constexpr std::size_t pixelsTogether = 16;
 static_assert(TracedTile::columns % pixelsTogether == 0, "they lie in one row");
 
-/// One number for each of these pixels.
 template <typename Number>
 using Together = std::array<Number, pixelsTogether>;
 

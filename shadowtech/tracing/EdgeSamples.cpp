@@ -63,14 +63,12 @@ bool differ(const glm::vec3& a, const glm::vec3& b)
   return glm::any(glm::greaterThan(glm::abs(a - b), glm::vec3(leastStep)));
 }
 
-/// The surfaces that a picture shows.
 struct ShownSurfaces
 {
   int width, height;
   const std::vector<glm::vec2>& numbers; ///< x: the pixel's surface
 };
 
-/// The edge pixels of a picture, in order.
 struct EdgePixels
 {
   std::vector<std::uint32_t> ofShadows;  ///< pixels meet that are not lit alike
@@ -203,7 +201,6 @@ EdgePixels findEdgePixels(const ShownSurfaces& surfaces, const std::vector<float
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<EdgePixel> EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input,
   const std::vector<std::uint8_t>& classes, std::size_t perPixel,
   const std::vector<float>& visibility, const RayFilter* filter, const SharedPicture* several,
@@ -283,7 +280,6 @@ std::vector<EdgePixel> EdgeSamples::smooth(CpuScreenTechnique& technique, const 
   return smooth;
 }
 
-//------------------------------------------------------------------------------
 /// Compute the samples' receivers on the triangles that this process drew. Samples without a
 /// receiver are not covered.
 /// @param findsOutlines true if it is to be known which pixels are at outlines
@@ -316,7 +312,6 @@ void EdgeSamples::place(const Drawn& drawn, const SharedPicture* several,
     });
 }
 
-//------------------------------------------------------------------------------
 /// Replace this process's receivers of samples by those of all processes.
 void EdgeSamples::share(const SharedPicture& several)
 {
@@ -332,7 +327,6 @@ void EdgeSamples::share(const SharedPicture& several)
   this->receivers_ = several.share(this->receivers_);
 }
 
-//------------------------------------------------------------------------------
 /// Drop samples of pixels at outlines that casters hide from the camera.
 void EdgeSamples::dropHidden(const ReceiverImages& images, const EmbreeTracer& hiders,
   const SharedPicture* several, const std::vector<std::uint32_t>& pixels, std::size_t perPixel)
@@ -393,7 +387,6 @@ void EdgeSamples::dropHidden(const ReceiverImages& images, const EmbreeTracer& h
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return the mean of a pixel's samples, without those that face away from the light.
 /// @param pixel its index among the pixels with samples
 /// @param ofCentre returned if no sample counts

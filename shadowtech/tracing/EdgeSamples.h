@@ -34,7 +34,6 @@ struct SharedPicture
   std::function<void(std::vector<std::uint64_t>&)> uniteBits;
 };
 
-/// A pixel at an edge of a shadow.
 struct EdgePixel
 {
   std::uint32_t pixel;

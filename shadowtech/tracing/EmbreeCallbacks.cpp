@@ -122,7 +122,6 @@ void meetSolid(const RTCIntersectFunctionNArguments* arguments)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void rejectOwn(const RTCFilterFunctionNArguments* arguments)
 {
   const OwnSurface& own = *contextOf(arguments).own;
@@ -134,7 +133,6 @@ void rejectOwn(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
-//------------------------------------------------------------------------------
 void rejectOthers(const RTCFilterFunctionNArguments* arguments)
 {
   if (arguments->valid[0] && !contextOf(arguments).own->has(arguments->hit))
@@ -143,7 +141,6 @@ void rejectOthers(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
-//------------------------------------------------------------------------------
 void rejectHoles(const RTCFilterFunctionNArguments* arguments)
 {
   const auto& surface = *static_cast<const CutoutSurface*>(arguments->geometryUserPtr);
@@ -168,7 +165,6 @@ void rejectHoles(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
-//------------------------------------------------------------------------------
 RTCFilterFunctionN filterOf(const Surface& surface)
 {
   if (!surface.oneSided)
@@ -182,7 +178,6 @@ RTCFilterFunctionN filterOf(const Surface& surface)
   return surface.mirrored ? rejectBackFaces<true> : rejectBackFaces<false>;
 }
 
-//------------------------------------------------------------------------------
 void CastingSolids::place(const Surface& surface)
 {
   this->oneSided = surface.oneSided;
@@ -196,7 +191,6 @@ void CastingSolids::place(const Surface& surface)
   }
 }
 
-//------------------------------------------------------------------------------
 void setSolids(RTCGeometry geometry, CastingSolids& casters)
 {
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(casters.solids.size()));

@@ -18,7 +18,6 @@ struct OwnSurface
   float until = 0.0f; ///< LiftedRay::leaves
 
   virtual ~OwnSurface() = default;
-  /// True if a single ray's hit is on it.
   virtual bool has(RTCHitN* hit) const = 0;
 };
 

@@ -11,7 +11,6 @@
 namespace gnomon
 {
 
-/// Owns one reference to an Embree object.
 template <typename Object, void (*release)(Object)>
 class EmbreeHandle
 {

@@ -169,7 +169,6 @@ glm::vec3 normalOf(const EmbreeCasters& casters, const RTCHit& hit)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 struct EmbreeTracer::Impl : EmbreeCasters
 {
   /// The widest packet of the processor; the answers are the same.
@@ -177,20 +176,17 @@ struct EmbreeTracer::Impl : EmbreeCasters
     rtcGetDeviceProperty(this->device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
 };
 
-//------------------------------------------------------------------------------
 EmbreeTracer::EmbreeTracer()
   : impl_(std::make_unique<Impl>())
 {
 }
 EmbreeTracer::~EmbreeTracer() = default;
 
-//------------------------------------------------------------------------------
 EmbreeTracer::Update EmbreeTracer::update(const Occluders& occluders)
 {
   return this->impl_->update(occluders);
 }
 
-//------------------------------------------------------------------------------
 std::size_t EmbreeTracer::tracePicture(const TracedPicture& picture)
 {
   const Impl& impl = *this->impl_;
@@ -223,7 +219,6 @@ std::size_t EmbreeTracer::tracePicture(const TracedPicture& picture)
     });
 }
 
-//------------------------------------------------------------------------------
 std::size_t EmbreeTracer::traceTurned(const TracedPicture& picture, TracedTile& tile,
   const PatchNames* names, const std::function<void(std::size_t pixel, bool isBlocked)>& take) const
 {
@@ -249,7 +244,6 @@ std::size_t EmbreeTracer::traceTurned(const TracedPicture& picture, TracedTile& 
   return count;
 }
 
-//------------------------------------------------------------------------------
 void EmbreeTracer::areBlocked(std::size_t count, const PointArrays& origins,
   const PointArrays& directions, float rayFar, std::uint8_t* blocked) const
 {
@@ -272,7 +266,6 @@ void EmbreeTracer::areBlocked(std::size_t count, const PointArrays& origins,
                        : traceRays<RTCRay8>(scene, count, rayFar, load, blocked);
 }
 
-//------------------------------------------------------------------------------
 std::optional<CasterHits::Hit> EmbreeTracer::nearest(
   const glm::vec3& origin, const glm::vec3& direction, float after, float until) const
 {
@@ -296,13 +289,11 @@ std::optional<CasterHits::Hit> EmbreeTracer::nearest(
   return Hit{ named.surface, named.firstTriangle + hit.primID, ray.tfar, normalOf(impl, hit) };
 }
 
-//------------------------------------------------------------------------------
 std::size_t EmbreeTracer::bytes() const
 {
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(this->impl_->bytes, 0));
 }
 
-//------------------------------------------------------------------------------
 std::size_t EmbreeTracer::bytesOfTable() const
 {
   return this->impl_->bytesOfTable();

@@ -25,10 +25,8 @@ public:
   /// @throws std::runtime_error if Embree cannot be started
   EmbreeTracer();
   ~EmbreeTracer() override;
-  EmbreeTracer(const EmbreeTracer&) = delete;
-  EmbreeTracer& operator=(const EmbreeTracer&) = delete;
+  EmbreeTracer& operator=(EmbreeTracer&&) = delete; ///< nor copied
 
-  /// The effect of an update.
   struct Update
   {
     int builds = 0; ///< structures that were built

@@ -7,7 +7,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 std::size_t scaleByFilter(const RayFilter& filter, const ShadowLight& light,
   const Occluders& occluders, const Receivers& receivers, std::vector<float>& visibility)
 {

@@ -57,13 +57,11 @@ struct SampleBlocks
     const std::size_t perRow = columns / this->side;
     return (pixels + perRow - 1) / perRow * this->side;
   }
-  /// Return the first sample of a block's row.
   std::size_t firstOfRow(std::size_t block, std::size_t row) const
   {
     const std::size_t perRow = columns / this->side;
     return (block / perRow * this->side + row) * columns + block % perRow * this->side;
   }
-  /// Return the index of a block's n-th sample.
   std::size_t sample(std::size_t block, std::size_t n) const
   {
     return this->firstOfRow(block, n / this->side) + n % this->side;

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace gnomon
@@ -200,7 +199,6 @@ bool isDarkFor(Certainty certainty)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TileVerdicts::TileVerdicts(const ShadowLight& light, const Occluders& occluders,
   const ReceiverBoxes& boxes, const CasterHits& hits)
   : boxes_(boxes)
@@ -214,7 +212,6 @@ TileVerdicts::TileVerdicts(const ShadowLight& light, const Occluders& occluders,
   }
 }
 
-//------------------------------------------------------------------------------
 std::size_t TileVerdicts::tileOf(std::size_t cell) const
 {
   const std::size_t columns = this->boxes_.levels()[0].columns;
@@ -223,7 +220,6 @@ std::size_t TileVerdicts::tileOf(std::size_t cell) const
     (cell % columns >> ReceiverBoxes::levelOfTiles);
 }
 
-//------------------------------------------------------------------------------
 void TileVerdicts::decide(
   const ShadowLight& light, const Occluders& occluders, const CasterHits& hits)
 {
@@ -263,13 +259,11 @@ void TileVerdicts::decide(
   }
 }
 
-//------------------------------------------------------------------------------
 bool TileVerdicts::areAllDark() const
 {
   return std::find(this->darkTiles_.begin(), this->darkTiles_.end(), 0) == this->darkTiles_.end();
 }
 
-//------------------------------------------------------------------------------
 bool TileVerdicts::needManyRays() const
 {
   const auto open = static_cast<std::size_t>(
@@ -277,7 +271,6 @@ bool TileVerdicts::needManyRays() const
   return 8 * open > this->cells_.size();
 }
 
-//------------------------------------------------------------------------------
 /// Call `visit` for each part of a tile's rows that lies in one cell, with its first and end pixel
 /// and what is known of it. Equal neighbours are merged.
 template <typename Visit>
@@ -304,7 +297,6 @@ void TileVerdicts::visitRows(std::size_t tile, const Visit& visit) const
   }
 }
 
-//------------------------------------------------------------------------------
 void TileVerdicts::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const
 {
   const std::size_t across = this->boxes_.levels()[ReceiverBoxes::levelOfTiles].columns;
@@ -321,7 +313,6 @@ void TileVerdicts::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& ce
     });
 }
 
-//------------------------------------------------------------------------------
 void TileVerdicts::fillDark(std::size_t tile, float lit, std::vector<float>& visibility) const
 {
   this->visitRows(tile,
@@ -336,7 +327,6 @@ void TileVerdicts::fillDark(std::size_t tile, float lit, std::vector<float>& vis
     });
 }
 
-//------------------------------------------------------------------------------
 void TileVerdicts::classifyDark(std::size_t tile, std::vector<std::uint8_t>& classes) const
 {
   constexpr auto noReceiver = static_cast<std::uint8_t>(TracedClass::NoReceiver);
@@ -354,7 +344,6 @@ void TileVerdicts::classifyDark(std::size_t tile, std::vector<std::uint8_t>& cla
     });
 }
 
-//------------------------------------------------------------------------------
 void TileVerdicts::classifyAllDark(std::vector<std::uint8_t>& classes) const
 {
   classes.resize(this->boxes_.receives().size());
@@ -364,7 +353,6 @@ void TileVerdicts::classifyAllDark(std::vector<std::uint8_t>& classes) const
   }
 }
 
-//------------------------------------------------------------------------------
 double TileVerdicts::tell(const ShadowLight& light, LightCounts& counts) const
 {
   std::vector<std::uint8_t> traced(this->darkTiles_.size(), 0);

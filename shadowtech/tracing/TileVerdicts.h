@@ -5,10 +5,8 @@
 #include "shadowtech/base/ReceiverBoxes.h"
 #include "shadowtech/tracing/CasterHits.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace gnomon

@@ -106,7 +106,6 @@ bool isAlike(const ReceiverTile& tile, std::size_t row)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<PixelClass> classesOfTracing()
 {
   return { { "traced", { 160, 40, 200 }, true }, { "lit for certain", { 230, 230, 230 } },
@@ -114,7 +113,6 @@ std::vector<PixelClass> classesOfTracing()
     { "no receiver", { 0, 0, 0 } } };
 }
 
-//------------------------------------------------------------------------------
 TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluders,
   const Receivers& receivers, const ReceiverDecider* decider, std::vector<float>& visibility,
   std::vector<std::uint8_t>* classes, TracedTiles* tiles, const TileVerdicts* verdicts,
@@ -164,20 +162,17 @@ TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluder
   }
 }
 
-//------------------------------------------------------------------------------
 std::size_t TracedPicture::tiles() const
 {
   return tilesAcross(this->receivers_.width(), TracedTile::columns) *
     tilesAcross(this->receivers_.height(), TracedTile::rows);
 }
 
-//------------------------------------------------------------------------------
 float TracedPicture::rayFar() const
 {
   return visitShadowRays(this->light_, [](const auto&, float rayFar) { return rayFar; });
 }
 
-//------------------------------------------------------------------------------
 /// Return what is known of a tile's receivers; null: nothing.
 const Certainty* TracedPicture::certaintiesOf(const ReceiverTile& tile, const TracedTile& of) const
 {
@@ -207,8 +202,6 @@ const Certainty* TracedPicture::certaintiesOf(const ReceiverTile& tile, const Tr
   return certain.data();
 }
 
-//------------------------------------------------------------------------------
-/// Fill the dark tiles that are not reused.
 void TracedPicture::fillDarkTiles() const
 {
   for (std::size_t tile = 0; tile < this->tiles(); ++tile)
@@ -224,7 +217,6 @@ void TracedPicture::fillDarkTiles() const
   }
 }
 
-//------------------------------------------------------------------------------
 /// Prepare a tile: its visibility without rays, and the rays that it needs.
 template <typename MakeRay>
 void TracedPicture::prepare(
@@ -265,7 +257,6 @@ void TracedPicture::prepare(
   }
 }
 
-//------------------------------------------------------------------------------
 /// Find the pixels whose triangle is turned away from the light, while the curve above is not.
 /// They need their rays.
 template <typename MakeRay>
@@ -295,8 +286,6 @@ void TracedPicture::findTurned(
   }
 }
 
-//------------------------------------------------------------------------------
-/// Copy a tile into the picture.
 void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) const
 {
   for (std::size_t y = 0; y < tile.rows; ++y)
@@ -315,7 +304,6 @@ void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) con
   }
 }
 
-//------------------------------------------------------------------------------
 /// Visit a tile with a range of its rays to an area light.
 std::size_t TracedPicture::visitSamples(const SampleRange& samples, const ReceiverTile& tile,
   TracedTile& traced, const std::function<std::size_t(TracedTile&)>& trace) const
@@ -406,7 +394,6 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
   return count;
 }
 
-//------------------------------------------------------------------------------
 std::size_t TracedPicture::visitTiles(
   const SampleRange& samples, const std::function<std::size_t(TracedTile&)>& trace) const
 {
@@ -447,7 +434,6 @@ std::size_t TracedPicture::visitTiles(
   return rays;
 }
 
-//------------------------------------------------------------------------------
 void TracedPicture::finish() const
 {
   if (!this->samples_)
@@ -477,7 +463,6 @@ void TracedPicture::finish() const
   }
 }
 
-//------------------------------------------------------------------------------
 /// Scale a pixel's sums of colours so that all of its samples together have the texture's mean.
 /// @param all the sum of their colours; channels without any colour stay as they are
 void TracedPicture::scale(std::size_t pixel, const glm::vec3& all) const

@@ -36,7 +36,6 @@ struct PixelSamples
   ///@}
 };
 
-/// The rays of a tile's pixels to an area light's samples.
 struct SampleRays
 {
   std::vector<PixelSamples> pixels; ///< one for each pixel of a whole tile
@@ -122,7 +121,6 @@ struct alignas(64) TracedTile
   {
     return { this->directionX[pixel], this->directionY[pixel], this->directionZ[pixel] };
   }
-  /// Return the picture's index of a pixel of the tile.
   std::size_t pixelOfPicture(std::size_t pixel) const
   {
     return this->firstPixel + pixel / columns * this->columnsOfPicture + pixel % columns;

@@ -68,7 +68,6 @@ bool showSame(const ReceiverImages& images, const std::vector<glm::vec2>& before
 
 } // namespace
 
-//------------------------------------------------------------------------------
 SweptBox::SweptBox(const Bounds& from, const ShadowLight& light, const glm::dvec3& centreWorld)
   : from_(from)
 {
@@ -94,7 +93,6 @@ SweptBox::SweptBox(const Bounds& from, const ShadowLight& light, const glm::dvec
   }
 }
 
-//------------------------------------------------------------------------------
 bool SweptBox::meets(const Bounds& centred) const
 {
   double first = 0.0;
@@ -107,13 +105,11 @@ bool SweptBox::meets(const Bounds& centred) const
   return first <= last;
 }
 
-//------------------------------------------------------------------------------
 void TracedTiles::forget()
 {
   *this = TracedTiles();
 }
 
-//------------------------------------------------------------------------------
 /// Return the old and new boxes of surfaces that moved since the last image.
 std::vector<Bounds> TracedTiles::movedSince(const Occluders& occluders) const
 {
@@ -152,7 +148,6 @@ std::vector<Bounds> TracedTiles::movedSince(const Occluders& occluders) const
   return moved;
 }
 
-//------------------------------------------------------------------------------
 void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
   const ReceiverImages& images, const std::vector<glm::vec2>* before)
 {
@@ -204,14 +199,12 @@ void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
   }
 }
 
-//------------------------------------------------------------------------------
 void TracedTiles::note(const ReceiverTile& tile)
 {
   this->boxes_[tile.number(this->tilesAcross_)] =
     boxOf(tile.receivers, tile.first, tile.columns, tile.rows);
 }
 
-//------------------------------------------------------------------------------
 std::size_t TracedTiles::bytes() const
 {
   return bytesOf(this->places_) + bytesOf(this->boxes_) + bytesOf(this->kept_);

@@ -65,7 +65,6 @@ public:
   std::size_t bytes() const;
 
 private:
-  /// The place of a surface.
   struct Place
   {
     std::uint64_t positionsVersion;

@@ -226,10 +226,8 @@ void markCopies(const Occluders& occluders, const std::vector<CrossedSurface*>& 
 
 } // namespace
 
-//------------------------------------------------------------------------------
 struct Sheets::Impl
 {
-  /// A surface's structure.
   struct Structure
   {
     std::unique_ptr<CrossedSurface> crossed; ///< on the heap, because Embree keeps its address
@@ -260,7 +258,6 @@ struct Sheets::Impl
   Occluders::Versions versions;
 };
 
-//------------------------------------------------------------------------------
 Sheets::Impl::Impl()
   : device(startEmbree())
   , scene(rtcNewScene(this->device.get()))
@@ -272,7 +269,6 @@ Sheets::Impl::Impl()
   rtcSetSceneBuildQuality(this->scene.get(), RTC_BUILD_QUALITY_LOW);
 }
 
-//------------------------------------------------------------------------------
 Sheets::Impl::Structure Sheets::Impl::make(const Surface& surface, const Occluders& occluders) const
 {
   Structure structure;
@@ -300,7 +296,6 @@ Sheets::Impl::Structure Sheets::Impl::make(const Surface& surface, const Occlude
   return structure;
 }
 
-//------------------------------------------------------------------------------
 /// Refit a structure to its surface's present place.
 void Sheets::Impl::place(const Structure& structure) const
 {
@@ -314,7 +309,6 @@ void Sheets::Impl::place(const Structure& structure) const
   placeInstances(this->scene.get(), structure.attached, surface);
 }
 
-//------------------------------------------------------------------------------
 /// Mark the copies of triangles within each prop, and within each source of instances.
 void Sheets::Impl::findCopies(const Occluders& occluders)
 {
@@ -336,14 +330,12 @@ void Sheets::Impl::findCopies(const Occluders& occluders)
   }
 }
 
-//------------------------------------------------------------------------------
 Sheets::Sheets()
   : impl_(std::make_unique<Impl>())
 {
 }
 Sheets::~Sheets() = default;
 
-//------------------------------------------------------------------------------
 bool Sheets::update(const Occluders& occluders)
 {
   Impl& impl = *this->impl_;
@@ -409,14 +401,12 @@ bool Sheets::update(const Occluders& occluders)
   return changes || areOthers;
 }
 
-//------------------------------------------------------------------------------
 bool Sheets::isColoured() const
 {
   return std::any_of(this->impl_->structures.begin(), this->impl_->structures.end(),
     [](const auto& entry) { return entry.second.crossed->surface->sheet->isColoured; });
 }
 
-//------------------------------------------------------------------------------
 void Sheets::Impl::trace(
   const glm::vec3& origin, const glm::vec3& direction, float rayFar, CrossingQuery& query) const
 {
@@ -425,7 +415,6 @@ void Sheets::Impl::trace(
   occlude(this->scene.get(), query.context, ray);
 }
 
-//------------------------------------------------------------------------------
 glm::dvec3 Sheets::transmittanceOf(
   const glm::vec3& origin, const glm::vec3& direction, float rayFar) const
 {
@@ -434,7 +423,6 @@ glm::dvec3 Sheets::transmittanceOf(
   return query.transmittance;
 }
 
-//------------------------------------------------------------------------------
 void Sheets::findCrossings(const glm::vec3& origin, const glm::vec3& direction, float rayFar,
   std::vector<SheetCrossing>& crossings) const
 {
@@ -446,7 +434,6 @@ void Sheets::findCrossings(const glm::vec3& origin, const glm::vec3& direction, 
     [](const SheetCrossing& a, const SheetCrossing& b) { return a.at < b.at; });
 }
 
-//------------------------------------------------------------------------------
 std::size_t Sheets::bytes() const
 {
   const Impl& impl = *this->impl_;

@@ -12,7 +12,6 @@
 namespace gnomon
 {
 
-/// Where a ray crosses a sheet.
 struct SheetCrossing
 {
   double at;       ///< in lengths of the direction
@@ -29,8 +28,7 @@ public:
   /// @throws std::runtime_error if Embree cannot be started
   Sheets();
   ~Sheets() override;
-  Sheets(const Sheets&) = delete;
-  Sheets& operator=(const Sheets&) = delete;
+  Sheets& operator=(Sheets&&) = delete; ///< nor copied
 
   /// Bring the structure up to date with the snapshot. Does nothing if neither topologyVersion nor
   /// positionsVersion changed. The snapshot must stay in place until the next update.
@@ -38,7 +36,6 @@ public:
   /// @throws std::runtime_error if there is no structure, or for casters beyond Embree's range
   bool update(const Occluders& occluders);
 
-  /// True if a sheet is coloured.
   bool isColoured() const override;
   /// Return the product over the ray's crossings (Sheet).
   glm::dvec3 transmittanceOf(
@@ -47,7 +44,6 @@ public:
   void findCrossings(const glm::vec3& origin, const glm::vec3& direction, float rayFar,
     std::vector<SheetCrossing>& crossings) const;
 
-  /// Return the bytes of the structure and of its tables.
   std::size_t bytes() const;
 
 private:

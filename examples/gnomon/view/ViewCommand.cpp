@@ -38,7 +38,6 @@ void requireScreen()
   }
 }
 
-/// Return the viewer's first state and its scene.
 std::pair<ViewState, Scene> beginning(const ViewOptions& options)
 {
   if (options.scene.empty() == options.settings.empty())
@@ -121,7 +120,6 @@ void view(const ViewOptions& options)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addViewCommand(CLI::App& app)
 {
   const auto options = std::make_shared<ViewOptions>();

@@ -166,14 +166,12 @@ std::string lineOf(const ViewKey& key, const ViewState& state)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::vector<ViewKey>& viewKeys()
 {
   static const std::vector<ViewKey> keys = makeKeys();
   return keys;
 }
 
-//------------------------------------------------------------------------------
 const ViewKey* findKey(char code)
 {
   const auto& keys = viewKeys();
@@ -182,7 +180,6 @@ const ViewKey* findKey(char code)
   return found == keys.end() ? nullptr : &*found;
 }
 
-//------------------------------------------------------------------------------
 std::string helpText(const ViewState& state)
 {
   std::string text;
@@ -193,7 +190,6 @@ std::string helpText(const ViewState& state)
   return text;
 }
 
-//------------------------------------------------------------------------------
 std::string keysAsMarkdown()
 {
   std::string text = "| key | what it does |\n|---|---|\n";
@@ -204,7 +200,6 @@ std::string keysAsMarkdown()
   return text;
 }
 
-//------------------------------------------------------------------------------
 void resizeLight(ViewState& state, const Scene& scene, int steps)
 {
   if (state.light >= state.lights.size())
@@ -228,7 +223,6 @@ void resizeLight(ViewState& state, const Scene& scene, int steps)
   }
 }
 
-//------------------------------------------------------------------------------
 std::optional<std::size_t> sunOf(const Scene& scene)
 {
   const auto found = std::find_if(scene.lights.begin(), scene.lights.end(),
@@ -239,7 +233,6 @@ std::optional<std::size_t> sunOf(const Scene& scene)
     : std::optional(static_cast<std::size_t>(found - scene.lights.begin()));
 }
 
-//------------------------------------------------------------------------------
 void placeSun(ViewState& state, const Scene& scene, const SunTime& sun)
 {
   const std::optional<std::size_t> found = sunOf(scene);

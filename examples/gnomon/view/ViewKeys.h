@@ -32,7 +32,6 @@ struct ViewKey
 
 /// Return all keys, in the order of the help.
 const std::vector<ViewKey>& viewKeys();
-/// Return the key of a code; null if there is none.
 const ViewKey* findKey(char code);
 
 /// The key that saves picture and state, and changes neither.
@@ -40,7 +39,6 @@ inline constexpr char saveKey = 'g';
 
 /// Return the keys with their values in a state, for the picture.
 std::string helpText(const ViewState& state);
-/// Return the keys as a Markdown table for the documentation.
 std::string keysAsMarkdown();
 
 /// Return the number of the scene's sun, its first directional light without a box.

@@ -1,6 +1,5 @@
 #include "view/ViewState.h"
 
-#include "Errors.h"
 #include "Files.h"
 #include "SceneFile.h"
 
@@ -22,7 +21,6 @@ constexpr std::array<const char*, 5> showNames = { "technique", "truth", "error"
 constexpr NumberRange lightSize{ 0.0, 1e30 };
 constexpr std::size_t largestFileBytes = 1 << 20;
 
-/// Return the value of the setting `light_radius`.
 double radiusSetting(const SceneLight& light)
 {
   const auto said = light.settings.find("light_radius");
@@ -51,7 +49,6 @@ void describe(JsonMembers& members, LightPlace& light)
   }
 }
 
-/// Read the places of so many lights.
 std::vector<LightPlace> readLights(const JsonValue& value, std::size_t expected)
 {
   std::vector<LightPlace> lights;
@@ -139,13 +136,11 @@ static void to_json(Json& json, const LightPlace& light)
 }
 ///@}
 
-//------------------------------------------------------------------------------
 std::string nameOf(Show show)
 {
   return showNames[static_cast<std::size_t>(show)];
 }
 
-//------------------------------------------------------------------------------
 LightPlace placeOf(const SceneLight& light)
 {
   const double size = !light.area ? radiusSetting(light)
@@ -154,7 +149,6 @@ LightPlace placeOf(const SceneLight& light)
   return { light.position, light.target, size };
 }
 
-//------------------------------------------------------------------------------
 void place(SceneLight& light, const LightPlace& place)
 {
   light.position = place.position;
@@ -179,7 +173,6 @@ void place(SceneLight& light, const LightPlace& place)
   }
 }
 
-//------------------------------------------------------------------------------
 ViewState initialState(const std::string& name, const Scene& scene)
 {
   ViewState state;
@@ -190,7 +183,6 @@ ViewState initialState(const std::string& name, const Scene& scene)
   return state;
 }
 
-//------------------------------------------------------------------------------
 VariantSpec variantOf(const ViewState& state)
 {
   VariantSpec spec = parseTechnique(state.technique);
@@ -198,7 +190,6 @@ VariantSpec variantOf(const ViewState& state)
   return spec;
 }
 
-//------------------------------------------------------------------------------
 std::string textOf(const ViewState& state)
 {
   Json json;
@@ -208,7 +199,6 @@ std::string textOf(const ViewState& state)
   return json.dump(2) + "\n";
 }
 
-//------------------------------------------------------------------------------
 ViewState parseState(const std::string& text, const std::string& source, const Scene& scene)
 {
   const nlohmann::json document = parseJson(text, source);
@@ -218,7 +208,6 @@ ViewState parseState(const std::string& text, const std::string& source, const S
   return state;
 }
 
-//------------------------------------------------------------------------------
 std::pair<ViewState, Scene> readView(const std::string& path)
 {
   const std::string text = readWholeFile(path, largestFileBytes);

@@ -26,7 +26,6 @@ enum class Show
 /// "technique", "truth", "error", "classes", "texels".
 std::string nameOf(Show show);
 
-/// The place and size of a light of the scene.
 struct LightPlace
 {
   Vec3 position;
