@@ -206,9 +206,8 @@ void addCalibrateCommand(CLI::App& app)
     "GNOMON_FACTORS names the file for programs");
   command->add_option(
     "-o,--output", options->output, "Output file; without it, print to standard output");
-  command->add_option("--frames", options->frames, "Timed frames of each kind")
-    ->check(CLI::Range(1, 1000))
-    ->capture_default_str();
+  addOption(*command, "--frames", options->frames, "Timed frames of each kind")
+    ->check(CLI::Range(1, 1000));
   command->callback([options] { calibrate(*options); });
 }
 

@@ -19,6 +19,26 @@ void addStudyCommand(CLI::App& app);
 void addViewCommand(CLI::App& app);
 ///@}
 
+/// Add an option whose help shows its default.
+template <typename Value>
+CLI::Option* addOption(
+  CLI::App& command, const char* name, Value& value, const std::string& meaning)
+{
+  return command.add_option(name, value, meaning)->capture_default_str();
+}
+
+/// Refuse an option together with others of its command, but for one.
+inline void excludeOthers(CLI::App& command, CLI::Option* option, const CLI::Option* but)
+{
+  for (CLI::Option* const other : command.get_options())
+  {
+    if (other != option && other != but && other->nonpositional())
+    {
+      option->excludes(other);
+    }
+  }
+}
+
 inline constexpr int largestSidePixels = 16384;
 
 /// A window's size in pixels, on the command line WIDTHxHEIGHT, each from 1 to largestSidePixels.

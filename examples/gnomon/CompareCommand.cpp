@@ -103,25 +103,18 @@ void addCompareCommand(CLI::App& app)
       ->delimiter(',');
   command->add_flag("--all", options->all, "Compare all techniques, by all routes")
     ->excludes(techniques);
-  command
-    ->add_option("--map-sizes", options->plan.mapSizesTexels,
-      "Sides of the shadow maps in texels, separated by commas")
+  addOption(*command, "--map-sizes", options->plan.mapSizesTexels,
+    "Sides of the shadow maps in texels, separated by commas")
     ->delimiter(',')
-    ->check(CLI::Range(16, 16384))
-    ->capture_default_str();
+    ->check(CLI::Range(16, 16384));
   addSettingOptions(*command, options->plan.settings, { "technique", "map_size" });
-  command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT")
-    ->capture_default_str();
-  command
-    ->add_option("--frames", options->plan.frames,
-      "Timed frames per variant and motion; 0: measure errors only")
-    ->check(CLI::Range(0, 10000))
-    ->capture_default_str();
-  command
-    ->add_option("--truth-samples", options->plan.truthSamples,
-      "Samples per area light and pixel of the ray-traced truth")
-    ->check(CLI::Range(1, 65536))
-    ->capture_default_str();
+  addOption(*command, "--size", options->size, "Window size in pixels, WIDTHxHEIGHT");
+  addOption(*command, "--frames", options->plan.frames,
+    "Timed frames per variant and motion; 0: measure errors only")
+    ->check(CLI::Range(0, 10000));
+  addOption(*command, "--truth-samples", options->plan.truthSamples,
+    "Samples per area light and pixel of the ray-traced truth")
+    ->check(CLI::Range(1, 65536));
   command
     ->add_option("--route", options->route,
       "Routes of pointwise techniques: inline (in VTK's shaders), image (from a prepass), all. By "

@@ -144,17 +144,13 @@ void addDiffCommand(CLI::App& app)
   const auto options = std::make_shared<DiffOptions>();
   command->add_option("A", options->fileA, "Image: .png, or .exr with any channels")->required();
   command->add_option("B", options->fileB, "Image of the same size and channels")->required();
-  command
-    ->add_option("--max-difference", options->maxDifference,
-      "A pixel differs when a channel differs by more than this: in steps of 8 bits for .png, in "
-      "the "
-      "channel's own unit for .exr; NaN always differs")
-    ->check(CLI::NonNegativeNumber)
-    ->capture_default_str();
-  command
-    ->add_option("--max-pixels", options->maxPixels, "Largest number of pixels that may differ")
-    ->check(CLI::NonNegativeNumber)
-    ->capture_default_str();
+  addOption(*command, "--max-difference", options->maxDifference,
+    "A pixel differs when a channel differs by more than this: in steps of 8 bits for .png, in "
+    "the channel's own unit for .exr; NaN always differs")
+    ->check(CLI::NonNegativeNumber);
+  addOption(
+    *command, "--max-pixels", options->maxPixels, "Largest number of pixels that may differ")
+    ->check(CLI::NonNegativeNumber);
   command->add_option("-o,--output", options->output,
     "Write a picture of the differences: black for equal, grey within the tolerance, orange to "
     "yellow beyond it, magenta for NaN");

@@ -121,11 +121,6 @@ void addArch(MeshBuilder& mesh, const Bay& bay, double pier)
   }
 }
 
-void addFabric(MeshBuilder& mesh, const std::function<Vec3(double u, double v)>& place)
-{
-  mesh.addSheet(64, 64, place);
-}
-
 /// Add a banner that hangs from the gallery's rail into the court, in folds that widen downwards.
 void addBanner(MeshBuilder& mesh, const Bay& bay, int i)
 {
@@ -133,7 +128,7 @@ void addBanner(MeshBuilder& mesh, const Bay& bay, int i)
   const double fall = 300.0 + 25.0 * (i % 3);
   const Vec3 along = bay.along();
   const Vec3 hook = bay.middle() + 42.0 * bay.inward() + (storeyHeight + 84.0) * up;
-  addFabric(mesh,
+  mesh.addSheet(64, 64,
     [&](double u, double v)
     {
       const double down = 1.0 - v;
@@ -199,7 +194,7 @@ void addCloth(Scene& scene)
   MeshBuilder awnings;
   for (int i = 0; i < 4; ++i)
   {
-    addFabric(awnings,
+    awnings.addSheet(64, 64,
       [&](double u, double v)
       {
         const double sag = 90.0 * (4.0 * v * (1.0 - v));

@@ -438,14 +438,11 @@ void addRenderCommand(CLI::App& app)
   CLI::Option* const output =
     command->add_option("-o,--output", options->picture, "The picture to write, .png or .exr")
       ->required();
-  command->add_option("--size", options->size, "Size of the picture in pixels, WIDTHxHEIGHT")
-    ->capture_default_str();
+  addOption(*command, "--size", options->size, "Size of the picture in pixels, WIDTHxHEIGHT");
   addSettingOptions(*command, options->settings);
-  command
-    ->add_option("--route", options->route,
-      "How visibility reaches the picture: inline, image, deferred, auto")
-    ->check(CLI::IsMember(routes))
-    ->capture_default_str();
+  addOption(*command, "--route", options->route,
+    "How visibility reaches the picture: inline, image, deferred, auto")
+    ->check(CLI::IsMember(routes));
   command->add_flag("--shade-samples", options->shadeSamples,
     "Shade from each point of an area light (--light-samples points, --progressive of them per "
     "frame) with its hard shadows, and show the mean. By default, shade from the centre, times the "
@@ -484,12 +481,10 @@ void addRenderCommand(CLI::App& app)
     ->add_option("--sky-distance", options->skyDistance,
       "The length, in world units, beyond which nothing hides the sky, for rooms; 0 is no limit")
     ->check(isOneOf(anyLength));
-  command
-    ->add_option("--sky-model", options->skyModel,
-      "The sky: as bright from everywhere, from below, too; none below the horizon; CIE's overcast "
-      "one. Up is y")
-    ->check(CLI::IsMember(skyModels))
-    ->capture_default_str();
+  addOption(*command, "--sky-model", options->skyModel,
+    "The sky: as bright from everywhere, from below, too; none below the horizon; CIE's overcast "
+    "one. Up is y")
+    ->check(CLI::IsMember(skyModels));
   command->add_option("--visibility", options->visibility,
     "Also write every light's visibility and the receivers, .exr");
   command->add_option("--stats", options->stats,
@@ -501,13 +496,7 @@ void addRenderCommand(CLI::App& app)
   CLI::Option* const settings = command->add_option("--settings", options->viewFile,
     "A settings file that `gnomon view` saved, in place of a scene and all other options: its "
     "picture again, byte for byte");
-  for (CLI::Option* const other : command->get_options())
-  {
-    if (other != settings && other != output && other->nonpositional())
-    {
-      settings->excludes(other);
-    }
-  }
+  excludeOthers(*command, settings, output);
   command->callback([options] { render(*options); });
 }
 

@@ -261,7 +261,7 @@ void addStudyCommand(CLI::App& app)
   CLI::Option* const output =
     command->add_option("-o,--output", options->folder, "Folder for the study")->required();
   const auto addList = [&](const char* name, auto& values, const std::string& meaning)
-  { return command->add_option(name, values, meaning)->delimiter(',')->capture_default_str(); };
+  { return addOption(*command, name, values, meaning)->delimiter(','); };
   CLI::Option* const quick =
     command->add_flag("--quick", options->quick, "A small study, of a few minutes");
   addList("--scenes", options->scenes,
@@ -273,29 +273,17 @@ void addStudyCommand(CLI::App& app)
     ->check(CLI::Range(16, 16384));
   addList("--samples", options->lightSamples, "Samples of area lights")
     ->check(CLI::Range(1, 65536));
-  command
-    ->add_option("--views", options->views,
-      "Views of each scene: its camera, turned about its target by 25 degrees to one side and to "
-      "the other side, by 50, and so on")
-    ->check(CLI::Range(1, 8))
-    ->capture_default_str();
-  command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT")
-    ->capture_default_str();
-  command->add_option("--frames", comparison.frames, "Timed frames per variant and motion")
-    ->check(CLI::Range(1, 10000))
-    ->capture_default_str();
-  command
-    ->add_option("--truth-samples", comparison.truthSamples,
-      "Samples per area light and pixel of the ray-traced truth")
-    ->check(CLI::Range(1, 65536))
-    ->capture_default_str();
-  for (CLI::Option* const other : command->get_options())
-  {
-    if (other != quick && other != output && other->nonpositional())
-    {
-      quick->excludes(other);
-    }
-  }
+  addOption(*command, "--views", options->views,
+    "Views of each scene: its camera, turned about its target by 25 degrees to one side and to "
+    "the other side, by 50, and so on")
+    ->check(CLI::Range(1, 8));
+  addOption(*command, "--size", options->size, "Window size in pixels, WIDTHxHEIGHT");
+  addOption(*command, "--frames", comparison.frames, "Timed frames per variant and motion")
+    ->check(CLI::Range(1, 10000));
+  addOption(*command, "--truth-samples", comparison.truthSamples,
+    "Samples per area light and pixel of the ray-traced truth")
+    ->check(CLI::Range(1, 65536));
+  excludeOthers(*command, quick, output);
   command->callback([options] { study(*options); });
 }
 

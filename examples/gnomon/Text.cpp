@@ -8,15 +8,11 @@ namespace gnomon::tool
 
 std::vector<std::string> split(const std::string& text, char separator)
 {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t end = text.find(separator); end != std::string::npos;
-       end = text.find(separator, begin))
+  std::vector<std::string> parts(1);
+  for (const char letter : text)
   {
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
+    letter == separator ? void(parts.emplace_back()) : parts.back().push_back(letter);
   }
-  parts.push_back(text.substr(begin));
   return parts;
 }
 
