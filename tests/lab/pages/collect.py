@@ -97,7 +97,7 @@ def conclusions(folder):
             } | {name: f"{value:.6g}" for name, value in sums.items()})
     for fitting in folder.glob("fitting.txt"):
         for task, milliseconds in re.findall(
-                r"^(\S.*?) +[\d.]+ +[\d.]+ +([\d.]+) +[\d.]+$", fitting.read_text(), re.MULTILINE):
+                r"^(\S.*?) {2,}([\d.]+)$", fitting.read_text(), re.MULTILINE):
             rows.append(
                 {"run": "fitting", "scene": "bunny", "variant": task, "maps_ms": milliseconds})
     for md5 in folder.glob("md5.txt"):
