@@ -2,7 +2,11 @@
 
 #include "Tracer.h"
 
-#include <nlohmann/json.hpp>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfVecAttribute.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -11,6 +15,7 @@
 #include <mutex>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 
 namespace gnomon::check
 {
@@ -342,11 +347,7 @@ void add(Result& result, std::size_t pixel, const PixelResult& found)
   if (!found.otherSurface)
   {
     listIf(found.positionError > tolerance::positionError, result.position);
-    if (found.positionError > result.positionError)
-    {
-      result.positionError = found.positionError;
-      result.positionErrorAt = pixel;
-    }
+    result.positionError = std::max(result.positionError, found.positionError);
   }
   listIf(found.otherFace, result.otherFace);
   listIf(found.normalDiffers, result.normal);
@@ -364,35 +365,27 @@ double share(std::size_t part, std::size_t whole)
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-nlohmann::ordered_json toJson(const Pixels& pixels, std::size_t width)
-{
-  constexpr std::size_t mostListed = 100;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < std::min(pixels.size(), mostListed); ++i)
-  {
-    list.push_back({ pixels[i] % width, pixels[i] / width });
-  }
-  return { { "count", pixels.size() }, { "first", list } };
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
-double LightResult::wrongShare() const
-{
-  return share(this->falseLight.size() + this->falseShadow.size(), this->counted);
-}
-
-//------------------------------------------------------------------------------
-std::vector<std::string> Result::failures() const
+std::vector<std::string> Result::failures(int width) const
 {
   std::vector<std::string> sentences;
-  const auto require = [&](const std::string& what, double value, double limit)
+  const auto require =
+    [&](const std::string& what, double value, double limit, const std::vector<Pixels>& where)
   {
     if (!(value <= limit))
     {
       std::ostringstream sentence;
-      sentence << what << ": " << value << ", expected at most " << limit;
+      sentence << what << ": " << value << ", expected at most " << limit << "; at";
+      for (const Pixels& pixels : where)
+      {
+        for (std::size_t i = 0; i < std::min<std::size_t>(pixels.size(), 5); ++i)
+        {
+          const auto columns = static_cast<std::size_t>(width);
+          sentence << " (" << pixels[i] % columns << ", " << pixels[i] / columns << ")";
+        }
+      }
       sentences.push_back(sentence.str());
     }
   };
@@ -402,18 +395,20 @@ std::vector<std::string> Result::failures() const
   }
   require("share of pixels whose coverage differs",
     share(this->coverage.size() + this->otherSurface.size(), this->pixels),
-    tolerance::coverageShare);
+    tolerance::coverageShare, { this->coverage, this->otherSurface });
   require("largest position error as a share of the distance", this->positionError,
-    tolerance::positionError);
+    tolerance::positionError, { this->position });
   require("share of pixels with a wrong normal", share(this->normal.size(), this->covered),
-    tolerance::normalShare);
+    tolerance::normalShare, { this->normal });
   for (std::size_t i = 0; i < this->lights.size(); ++i)
   {
-    const LightResult& light = this->lights[i];
+    const auto& [counted, falseLight, falseShadow, unlit] = this->lights[i];
     const std::string name = "visibility." + std::to_string(i);
-    require(name + ": share of wrong pixels", light.wrongShare(), tolerance::visibilityShare);
+    require(name + ": share of wrong pixels",
+      share(falseLight.size() + falseShadow.size(), counted), tolerance::visibilityShare,
+      { falseLight, falseShadow });
     require(name + ": share of pixels that cannot be lit but are",
-      share(light.unlit.size(), this->covered), tolerance::visibilityShare);
+      share(unlit.size(), this->covered), tolerance::visibilityShare, { unlit });
   }
   return sentences;
 }
@@ -444,31 +439,55 @@ Result compare(const Scene& scene, const VisibilityFile& file)
 }
 
 //------------------------------------------------------------------------------
-std::string toJson(const Result& result, int width)
+const std::vector<float>& VisibilityFile::channel(const std::string& name) const
 {
-  const auto columns = static_cast<std::size_t>(width);
-  nlohmann::ordered_json json;
-  json["pixels"] = result.pixels;
-  json["covered"] = result.covered;
-  json["coverage_share"] = share(result.coverage.size(), result.pixels);
-  json["coverage"] = toJson(result.coverage, columns);
-  json["position_error"] = result.positionError;
-  json["position_error_at"] = { result.positionErrorAt % columns,
-    result.positionErrorAt / columns };
-  json["position"] = toJson(result.position, columns);
-  json["other_surface"] = toJson(result.otherSurface, columns);
-  json["other_face"] = toJson(result.otherFace, columns);
-  json["normal"] = toJson(result.normal, columns);
-  json["lights"] = nlohmann::ordered_json::array();
-  for (const LightResult& light : result.lights)
+  const auto place = this->channels.find(name);
+  if (place == this->channels.end())
   {
-    json["lights"].push_back({ { "counted", light.counted }, { "wrong_share", light.wrongShare() },
-      { "false_light", toJson(light.falseLight, columns) },
-      { "false_shadow", toJson(light.falseShadow, columns) },
-      { "unlit", toJson(light.unlit, columns) } });
+    throw std::runtime_error("channel " + name + " is missing");
   }
-  json["failures"] = result.failures();
-  return json.dump(2);
+  return place->second;
+}
+
+//------------------------------------------------------------------------------
+Vec3 VisibilityFile::vector(const std::string& name, std::size_t pixel) const
+{
+  return { this->channel(name + ".X")[pixel], this->channel(name + ".Y")[pixel],
+    this->channel(name + ".Z")[pixel] };
+}
+
+//------------------------------------------------------------------------------
+VisibilityFile readVisibilityFile(const std::string& path)
+{
+  Imf::InputFile input(path.c_str());
+  const Imf::Header& header = input.header();
+  const Imath::Box2i window = header.dataWindow();
+  VisibilityFile file;
+  file.width = window.max.x - window.min.x + 1;
+  file.height = window.max.y - window.min.y + 1;
+  const auto* origin = header.findTypedAttribute<Imf::V3dAttribute>("origin");
+  if (!origin)
+  {
+    throw std::runtime_error(path + ": the header has no attribute origin of type v3d");
+  }
+  file.origin = origin->value();
+
+  const auto width = static_cast<std::size_t>(file.width);
+  Imf::FrameBuffer frame;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+  {
+    if (channel.channel().type != Imf::FLOAT)
+    {
+      throw std::runtime_error(path + ": channel " + channel.name() + " is not 32-bit float");
+    }
+    std::vector<float>& plane = file.channels[channel.name()];
+    plane.resize(width * static_cast<std::size_t>(file.height));
+    frame.insert(channel.name(),
+      Imf::Slice::Make(Imf::FLOAT, plane.data(), window, sizeof(float), sizeof(float) * width));
+  }
+  input.setFrameBuffer(frame);
+  input.readPixels(window.min.y, window.max.y);
+  return file;
 }
 
 } // namespace gnomon::check

@@ -1,14 +1,31 @@
 #pragma once
 
 #include "Scene.h"
-#include "VisibilityFile.h"
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace gnomon::check
 {
+
+/// The contents of a visibility file; row 0 on top.
+struct VisibilityFile
+{
+  int width = 0;  ///< in pixels
+  int height = 0; ///< in pixels
+  Vec3 origin{ 0.0 };
+  std::map<std::string, std::vector<float>> channels;
+
+  /// @throws std::runtime_error if the channel is missing
+  const std::vector<float>& channel(const std::string& name) const;
+  /// Read three channels: name.X, name.Y, name.Z.
+  Vec3 vector(const std::string& name, std::size_t pixel) const;
+};
+
+/// @throws std::exception with a message that names the file
+VisibilityFile readVisibilityFile(const std::string& path);
 
 /// Tolerances for visibility files.
 namespace tolerance
@@ -34,8 +51,6 @@ struct LightResult
   Pixels falseLight;       ///< of these, lit in the file and shadowed in truth
   Pixels falseShadow;      ///< of these, shadowed in the file and lit in truth; also NaN
   Pixels unlit;            ///< turned away or outside the cone, but not dark in the file
-
-  double wrongShare() const;
 };
 
 /// Comparison of a file with its scene.
@@ -45,8 +60,7 @@ struct Result
   std::size_t covered = 0;    ///< in the file and in truth
   Pixels coverage;            ///< covered in one of them only
   double positionError = 0.0; ///< largest, as a share of the distance from the camera
-  std::size_t positionErrorAt = 0;
-  Pixels position; ///< where the error exceeds the tolerance
+  Pixels position;            ///< where the error exceeds the tolerance
   /// Covered in both, but by different triangles, at an edge that the pixel's ray passes more
   /// closely than a rasteriser can tell. This is a difference in coverage, not in position.
   Pixels otherSurface;
@@ -55,15 +69,13 @@ struct Result
   Pixels normal; ///< normals of no triangle at the position, or not on the camera's side
   std::vector<LightResult> lights;
 
-  /// One sentence per tolerance that is exceeded.
-  std::vector<std::string> failures() const;
+  /// One sentence per tolerance that is exceeded, with the first pixels.
+  /// @param width of the picture
+  std::vector<std::string> failures(int width = 1) const;
 };
 
 /// Render the scene with the check's own rays and compare.
 /// @throws std::runtime_error if the file lacks a channel
 Result compare(const Scene& scene, const VisibilityFile& file);
-
-/// Return the result as JSON, with the first pixels of each kind.
-std::string toJson(const Result& result, int width);
 
 } // namespace gnomon::check

@@ -1,7 +1,7 @@
 // gnomon_check SCENE.json VISIBILITY.exr: check whether a visibility file is true.
 //
-// Prints the comparison with its own rays as JSON. Exit code 0: true within the tolerances, 1: not,
-// 2: bad input.
+// Compares it with its own rays, and prints where tolerances are exceeded. Exit code 0: true within
+// the tolerances, 1: not, 2: bad input.
 
 #include "Check.h"
 
@@ -20,8 +20,7 @@ int main(int argc, char** argv)
     const gnomon::check::VisibilityFile file = gnomon::check::readVisibilityFile(argv[2]);
     const gnomon::check::Scene scene = gnomon::check::readScene(argv[1]);
     const gnomon::check::Result result = gnomon::check::compare(scene, file);
-    std::cout << gnomon::check::toJson(result, file.width) << "\n";
-    for (const std::string& failure : result.failures())
+    for (const std::string& failure : result.failures(file.width))
     {
       std::cerr << "gnomon_check: " << failure << "\n";
     }
