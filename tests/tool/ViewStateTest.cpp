@@ -1,21 +1,27 @@
 #include "view/ViewState.h"
+
 #include "Errors.h"
+#include "MeshBuilder.h"
+#include "Progress.h"
 #include "SampleFiles.h"
+#include "SceneFraming.h"
 #include "TestFiles.h"
+
 #include "view/ViewKeys.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
-
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <set>
-
-using testing::HasSubstr;
 
 namespace gnomon::tool
 {
 namespace
 {
+
+using testing::HasSubstr;
 
 SceneLight lightOf(SceneLight::Type type)
 {
@@ -67,8 +73,6 @@ std::string refusalOf(const std::string& key, const nlohmann::json& value)
   json[key] = value;
   return messageOf<BadInput>([&] { parseState(json.dump(), "file.json", lightsScene()); });
 }
-
-} // namespace
 
 TEST(ViewState, ComesBackFromItsTextToTheLastBit)
 {
@@ -164,4 +168,84 @@ TEST(ViewKeys, TheHelpSaysTheStates)
   EXPECT_THAT(helpText(state), HasSubstr("2025-03-01T06:30-03:30\n"));
 }
 
+/// The depths of a model, seen along -z from height 2 with 90 degrees between the upper and the
+/// lower border.
+DepthRange depthsOf(const SceneModel& model, double aspect)
+{
+  Scene scene;
+  scene.models = { model };
+  scene.camera = makeCamera({ 0.0, 2.0, 0.0 }, { 0.0, 2.0, -1.0 }, 90.0);
+  return visibleDepths(scene, aspect);
+}
+
+SceneModel makeBox(const Vec3& low, const Vec3& high)
+{
+  MeshBuilder mesh;
+  mesh.addBox(low, high);
+  return makeModel("box", mesh.build(), { 1.0, 1.0, 1.0 });
+}
+
+TEST(VisibleDepths, AreOfWhatIsInThePicture)
+{
+  const SceneModel ground = makePlane(origin, 200.0);
+  // At 45 degrees to the right of the view it begins at depth 3, at depth 1 it is out of a square
+  // picture, but not of one three times as wide as high.
+  const SceneModel beside = makeBox({ 3.0, 1.0, -10.0 }, { 4.0, 3.0, 5.0 });
+  SceneModel moved = makeBox({ -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 });
+  moved.matrix = { 2, 0, 0, 0, 0, 2, 0, 2, 0, 0, 2, -8, 0, 0, 0, 1 };
+  struct Case
+  {
+    const char* name;
+    const SceneModel& model;
+    double aspect, nearest, farthest;
+  };
+  for (const Case& of : { Case{ "from the lower border", ground, 1.0, 2.0, 100.0 },
+         Case{ "beside a square", beside, 1.0, 3.0, 10.0 }, Case{ "wide", beside, 3.0, 1.0, 10.0 },
+         Case{ "by a matrix", moved, 1.0, 6.0, 10.0 } })
+  {
+    const DepthRange depths = depthsOf(of.model, of.aspect);
+    EXPECT_NEAR(depths.nearest, of.nearest, 1e-6) << of.name;
+    EXPECT_NEAR(depths.farthest, of.farthest, 1e-7 * of.farthest) << of.name;
+  }
+  const DepthRange none = depthsOf(makeBox({ -1.0, 1.0, 2.0 }, { 1.0, 3.0, 3.0 }), 1.0);
+  EXPECT_LT(none.farthest, none.nearest) << "behind the eye";
+}
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+/// Return the messages of work of 200 ms: a busy machine may wake its thread late.
+std::string said(bool isTerminal, milliseconds silence)
+{
+  const TestFolder folder;
+  const std::string path = folder / "said";
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  {
+    std::ofstream stream(path, std::ios::app);
+    Progress progress("reading", file, isTerminal, silence);
+    progress.begin("rendering", 0.4);
+    std::this_thread::sleep_for(milliseconds(200));
+    progress.print("a note", stream);
+  }
+  close(file);
+  return readBytes(path);
+}
+
+TEST(Progress, IsSilentAboutShortWork)
+{
+  EXPECT_EQ(said(false, milliseconds(10000)), "a note\n");
+  EXPECT_EQ(said(true, milliseconds(10000)), "a note\n");
+}
+
+TEST(Progress, WritesLinesIntoALogAndOverItsLineOnATerminal)
+{
+  EXPECT_THAT(said(false, milliseconds(20)),
+    MatchesRegex("(gnomon: rendering, 40 %, 0 s\n)+a note\n(gnomon: rendering, 40 %, 0 s\n)*"));
+  EXPECT_THAT(said(true, milliseconds(20)),
+    testing::AllOf(
+      HasSubstr("gnomon: rendering, 40 %, 0 s\r\x1b[K"), HasSubstr("\r\x1b[Ka note\n")));
+}
+
+} // namespace
 } // namespace gnomon::tool

@@ -1,7 +1,14 @@
 #include "FittedViews.h"
+#include "Random.h"
 
 #include "lights/Lispsm.h"
 #include "lights/MapWarp.h"
+#include "lights/Splits.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace gnomon::test
 {
@@ -153,6 +160,172 @@ TEST(MapWarp, IsUniformWhereThatIsBetter)
   EXPECT_EQ(result(1e-6), uniform); // all of the map for the first millimetres
   EXPECT_EQ(result(1e7), uniform);
   EXPECT_EQ(result(std::numeric_limits<double>::infinity()), uniform);
+}
+
+TEST(MapFit, IsThePublishedScaleAndOffsetClampedToWhatIsToBeCovered)
+{
+  const auto first = fitTo(Rectangle{ { -0.25, -1.0 }, { 0.5, 1.0 } }, { 1024, 0 });
+  const auto clamped = fitTo(Rectangle{ { -5.0, 0.5 }, { 5.0, 7.0 } }, { 64, 0 });
+  ASSERT_TRUE(first && clamped);
+  EXPECT_LT(glm::distance(first->scale, { 8.0 / 3.0, 1.0 }), 1e-15);
+  EXPECT_LT(glm::distance(first->offset, { -1.0 / 3.0, 0.0 }), 1e-15);
+  EXPECT_EQ(clamped->scale, glm::dvec2(1.0, 4.0));
+  EXPECT_EQ(clamped->offset, glm::dvec2(0.0, -3.0));
+}
+
+TEST(MapFit, IsNothingWhereNothingIsVisible)
+{
+  EXPECT_FALSE(fitTo(Rectangle(), { 64, 0 }));
+  EXPECT_FALSE(fitTo(Rectangle{ { 1.5, 0.0 }, { 2.0, 1.0 } }, { 64, 0 }));
+  EXPECT_FALSE(fitTo(Rectangle{ { 0.0, -3.0 }, { 1.0, -1.5 } }, { 64, 0 }));
+  EXPECT_FALSE(fitSnappedTo(Rectangle(), { 64, 0 }));
+  EXPECT_FALSE(fitTo(Rectangle{ { std::nan(""), 0.0 }, { 1.0, 1.0 } }, { 64, 0 }));
+}
+
+TEST(MapFit, WidensWhatHasNoExtent)
+{
+  for (const double at : { -1.0, 0.3, 1.0 })
+  {
+    const Rectangle point = { glm::dvec2(at), glm::dvec2(at) };
+    for (const auto& fit : { fitTo(point, { 64, 1 }), fitSnappedTo(point, { 64, 1 }) })
+    {
+      ASSERT_TRUE(fit);
+      EXPECT_LE(fit->scale.x, 1.0 / leastVisibleShare);
+      EXPECT_LE(std::abs(mapped(fit->matrix(), point.lower).x), 1.0 - 2.0 / 64 + 1e-9);
+    }
+  }
+}
+
+TEST(MapFit, UniformTakesPointsToTheWholeMap)
+{
+  const glm::dmat3 uniform = uniformFromAcross({ { 1.0, 5.0 }, { 3.0, 2.0 }, { 2.0, 8.0 } });
+  EXPECT_LT(glm::length(mapped(uniform, { 1.0, 2.0 }) + 1.0), 1e-12);
+  EXPECT_LT(glm::length(mapped(uniform, { 3.0, 8.0 }) - 1.0), 1e-12);
+  EXPECT_EQ(uniformFromAcross({}), glm::dmat3(1.0));
+  for (const glm::dvec2& point : { glm::dvec2(0.0), glm::dvec2(7.0, 0.0), glm::dvec2(-1e9, 3.0) })
+  {
+    EXPECT_LT(glm::length(mapped(uniformFromAcross({ point }), point)), 1e-6);
+  }
+}
+
+TEST(MapFit, SnappedCoversWhatIsVisibleAtAStepOfTheSeries)
+{
+  Random random(5);
+  for (int i = 0; i < 1000; ++i)
+  {
+    Rectangle visible;
+    visible.add(glm::dvec2(inCube(random)));
+    visible.add(glm::dvec2(inCube(random)));
+    const MapTexels texels{ i % 2 == 0 ? 64 : 1024, i % 4 };
+    const auto snapped = fitSnappedTo(visible, texels);
+    const auto tight = fitTo(visible, texels);
+    ASSERT_TRUE(snapped && tight);
+    for (const glm::dvec2& corner : { visible.lower, visible.upper })
+    {
+      ASSERT_LE(std::abs(mapped(snapped->matrix(), corner).x), texels.inside() + 1e-9);
+      ASSERT_LE(std::abs(mapped(snapped->matrix(), corner).y), texels.inside() + 1e-9);
+    }
+    const double whole = texels.inside() - 1.0 / texels.side;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const double step = 4.0 * std::log2(snapped->scale[axis] / whole);
+      ASSERT_NEAR(step, std::round(step), 1e-9);
+      ASSERT_GE(step, -1e-9);
+      const double offset = snapped->offset[axis] * texels.side / 2.0;
+      ASSERT_NEAR(offset, std::round(offset), 1e-6);
+      // The fit is not much coarser than without snapping.
+      ASSERT_GE(
+        snapped->scale[axis], tight->scale[axis] * std::exp2(-0.25) * (1.0 - 4.0 / texels.side));
+    }
+  }
+}
+
+/// Apelles, eq. 3.17, for a map whose texels are as wide as the pixels are at distance 1.
+TEST(MapAliasing, OfASurfaceAcrossViewAndLightIsOneOverTheDistance)
+{
+  const LightRays rays = directionalRays({ 0.0, 1.0, 0.0 });
+  const CameraView camera = perspectiveCamera(glm::dvec3(0.0), { 0.0, 1.0, 0.0 }, 90.0, 0.1, 100.0);
+  for (const double distance : { 0.5, 1.0, 4.0, 50.0 })
+  {
+    const auto texel = texelPixels({ { 0.0, distance, 0.0 }, { 0.0, -1.0, 0.0 } }, camera,
+      { 100.0, 100.0 }, rays, glm::dmat3(1.0), 100);
+    ASSERT_TRUE(texel);
+    EXPECT_NEAR(texel->x, 1.0 / distance, 1e-12);
+    EXPECT_NEAR(texel->y, 1.0 / distance, 1e-12);
+    const auto aliasing =
+      perspectiveAliasing({ inView(rays, { 0.0, distance, 0.0 }) }, camera, rays, glm::dmat3(1.0));
+    EXPECT_NEAR(aliasing.side, 1.0 / distance, 1e-12);
+    EXPECT_NEAR(aliasing.area, 1.0 / (distance * distance), 1e-12);
+  }
+}
+
+TEST(MapAliasing, OfAPositionalLightStandsAcrossItsRay)
+{
+  // The ray is at 45 degrees along x, so a step of the slope x / z moves at an angle to it.
+  const LightRays rays{ glm::dmat4(1.0), true };
+  const CameraView camera =
+    perspectiveCamera({ 2.0, -5.0, 2.0 }, { 2.0, 0.0, 2.0 }, 60.0, 1.0, 9.0);
+  const auto aliasing = [&](const glm::dmat3& map) {
+    return perspectiveAliasing({ { 2.0, 0.0, 2.0 } }, camera, rays, map);
+  };
+  const double root = std::sqrt(0.5);
+  EXPECT_NEAR(aliasing(glm::dmat3(1.0)).side, 2.0 / 5.0, 1e-12); // along y
+  EXPECT_NEAR(aliasing(glm::dmat3(1.0)).area, root * 4.0 / 25.0, 1e-12);
+  const glm::dmat3 fineAlongY(1.0, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 1.0);
+  EXPECT_NEAR(aliasing(fineAlongY).side, root * 2.0 / 5.0, 1e-12);
+}
+
+TEST(Splits, GrowFromTheNearestToTheFarthest)
+{
+  Random random(3);
+  const auto unit = [&] { return uniform(random, 0.0, 1.0); };
+  for (int i = 0; i < 1000; ++i)
+  {
+    const double n = i % 10 == 0 ? 0.0 : std::pow(10.0, 9.0 * unit() - 6.0);
+    const double f = (n + 1e-3) * (1.0 + std::pow(10.0, 6.0 * unit() - 2.0));
+    const double lambda = i % 3 == 0 ? 1.0 : unit();
+    for (int count = 1; count <= mostSplits; ++count)
+    {
+      const auto splits = splitDistances({ n, f }, count, lambda);
+      ASSERT_EQ(splits.size(), static_cast<std::size_t>(count) + 1);
+      ASSERT_EQ(splits.front(), n);
+      ASSERT_EQ(splits.back(), f);
+      ASSERT_TRUE(
+        std::adjacent_find(splits.begin(), splits.end(), std::greater_equal<>()) == splits.end());
+    }
+  }
+}
+
+TEST(Splits, AreTheSchemesOfThePaper)
+{
+  const auto uniform = splitDistances({ 1.0, 81.0 }, 4, 0.0);
+  const auto logarithmic = splitDistances({ 1.0, 81.0 }, 4, 1.0);
+  const auto practical = splitDistances({ 1.0, 81.0 }, 4, 0.25);
+  for (std::size_t i = 0; i <= 4; ++i)
+  {
+    EXPECT_NEAR(uniform[i], 1.0 + 20.0 * static_cast<double>(i), 1e-12);
+    EXPECT_NEAR(logarithmic[i], std::pow(3.0, static_cast<double>(i)), 1e-12);
+    EXPECT_NEAR(practical[i], 0.25 * logarithmic[i] + 0.75 * uniform[i], 1e-12);
+  }
+}
+
+TEST(Splits, StayFiniteWithoutAPositiveDistance)
+{
+  for (const DistanceInterval& interval :
+    { DistanceInterval{ 0.0, 10.0 }, { -5.0, 10.0 }, { -5.0, -1.0 }, { 0.0, 0.0 }, { 2.0, 2.0 } })
+  {
+    for (const double lambda : { 0.0, 0.5, 1.0 })
+    {
+      const auto splits = splitDistances(interval, 8, lambda);
+      EXPECT_TRUE(std::is_sorted(splits.begin(), splits.end()));
+      EXPECT_EQ(splits.front(), interval.nearest);
+      EXPECT_EQ(splits.back(), interval.farthest);
+      for (const double distance : splits)
+      {
+        EXPECT_TRUE(std::isfinite(distance));
+      }
+    }
+  }
 }
 
 } // namespace

@@ -2,15 +2,28 @@
 
 #include "VtkMessages.h"
 
+#include "lights/LightManager.h"
 #include "lights/SunPosition.h"
+#include "lights/vtkGnomonLightKeys.h"
+#include "lights/vtkGnomonLightPlacement.h"
 
 #include <glm/glm.hpp>
 #include <gmock/gmock.h>
+#include <vtkCamera.h>
 #include <vtkDoubleArray.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+#include <vtkLightKit.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkRenderer.h>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace gnomon::test
 {
@@ -236,6 +249,327 @@ TEST_F(Sun, InvalidValuesAreErrorsAndChangeNothing)
   this->expectError(
     [&] { this->sun->MakeYearPath(0, 5.0, directions, nullptr); }, "dayStep was to be 0");
   EXPECT_EQ(this->sun->GetMTime(), time);
+}
+
+using testing::HasSubstr;
+
+class LightPlacement : public testing::Test
+{
+protected:
+  glm::dvec3 position() { return vector(this->light->GetPosition()); }
+  glm::dvec3 focalPoint() { return vector(this->light->GetFocalPoint()); }
+  glm::dvec3 travel() { return glm::normalize(this->focalPoint() - this->position()); }
+  static glm::dvec3 vector(const double numbers[3])
+  {
+    return { numbers[0], numbers[1], numbers[2] };
+  }
+  static void expectNear(const glm::dvec3& a, const glm::dvec3& b)
+  {
+    EXPECT_LT(glm::length(a - b), 1e-12) << a.x << ", " << a.y << ", " << a.z;
+  }
+
+  vtkNew<vtkLight> light;
+  tool::VtkMessages messages;
+  const double centre[3] = { 1.0, 2.0, 3.0 };
+};
+
+TEST_F(LightPlacement, DirectionalLightsBeginAtTheSphere)
+{
+  this->light->SetPosition(3.0, 4.0, 0.0);
+  this->light->SetFocalPoint(0.0, 0.0, 0.0);
+  vtkGnomonLightPlacement::ShineOnSphere(this->light, this->centre, 10.0);
+  expectNear(this->focalPoint(), { 1.0, 2.0, 3.0 });
+  expectNear(this->position(), { 7.0, 10.0, 3.0 });
+}
+
+TEST_F(LightPlacement, ConesOfSpotLightsJustHoldTheSphere)
+{
+  this->light->PositionalOn();
+  this->light->SetConeAngle(30.0);
+  vtkGnomonLightPlacement::ShineOnSphere(this->light, this->centre, 2.0);
+  expectNear(this->travel(), { 0.0, 0.0, -1.0 });
+  expectNear(this->position(), { 1.0, 2.0, 7.0 });
+
+  this->light->SetConeAngle(180.0); // a point light
+  vtkGnomonLightPlacement::ShineOnSphere(this->light, this->centre, 2.0);
+  expectNear(this->position(), { 1.0, 2.0, 5.0 });
+}
+
+TEST_F(LightPlacement, BoxesAndPointsHaveTheirSpheres)
+{
+  const double bounds[6] = { -2.0, 4.0, 1.0, 3.0, 0.0, 6.0 };
+  vtkGnomonLightPlacement::ShineOnBox(this->light, bounds);
+  expectNear(this->focalPoint(), { 1.0, 2.0, 3.0 });
+  EXPECT_NEAR(glm::length(this->position() - this->focalPoint()), std::sqrt(19.0), 1e-12);
+
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const glm::dvec3& point :
+    { glm::dvec3(4, 2, 3), { -2, 2, 3 }, { 1, 3, 3 }, { 1, 1, 3 }, { 1, 2, 6 }, { 1, 2, 0 } })
+  {
+    points->InsertNextPoint(point.x, point.y, point.z);
+  }
+  vtkGnomonLightPlacement::ShineOnPoints(this->light, points);
+  expectNear(this->focalPoint(), { 1.0, 2.0, 3.0 });
+  EXPECT_NEAR(glm::length(this->position() - this->focalPoint()), 3.0, 1e-12);
+}
+
+TEST_F(LightPlacement, AKeyLightComesOverTheCamerasLeftShoulder)
+{
+  vtkNew<vtkCamera> camera; // looks along +x with z up, so y is to its left
+  camera->SetPosition(-5.0, 0.0, 0.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  this->light->SetLightTypeToHeadlight();
+  this->light->PositionalOn();
+  this->light->SetTransformMatrix(vtkNew<vtkMatrix4x4>());
+  const double bounds[6] = { 0.0, 2.0, 1.0, 3.0, 2.0, 4.0 };
+  vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, bounds);
+  expectNear(this->focalPoint(), { 1.0, 2.0, 3.0 });
+  const double cosine = std::cos(glm::radians(40.0));
+  expectNear(this->travel(),
+    { cosine * std::cos(glm::radians(35.0)), -cosine * std::sin(glm::radians(35.0)),
+      -std::sin(glm::radians(40.0)) });
+  EXPECT_NEAR(glm::distance(this->position(), this->focalPoint()), std::sqrt(3.0), 1e-12);
+  EXPECT_TRUE(this->light->LightTypeIsSceneLight());
+  EXPECT_FALSE(this->light->GetPositional());
+  EXPECT_EQ(this->light->GetTransformMatrix(), nullptr);
+}
+
+TEST_F(LightPlacement, PitchAndYawAreThoseOfAHead)
+{
+  this->light->SetPosition(0.0, 0.0, 5.0);
+  this->light->SetFocalPoint(1.0, 0.0, 5.0);
+  const auto turned = [&](double pitch, double yaw)
+  {
+    vtkGnomonLightPlacement::SetPitchAndYaw(this->light, pitch, yaw);
+    return this->travel();
+  };
+  expectNear(turned(0.0, 0.0), { 0.0, 0.0, -1.0 });
+  expectNear(turned(0.0, 90.0), { -1.0, 0.0, 0.0 });
+  expectNear(turned(-90.0, 0.0), { 0.0, -1.0, 0.0 });
+  const double half = std::sqrt(0.5);
+  expectNear(turned(-45.0, 180.0), { 0.0, -half, half });
+  expectNear(this->focalPoint(), { 1.0, 0.0, 5.0 });
+  EXPECT_NEAR(glm::length(this->position() - this->focalPoint()), 1.0, 1e-12);
+
+  vtkNew<vtkLight> byVtk;
+  byVtk->SetDirectionAngle(25.0, 70.0);
+  expectNear(turned(-25.0, 70.0),
+    glm::normalize(vector(byVtk->GetFocalPoint()) - vector(byVtk->GetPosition())));
+}
+
+TEST_F(LightPlacement, PositionalLightsTurnAboutTheirPosition)
+{
+  this->light->PositionalOn();
+  this->light->SetPosition(0.0, 1.0, 5.0);
+  this->light->SetFocalPoint(0.0, 1.0, 2.0);
+  vtkGnomonLightPlacement::SetPitchAndYaw(this->light, -90.0, 0.0);
+  expectNear(this->position(), { 0.0, 1.0, 5.0 });
+  expectNear(this->focalPoint(), { 0.0, -2.0, 5.0 });
+}
+
+TEST_F(LightPlacement, InvalidTargetsAreErrorsAndChangeNothing)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::size_t errors = 0;
+  const auto expectError = [&](const auto& call, const char* text)
+  {
+    call();
+    ASSERT_EQ(this->messages.errors().size(), ++errors) << text;
+    EXPECT_THAT(this->messages.errors().back(), HasSubstr(text));
+    expectNear(this->position(), { 0.0, 0.0, 1.0 });
+    expectNear(this->focalPoint(), { 0.0, 0.0, 0.0 });
+  };
+  expectError(
+    [&] { vtkGnomonLightPlacement::ShineOnSphere(this->light, this->centre, 0.0); }, "radius 0");
+  const double broken[3] = { 0.0, nan, 0.0 };
+  expectError(
+    [&] { vtkGnomonLightPlacement::ShineOnSphere(this->light, broken, 1.0); }, "center and radius");
+  const double empty[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 }; // VTK's uninitialised bounds
+  expectError([&] { vtkGnomonLightPlacement::ShineOnBox(this->light, empty); },
+    "bounds give a sphere of radius 0");
+  vtkNew<vtkCamera> camera;
+  expectError(
+    [&] { vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, empty); }, "radius 0");
+  camera->SetPosition(nan, 0.0, 0.0);
+  const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+  expectError(
+    [&] { vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, unit); }, "looks nowhere");
+  vtkNew<vtkPoints> points;
+  expectError([&] { vtkGnomonLightPlacement::ShineOnPoints(this->light, points); },
+    "points give a sphere of radius 0");
+  points->InsertNextPoint(0.0, nan, 0.0);
+  points->InsertNextPoint(1.0, 0.0, 0.0);
+  expectError(
+    [&] { vtkGnomonLightPlacement::ShineOnPoints(this->light, points); }, "point 0 is not finite");
+  expectError(
+    [&] { vtkGnomonLightPlacement::SetPitchAndYaw(this->light, nan, 0.0); }, "pitchDegrees nan");
+
+  this->light->SetPosition(0.0, 0.0, 0.0);
+  vtkGnomonLightPlacement::ShineOnSphere(this->light, this->centre, 1.0);
+  ASSERT_EQ(this->messages.errors().size(), errors + 1);
+  EXPECT_THAT(this->messages.errors().back(), HasSubstr("no direction"));
+  expectNear(this->focalPoint(), { 0.0, 0.0, 0.0 });
+}
+
+// Which lights cast: (lights of the scene, of the camera, at the camera, headlights, VTK's light
+// kit) by each choice.
+
+enum class Kind
+{
+  Scene,
+  Camera,
+  AtCamera,
+  LampAtCamera,
+  Head
+};
+
+vtkNew<vtkLight> makeLight(Kind kind, double intensity = 1.0)
+{
+  vtkNew<vtkLight> light;
+  light->SetIntensity(intensity);
+  switch (kind)
+  {
+    case Kind::Scene:
+      light->SetLightTypeToSceneLight();
+      break;
+    case Kind::Head:
+      light->SetLightTypeToHeadlight();
+      break;
+    default:
+      light->SetLightTypeToCameraLight();
+      light->SetPositional(kind == Kind::LampAtCamera);
+      light->SetPosition(kind == Kind::Camera ? 0.5 : 0.0, 0.0, 1.0);
+      light->SetFocalPoint(0.0, 0.0, 0.0);
+  }
+  return light;
+}
+
+struct Case
+{
+  const char* name;
+  std::vector<std::pair<Kind, double>> lights; ///< with their intensities
+  /// The indices of lights that cast, by `auto`, `all` and `brightest`.
+  std::vector<int> byAuto, byAll, byBrightest;
+};
+
+const Case cases[] = {
+  { "scene", { { Kind::Scene, 1.0 } }, { 0 }, { 0 }, { 0 } },
+  { "camera", { { Kind::Camera, 1.0 } }, { 0 }, { 0 }, { 0 } },
+  { "atCamera", { { Kind::AtCamera, 1.0 } }, {}, {}, {} },
+  { "lampAtCamera", { { Kind::LampAtCamera, 1.0 } }, {}, {}, {} },
+  { "head", { { Kind::Head, 1.0 } }, {}, {}, {} },
+  { "sceneAndHead", { { Kind::Scene, 0.5 }, { Kind::Head, 1.0 } }, { 0 }, { 0 }, { 0 } },
+  { "sceneAndCamera", { { Kind::Scene, 0.5 }, { Kind::Camera, 1.0 } }, { 0, 1 }, { 0, 1 }, { 1 } },
+  { "sceneAndAtCamera", { { Kind::AtCamera, 1.0 }, { Kind::Scene, 0.5 } }, { 1 }, { 1 }, { 1 } },
+  { "scenes", { { Kind::Scene, 0.5 }, { Kind::Scene, 1.0 } }, { 0, 1 }, { 0, 1 }, { 1 } },
+  { "cameras", { { Kind::Camera, 0.5 }, { Kind::Camera, 1.0 }, { Kind::Camera, 1.0 } }, { 1 },
+    { 0, 1, 2 }, { 1 } },
+  { "all",
+    { { Kind::Head, 2.0 }, { Kind::Camera, 0.5 }, { Kind::Scene, 1.0 }, { Kind::Camera, 0.7 } },
+    { 2, 3 }, { 1, 2, 3 }, { 2 } },
+};
+
+std::vector<int> castingOf(vtkRenderer* renderer, Casting casting)
+{
+  std::vector<int> indices;
+  const LightSet set = LightManager().collect(renderer, {}, casting);
+  for (const ShadowLight& light : set.lights)
+  {
+    indices.push_back(light.sceneIndex);
+  }
+  EXPECT_EQ(set.lights.size() + set.skipped.size(),
+    static_cast<std::size_t>(renderer->GetLights()->GetNumberOfItems()));
+  for (const SkippedLight& skipped : set.skipped)
+  {
+    EXPECT_NE(skipped.reason, "");
+  }
+  return indices;
+}
+
+std::string reasonOf(vtkRenderer* renderer, int index)
+{
+  for (const SkippedLight& skipped : LightManager().collect(renderer, {}).skipped)
+  {
+    if (skipped.sceneIndex == index)
+    {
+      return skipped.reason;
+    }
+  }
+  return "";
+}
+
+TEST(Casting, choosesLightsByTheirKind)
+{
+  for (const Case& of : cases)
+  {
+    SCOPED_TRACE(of.name);
+    vtkNew<vtkRenderer> renderer;
+    for (const auto& [kind, intensity] : of.lights)
+    {
+      renderer->AddLight(makeLight(kind, intensity));
+    }
+    EXPECT_EQ(castingOf(renderer, Casting::Auto), of.byAuto);
+    EXPECT_EQ(castingOf(renderer, Casting::All), of.byAll);
+    EXPECT_EQ(castingOf(renderer, Casting::Brightest), of.byBrightest);
+    EXPECT_EQ(LightManager().collect(renderer, {}).headlightIsAlone, of.byAll.empty());
+  }
+}
+
+TEST(Casting, takesALightKitsKeyLight)
+{
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkLightKit> kit; // key, fill, head and two back lights
+  kit->AddLightsToRenderer(renderer);
+  ASSERT_EQ(renderer->GetLights()->GetNumberOfItems(), 5);
+  const std::vector<int> casting = castingOf(renderer, Casting::Auto);
+  ASSERT_EQ(casting.size(), 1u);
+  auto* const light =
+    vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(casting.front()));
+  EXPECT_EQ(light->GetIntensity(), kit->GetKeyLightIntensity());
+  EXPECT_EQ(castingOf(renderer, Casting::All).size(), 4u);
+  EXPECT_EQ(castingOf(renderer, Casting::Brightest), casting);
+}
+
+TEST(Casting, followsALightsKey)
+{
+  for (const Kind kind :
+    { Kind::Scene, Kind::Camera, Kind::AtCamera, Kind::LampAtCamera, Kind::Head })
+  {
+    for (const Casting casting : { Casting::Auto, Casting::All, Casting::Brightest })
+    {
+      vtkNew<vtkRenderer> renderer;
+      const auto light = makeLight(kind, 0.5);
+      const auto brighter = makeLight(Kind::Camera, 1.0);
+      renderer->AddLight(light);
+      renderer->AddLight(brighter);
+      vtkGnomonLightKeys::SetCasts(light, true);
+      EXPECT_THAT(castingOf(renderer, casting), testing::ElementsAre(0, 1));
+      vtkGnomonLightKeys::SetCasts(light, false);
+      vtkGnomonLightKeys::SetCasts(brighter, false);
+      EXPECT_THAT(castingOf(renderer, casting), testing::ElementsAre());
+    }
+  }
+}
+
+TEST(Casting, givesReasonsForSkippedLights)
+{
+  vtkNew<vtkRenderer> renderer;
+  const auto head = makeLight(Kind::Head);
+  renderer->AddLight(head);
+  EXPECT_EQ(reasonOf(renderer, 0), "a headlight, and the only light");
+  const auto fill = makeLight(Kind::Camera, 0.2);
+  const auto key = makeLight(Kind::Camera, 0.7);
+  renderer->AddLight(fill);
+  renderer->AddLight(key);
+  EXPECT_EQ(reasonOf(renderer, 0), "a headlight");
+  EXPECT_EQ(reasonOf(renderer, 1), "it follows the camera, as does a brighter light that casts");
+  key->SetDiffuseColor(0.0, 0.0, 1.0); // dimmer by its luminance
+  EXPECT_EQ(reasonOf(renderer, 2), "it follows the camera, as does a brighter light that casts");
+  EXPECT_EQ(reasonOf(renderer, 1), "");
+  key->SwitchOff();
+  EXPECT_EQ(reasonOf(renderer, 2), "switched off");
 }
 
 } // namespace

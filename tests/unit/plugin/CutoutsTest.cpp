@@ -31,7 +31,7 @@ struct Sampling
   bool interpolated = false;
 };
 
-/// Return the mask of a pattern. CutoutMaskTest.cpp compares masks with OpenGL's specification.
+/// Return the mask of a pattern. EmbreeTracerTest.cpp compares masks with OpenGL's specification.
 gnomon::CutoutMask maskOf(const Pattern& pattern, const Sampling& sampling = {})
 {
   gnomon::CutoutMask mask;
