@@ -2,7 +2,6 @@
 
 #include "Judge.h"
 #include "Matrix.h"
-#include "MatrixTable.h"
 
 #include "Errors.h"
 #include "TestFiles.h"

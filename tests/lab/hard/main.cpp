@@ -1,7 +1,6 @@
-// Draw the hard cases with all techniques and judge them by the bounds of Bounds.h.
+// Draw the hard cases with all techniques and judge them by the bounds of Matrix.h.
 
 #include "Matrix.h"
-#include "MatrixTable.h"
 
 #include "BenchmarkMain.h"
 #include "Errors.h"

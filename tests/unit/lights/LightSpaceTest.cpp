@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
 #include <vector>
 
 namespace gnomon::test
@@ -88,26 +87,6 @@ TEST(LightSpace, OfABoxStandsOnItsUpDirection)
   EXPECT_LT(glm::length(apply(matrix, { 1.0, 3.0, 3.0 }) - glm::dvec3(0, 1, 0)), 1e-14);
   EXPECT_LT(glm::length(apply(matrix, { 1.5, 2.0, 3.0 }) - glm::dvec3(0, 0, 0.5)), 1e-14);
   EXPECT_NEAR(std::abs(apply(matrix, { 1.0, 2.0, 4.0 }).x), 1.0, 1e-14);
-}
-
-TEST(CubeFaces, AreRotationsThatSeeTheirOwnPoints)
-{
-  Random random(4);
-  std::set<int> seen;
-  for (int i = 0; i < 1000; ++i)
-  {
-    const glm::dvec3 point = inCube(random);
-    const int face = cubeFaceOf(point);
-    seen.insert(face);
-    const glm::dvec3 inFace = cubeFaceFromLight(face) * point;
-    EXPECT_GE(inFace.z, std::abs(inFace.x));
-    EXPECT_GE(inFace.z, std::abs(inFace.y));
-  }
-  EXPECT_EQ(seen.size(), 6u);
-  for (int face = 0; face < cubeFaces; ++face)
-  {
-    expectRigid(cubeFaceFromLight(face));
-  }
 }
 
 TEST(CubeFaces, BordersBelongToOneFace)

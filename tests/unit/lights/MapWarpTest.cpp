@@ -20,48 +20,6 @@ std::optional<WarpFrame> frameOf(const Setting& setting)
   return warpFrame(setting.body().vertices(), setting.camera, setting.rays);
 }
 
-TEST(MapWarp, LooksAlongTheCamerasAxisAsTheLightSeesIt)
-{
-  for (const LightRays& rays : { directionalRays({ 0.5, 0.2, -1.0 }),
-         spotRays({ 300.0, -500.0, 600.0 }, { -0.2, 0.1, -1.0 }) })
-  {
-    Setting setting = terrain(rays);
-    if (rays.positional)
-    {
-      setting.reach = coneHalfSpaces(2.0, nearestOf(setting.scene, rays));
-    }
-    const auto frame = frameOf(setting);
-    ASSERT_TRUE(frame);
-    double before = -1e300;
-    for (const double distance : { 2.0, 10.0, 100.0, 800.0 })
-    {
-      const glm::dvec3 centred =
-        setting.camera.eyeCentred() + distance * setting.camera.directionCentred();
-      const glm::dvec2 place = mapped(frame->frameFromAcross, rays.across(inView(rays, centred)));
-      EXPECT_NEAR(place.x, 0.0, 1e-9 * frame->depth);
-      EXPECT_GT(place.y, before);
-      before = place.y;
-    }
-    const Rectangle range = rangeOf(frame->frameFromAcross, rays.across(setting.body().vertices()));
-    EXPECT_NEAR(range.lower.y, 0.0, 1e-12 * frame->depth);
-    EXPECT_NEAR(range.upper.y, frame->depth, 1e-12 * frame->depth);
-    EXPECT_NEAR(frame->nearest, 1.0, 1e-9);
-    EXPECT_NEAR(glm::determinant(frame->frameFromAcross), 1.0, 1e-12);
-  }
-}
-
-TEST(MapWarp, KnowsTheAnglesOfLightAndView)
-{
-  const double tilt = glm::degrees(std::atan2(10.0, 900.0));
-  const auto above = frameOf(terrain(directionalRays({ 0.0, 0.0, -1.0 })));
-  ASSERT_TRUE(above);
-  EXPECT_NEAR(above->gammaDegrees, 90.0 - tilt, 1e-9);
-  EXPECT_NEAR(above->thetaDegrees, 20.0, 1e-9);
-  const auto against = frameOf(terrain(directionalRays({ 0.0, -1.0, -1.0 })));
-  ASSERT_TRUE(against);
-  EXPECT_NEAR(against->gammaDegrees, 135.0 - tilt, 1e-9);
-}
-
 TEST(MapWarp, IsRefusedWithoutPerspectiveOrDepth)
 {
   const LightRays above = directionalRays({ 0.0, 0.0, -1.0 });
@@ -147,21 +105,6 @@ TEST(MapWarp, OfLeastAliasingIsThePublishedOptimum)
   }
 }
 
-TEST(MapWarp, IsUniformWhereThatIsBetter)
-{
-  const Setting setting = terrain(directionalRays({ 0.0, 0.0, -1.0 }));
-  const Points body = setting.body().vertices();
-  const auto frame = frameOf(setting);
-  ASSERT_TRUE(frame);
-  const glm::dmat3 uniform = uniformFromAcross(setting.rays.across(body));
-  const auto result = [&](double nearWarp)
-  { return warpedOrUniform(*frame, nearWarp, body, setting.camera, setting.rays); };
-  EXPECT_NE(result(0.03), uniform);
-  EXPECT_EQ(result(1e-6), uniform); // all of the map for the first millimetres
-  EXPECT_EQ(result(1e7), uniform);
-  EXPECT_EQ(result(std::numeric_limits<double>::infinity()), uniform);
-}
-
 TEST(MapFit, IsThePublishedScaleAndOffsetClampedToWhatIsToBeCovered)
 {
   const auto first = fitTo(Rectangle{ { -0.25, -1.0 }, { 0.5, 1.0 } }, { 1024, 0 });
@@ -193,18 +136,6 @@ TEST(MapFit, WidensWhatHasNoExtent)
       EXPECT_LE(fit->scale.x, 1.0 / leastVisibleShare);
       EXPECT_LE(std::abs(mapped(fit->matrix(), point.lower).x), 1.0 - 2.0 / 64 + 1e-9);
     }
-  }
-}
-
-TEST(MapFit, UniformTakesPointsToTheWholeMap)
-{
-  const glm::dmat3 uniform = uniformFromAcross({ { 1.0, 5.0 }, { 3.0, 2.0 }, { 2.0, 8.0 } });
-  EXPECT_LT(glm::length(mapped(uniform, { 1.0, 2.0 }) + 1.0), 1e-12);
-  EXPECT_LT(glm::length(mapped(uniform, { 3.0, 8.0 }) - 1.0), 1e-12);
-  EXPECT_EQ(uniformFromAcross({}), glm::dmat3(1.0));
-  for (const glm::dvec2& point : { glm::dvec2(0.0), glm::dvec2(7.0, 0.0), glm::dvec2(-1e9, 3.0) })
-  {
-    EXPECT_LT(glm::length(mapped(uniformFromAcross({ point }), point)), 1e-6);
   }
 }
 
@@ -273,27 +204,6 @@ TEST(MapAliasing, OfAPositionalLightStandsAcrossItsRay)
   EXPECT_NEAR(aliasing(glm::dmat3(1.0)).area, root * 4.0 / 25.0, 1e-12);
   const glm::dmat3 fineAlongY(1.0, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 1.0);
   EXPECT_NEAR(aliasing(fineAlongY).side, root * 2.0 / 5.0, 1e-12);
-}
-
-TEST(Splits, GrowFromTheNearestToTheFarthest)
-{
-  Random random(3);
-  const auto unit = [&] { return uniform(random, 0.0, 1.0); };
-  for (int i = 0; i < 1000; ++i)
-  {
-    const double n = i % 10 == 0 ? 0.0 : std::pow(10.0, 9.0 * unit() - 6.0);
-    const double f = (n + 1e-3) * (1.0 + std::pow(10.0, 6.0 * unit() - 2.0));
-    const double lambda = i % 3 == 0 ? 1.0 : unit();
-    for (int count = 1; count <= mostSplits; ++count)
-    {
-      const auto splits = splitDistances({ n, f }, count, lambda);
-      ASSERT_EQ(splits.size(), static_cast<std::size_t>(count) + 1);
-      ASSERT_EQ(splits.front(), n);
-      ASSERT_EQ(splits.back(), f);
-      ASSERT_TRUE(
-        std::adjacent_find(splits.begin(), splits.end(), std::greater_equal<>()) == splits.end());
-    }
-  }
 }
 
 TEST(Splits, AreTheSchemesOfThePaper)

@@ -45,22 +45,6 @@ TEST(CameraView, KnowsItsEyeItsDirectionAndItsPlanes)
   EXPECT_EQ(infinite.farDistance(), std::numeric_limits<double>::infinity());
 }
 
-TEST(ConvexBody, CutInHalfHasHalfItsExtent)
-{
-  const ConvexBody box({ glm::dvec3(-1.0), glm::dvec3(1.0) }, glm::dmat4(1.0));
-  EXPECT_EQ(box.vertices().size(), 8u);
-  const Points half = box.clipped({ 1.0, 0.0, 0.0, 0.0 }).vertices();
-  EXPECT_EQ(half.size(), 8u);
-  EXPECT_EQ(boundsOf(half).lower, glm::dvec3(0.0, -1.0, -1.0));
-  EXPECT_EQ(boundsOf(half).upper, glm::dvec3(1.0));
-  // Cutting a corner off leaves a triangle; a later cut must find the triangle's corners.
-  const ConvexBody cut = box.clipped({ -1.0, -1.0, -1.0, 2.0 });
-  EXPECT_EQ(cut.vertices().size(), 10u);
-  const Points again = cut.clipped({ 0.0, 0.0, 1.0, -0.5 }).vertices();
-  EXPECT_EQ(again.size(), 10u);
-  EXPECT_EQ(boundsOf(again).lower.z, 0.5);
-}
-
 TEST(ConvexBody, OfHalfSpacesThatLeaveAllOrNothing)
 {
   const ConvexBody box({ glm::dvec3(-1.0), glm::dvec3(1.0) }, glm::dmat4(1.0));
@@ -74,17 +58,6 @@ TEST(ConvexBody, OfHalfSpacesThatLeaveAllOrNothing)
   EXPECT_TRUE(ConvexBody().clipped({ 1.0, 0.0, 0.0, 5.0 }).empty());
   EXPECT_TRUE(ConvexBody(Bounds(), glm::dmat4(1.0)).vertices().empty());
   EXPECT_TRUE(ConvexBody({ glm::dvec3(0.0), glm::dvec3(1.0) }, glm::dmat4(std::nan(""))).empty());
-}
-
-TEST(ConvexBody, MayBeFlatASegmentOrAPoint)
-{
-  const ConvexBody flat({ { -1.0, -1.0, 0.0 }, { 1.0, 1.0, 0.0 } }, glm::dmat4(1.0));
-  EXPECT_EQ(flat.vertices().size(), 4u);
-  EXPECT_EQ(flat.clipped({ 1.0, 0.0, 0.3, 0.0 }).vertices().size(), 4u);
-  const ConvexBody segment({ { -1.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 } }, glm::dmat4(1.0));
-  EXPECT_EQ(segment.clipped({ 1.0, 0.0, 0.0, 0.0 }).vertices().size(), 2u);
-  const ConvexBody point({ glm::dvec3(1.0), glm::dvec3(1.0) }, glm::dmat4(1.0));
-  EXPECT_EQ(point.clipped({ 1.0, 0.0, 0.0, 0.0 }).vertices().size(), 1u);
 }
 
 TEST(VisibleBody, HoldsAllThatIsVisibleAndNoMore)
