@@ -87,26 +87,6 @@ private:
   void set(const NamedSettings& settings);
   void replacePass(const NamedSettings& settings);
 
-  void moveCamera(Random& random);
-  void moveLight(Random& random);
-  void changeLight(Random& random);
-  void moveProp(Random& random);
-  void changeProp(Random& random);
-  void editPoints(Random& random);
-  void replaceData(Random& random);
-  void clip(Random& random);
-  void changeTexture(Random& random);
-  void changeLook(Random& random);
-  void toggleProp(Random& random);
-  void toggleVisibility(Random& random);
-  void chooseLevel(Random& random);
-  void chooseStereo(Random& random);
-  void chooseRenderer(Random& random);
-  void chooseTechnique(Random& random);
-  void changeSetting(Random& random);
-  void setPropKey(Random& random);
-  void sendFarProp(Random& random);
-
   bool isWide(std::size_t light) const;
   const EstimatorEntry& estimatorOfLight(std::size_t light) const;
   std::string allowed(const std::string& value) const;

@@ -1,7 +1,6 @@
 #include "shadowtech/probing/Probes.h"
 
 #include "EstimatorGlsl.h"
-#include "InstancedScene.h"
 #include "SyntheticScene.h"
 
 #include "shadowtech/base/ShaderLibrary.h"

@@ -1,7 +1,6 @@
 // Light through translucent sheets against closed forms, and against every triangle in double.
 
 #include "EstimatorGlsl.h"
-#include "InstancedScene.h"
 #include "RandomScenes.h"
 
 #include "shadowtech/base/CutoutMask.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "../lights/Random.h"
+
 #include "lights/LightArea.h"
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Occluders.h"
@@ -155,5 +157,23 @@ std::size_t countBelow(std::size_t end, const Holds& holds)
 /// Count the pixels whose visibilities differ.
 std::size_t countDifferent(const std::vector<float>& a, const std::vector<float>& b);
 std::size_t countCovered(const ReceiverPixels& receivers);
+
+// Scenes with instances, and the same scenes with all instances as triangles.
+
+/// Return a matrix that turns at random, and scales each axis by 10^-spread to 10^spread.
+glm::dmat4 turned(Random& random, double spread);
+
+/// Turn a surface of a snapshot into one with instances; its positions become source coordinates.
+void makeInstanced(Occluders& occluders, std::size_t surface,
+  const std::vector<glm::dmat4>& centredFromSource, bool mirrored = false);
+
+/// Return the snapshot with the triangles of all instances, numbered like VTK's.
+Occluders expanded(const Occluders& instanced);
+
+/// Return a floor, and over it 60 open cups, turned and scaled in all ways.
+Occluders cupsOverFloor(bool mirrored, bool oneSided);
+
+/// Give the cups a texture with holes.
+void perforate(Occluders& occluders);
 
 } // namespace gnomon::test

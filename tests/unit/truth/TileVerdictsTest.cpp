@@ -2,7 +2,6 @@
 
 #include "shadowtech/tracing/TileVerdicts.h"
 
-#include "InstancedScene.h"
 #include "RandomScenes.h"
 
 #include "shadowtech/base/vtkGnomonFrameReport.h"

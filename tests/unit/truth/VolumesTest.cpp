@@ -424,8 +424,8 @@ struct BoundedLight
   double bound = 0.03;
 };
 
-const Named<BoundedLight> lights[] = { { "SunAlongAnAxis",
-                                         { directionalLight({ 0.0, 0.0, -1.0 }) } },
+const Named<BoundedLight> stackLights[] = { { "SunAlongAnAxis",
+                                              { directionalLight({ 0.0, 0.0, -1.0 }) } },
   { "Sun", { directionalLight({ -0.4, 0.5, -1.0 }) } },
   { "Lamp", { pointLight({ 1.5, -1.0, 4.0 }) } },
   { "LampNearby", { pointLight({ 0.3, 0.2, 1.3 }), 0.05 } },
@@ -446,7 +446,7 @@ TEST_P(VolumeStacks, AreNearTheMarch)
 }
 
 INSTANTIATE_TEST_SUITE_P(, VolumeStacks,
-  testing::Combine(testing::ValuesIn(scans), testing::ValuesIn(lights)),
+  testing::Combine(testing::ValuesIn(scans), testing::ValuesIn(stackLights)),
   [](const auto& of) { return std::get<0>(of.param).name + std::get<1>(of.param).name; });
 
 /// Nothing shines through the near face of a light's box.
