@@ -178,31 +178,6 @@ protected:
 INSTANTIATE_TEST_SUITE_P(ConservativeMaps, Valley, testing::Bool(),
   [](const testing::TestParamInfo<bool>& sides) { return sides.param ? "seam" : "edge"; });
 
-TEST_P(Valley, isNeverWrongInItsBottom)
-{
-  for (const double steepness : { 0.5, 1.0, 3.0 })
-  {
-    const double side = 2.0;
-    std::vector<glm::dvec3> points;
-    for (const double y : { -1.0, 1.0 })
-    {
-      points.emplace_back(-side, y, steepness * side);
-      points.emplace_back(0.0, y, 0.0);
-      points.emplace_back(side, y, steepness * side);
-    }
-    this->makeOf(points, { { 0, 1, 4 }, { 0, 4, 3 } }, { { 1, 2, 5 }, { 1, 5, 4 } });
-    constexpr int count = 4000;
-    for (int i = 0; i < count; ++i)
-    {
-      const double x = -std::pow(10.0, -8.0 + 8.0 * i / count);
-      const double y = -0.9 + 1.8 * std::fmod(0.618 * i, 1.0);
-      this->add({ x, y, -steepness * x }, { steepness, 0.0, 1.0 }, 3e-5f);
-    }
-    const Tally tally = this->compare(directionalLight({ 0.05, 0.02, -1.0 }), 32, steepness);
-    EXPECT_LT(tally.traced, tally.receivers) << steepness;
-  }
-}
-
 TEST_P(Valley, isNeverWrongWhereManySidesMeetInACorner)
 {
   // Two steep sides, and two thin wedges between them that are less steep. Each is flat enough

@@ -373,33 +373,6 @@ Volume signal()
   return volume;
 }
 
-/// A head by Shepp and Logan's ellipsoids: a dense skull with a softer inside.
-Volume head()
-{
-  const auto isIn = [](const glm::dvec3& at, const glm::dvec3& centre, const glm::dvec3& radii)
-  { return glm::length((at - centre) / radii) < 1.0; };
-  Volume volume = volumeOf(
-    [&](const glm::dvec3& at)
-    {
-      double density = isIn(at, {}, { 0.69, 0.92, 0.81 }) ? 2.0 : 0.0;
-      density -= isIn(at, { 0.0, -0.0184, 0.0 }, { 0.6624, 0.874, 0.78 }) ? 1.7 : 0.0;
-      density -= isIn(at, { 0.22, 0.0, 0.0 }, { 0.11, 0.31, 0.22 }) ? 0.2 : 0.0;
-      density -= isIn(at, { -0.22, 0.0, 0.0 }, { 0.16, 0.41, 0.28 }) ? 0.2 : 0.0;
-      density += isIn(at, { 0.0, 0.35, -0.15 }, { 0.21, 0.25, 0.41 }) ? 0.3 : 0.0;
-      return density;
-    },
-    glm::ivec3(64));
-  VolumeOpacity opacity;
-  opacity.range = { 0.0, 2.0 };
-  for (int i = 0; i < 1024; ++i)
-  {
-    const double share = i / 1023.0;
-    opacity.extinctions.push_back(static_cast<float>(8.0 * share * share));
-  }
-  volume.opacities = { opacity };
-  return volume;
-}
-
 /// Porous bone, after Schoen's gyroid.
 Volume bone()
 {
@@ -414,7 +387,7 @@ Volume bone()
     2.0);
 }
 
-const Named<Volume (*)()> scans[] = { { "Signal", signal }, { "Head", head }, { "Bone", bone },
+const Named<Volume (*)()> scans[] = { { "Signal", signal }, { "Bone", bone },
   { "Slab", [] { return slabOf(0.7); } } };
 
 /// A light with the bound of its errors: 99 % are smaller.
