@@ -1,7 +1,6 @@
-# Check that each row of docs/guide/from_vtkShadowMapPass.md names an existing test, and that all
-# tests of Wishes occur. The wishes are those of issues and pull requests: Drake 20486, 24987; f3d 13;
-# Open3D 3970; pyrender 105; pysam 228; pyvista 1278, 4939, 6065, 7344, 8685, 9041; Slicer 7780;
-# Solar 1; vedo 64, 559; vtk-js 2823.
+# Check that each row of docs/guide/from_vtkShadowMapPass.md names an existing test. The wishes are
+# those of issues and pull requests: Drake 20486, 24987; f3d 13; Open3D 3970; pyrender 105; pysam
+# 228; pyvista 1278, 4939, 6065, 7344, 8685, 9041; Slicer 7780; Solar 1; vedo 64, 559; vtk-js 2823.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -18,14 +17,12 @@ foreach(source IN LISTS sources)
 endforeach()
 
 set(faults "")
-set(named "")
 set(rows 0)
 file(STRINGS "${SOURCE_DIR}/docs/guide/from_vtkShadowMapPass.md" lines REGEX "^\\| ")
 list(POP_FRONT lines) # the table's head
 foreach(line IN LISTS lines)
   math(EXPR rows "${rows} + 1")
   if(line MATCHES "\\| `([A-Za-z0-9_]+\\.[A-Za-z0-9_]+)` \\|$")
-    list(APPEND named "${CMAKE_MATCH_1}")
     if(NOT CMAKE_MATCH_1 IN_LIST tests)
       string(APPEND faults "${CMAKE_MATCH_1}: there is no such test\n")
     endif()
@@ -34,16 +31,9 @@ foreach(line IN LISTS lines)
   endif()
 endforeach()
 
-list(FILTER tests INCLUDE REGEX "^Wishes\\.")
-foreach(test IN LISTS tests)
-  if(NOT test IN_LIST named)
-    string(APPEND faults "${test}: no row names it\n")
-  endif()
-endforeach()
-
 if(faults)
   message(FATAL_ERROR "docs/guide/from_vtkShadowMapPass.md:\n${faults}")
 endif()
-if(rows EQUAL 0 OR NOT tests)
-  message(FATAL_ERROR "No rows or no tests of Wishes found under ${SOURCE_DIR}.")
+if(rows EQUAL 0)
+  message(FATAL_ERROR "No rows found under ${SOURCE_DIR}.")
 endif()

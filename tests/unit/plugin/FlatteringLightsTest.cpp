@@ -1,22 +1,15 @@
-// Key and fill lights that are placed by a look at the scene. Shares are counted once more by VTK's
-// own cell locator, on other rays.
+// Key and fill lights that are placed by a look at the scene. Shares are counted
+// once more on the pixels of a traced picture.
 
 #include "PassScene.h"
 
 #include "plugin/vtkGnomonFlatteringLights.h"
 
-#include <vtkAppendPolyData.h>
 #include <vtkConeSource.h>
 #include <vtkContourFilter.h>
-#include <vtkGenericCell.h>
 #include <vtkMolecule.h>
 #include <vtkMoleculeMapper.h>
-#include <vtkPeriodicTable.h>
-#include <vtkPolygon.h>
 #include <vtkRTAnalyticSource.h>
-#include <vtkStaticCellLocator.h>
-
-#include <optional>
 
 namespace gnomon::test
 {
@@ -25,66 +18,47 @@ namespace
 
 using testing::HasSubstr;
 
-/// A surface, and the prop that shows it.
-struct Subject
-{
-  vtkSmartPointer<vtkPolyData> surface; ///< in world coordinates
-  vtkSmartPointer<vtkActor> actor;
-};
-
-Subject subjectOf(vtkAlgorithm* source)
-{
-  const vtkSmartPointer<vtkPolyData> surface = copyOf(source);
-  return { surface, actorOf(mapperOf(surface)) };
-}
+using Subject = vtkSmartPointer<vtkActor>;
 
 Subject cone()
 {
   vtkNew<vtkConeSource> source;
   source->SetResolution(40);
   source->SetDirection(0.0, 0.0, 1.0);
-  return subjectOf(source);
+  return actorOf(mapperOf(source));
 }
 
 Subject sphere()
 {
-  return subjectOf(ballOf(glm::dvec3(0.0), 0.5, 48, 48));
+  return actorOf(mapperOf(ballOf(glm::dvec3(0.0), 0.5, 48, 48)));
 }
 
 /// Balls in a helix, which a molecule mapper shows as impostors.
 Subject molecule()
 {
   vtkNew<vtkMolecule> molecule;
-  vtkNew<vtkPeriodicTable> table;
-  vtkNew<vtkAppendPolyData> balls;
   for (int i = 0; i < 16; ++i)
   {
-    const glm::dvec3 centre(3.0 * std::cos(0.6 * i), 3.0 * std::sin(0.6 * i), 0.5 * i);
-    const unsigned short element = i % 3 == 0 ? 8 : 6;
-    molecule->AppendAtom(element, centre.x, centre.y, centre.z);
-    const auto ball = ballOf(centre, table->GetVDWRadius(element), 24, 24);
-    balls->AddInputConnection(ball->GetOutputPort());
+    molecule->AppendAtom(
+      i % 3 == 0 ? 8 : 6, 3.0 * std::cos(0.6 * i), 3.0 * std::sin(0.6 * i), 0.5 * i);
   }
-  balls->Update();
   vtkNew<vtkMoleculeMapper> mapper;
   mapper->SetInputData(molecule);
   mapper->UseVDWSpheresSettings();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  return { balls->GetOutput(), actor };
+  return actorOf(mapper);
 }
 
 Subject terrain()
 {
-  Subject subject = subjectOf(squareOf(0.5, 0.0, 120));
-  movePoints(subject.surface,
+  const auto surface = copyOf(squareOf(0.5, 0.0, 120));
+  movePoints(surface,
     [](const glm::dvec3& at)
     {
       return glm::dvec3(at.x, at.y,
         0.07 * std::sin(9.0 * at.x + 1.0) * std::cos(7.0 * at.y) +
           0.03 * std::sin(23.0 * at.x) * std::sin(19.0 * at.y + 2.0));
     });
-  return subject;
+  return actorOf(mapperOf(surface));
 }
 
 /// The surface of a value of VTK's test image, with pits and detached parts as of a scan.
@@ -95,7 +69,7 @@ Subject scan()
   vtkNew<vtkContourFilter> contour;
   contour->SetInputConnection(image->GetOutputPort());
   contour->SetValue(0, 150.0);
-  return subjectOf(contour);
+  return actorOf(mapperOf(contour));
 }
 
 struct Case
@@ -112,7 +86,7 @@ struct LitScene
   explicit LitScene(const Case& of)
     : subject(of.make())
   {
-    this->renderer->AddActor(this->subject.actor);
+    this->renderer->AddActor(this->subject);
     this->look(of.from);
     if (of.hasGround)
     {
@@ -133,12 +107,12 @@ struct LitScene
 
   void addGround()
   {
-    const double* const box = this->subject.surface->GetBounds();
+    const double* const box = this->subject->GetBounds();
     const double side = 1.5 * std::max(box[1] - box[0], box[3] - box[2]);
     const double z = box[4] - 1e-3 * side;
-    this->ground = subjectOf(planeOf({ box[0] - side, box[2] - side, z },
-      { box[1] + side, box[2] - side, z }, { box[0] - side, box[3] + side, z }));
-    this->renderer->AddActor(this->ground.actor);
+    this->ground = actorOf(mapperOf(planeOf({ box[0] - side, box[2] - side, z },
+      { box[1] + side, box[2] - side, z }, { box[0] - side, box[3] + side, z })));
+    this->renderer->AddActor(this->ground);
     this->renderer->ResetCameraClippingRange();
   }
 
@@ -166,116 +140,51 @@ struct LitScene
   vtkNew<vtkGnomonFlatteringLights> lights;
 };
 
-/// The subject and the ground, of which VTK finds the hits of rays.
-class Surfaces
-{
-public:
-  explicit Surfaces(const LitScene& scene)
-    : subjectCells_(scene.subject.surface->GetNumberOfCells())
-  {
-    vtkNew<vtkAppendPolyData> both;
-    both->AddInputData(scene.subject.surface);
-    if (scene.ground.surface)
-    {
-      both->AddInputData(scene.ground.surface);
-    }
-    this->locator_->SetDataSet(outputOf(both));
-    this->locator_->BuildLocator();
-  }
-
-  struct Hit
-  {
-    glm::dvec3 position;
-    glm::dvec3 normal;
-    bool isSubject;
-  };
-  /// Return the first hit between two points.
-  std::optional<Hit> hit(const glm::dvec3& from, const glm::dvec3& to) const
-  {
-    Hit hit{};
-    double along = 0.0;
-    double across[3];
-    int part = 0;
-    vtkIdType cell = -1;
-    vtkNew<vtkGenericCell> scratch;
-    if (!this->locator_->IntersectWithLine(
-          &from.x, &to.x, 0.0, along, &hit.position.x, across, part, cell, scratch))
-    {
-      return std::nullopt;
-    }
-    vtkPolygon::ComputeNormal(scratch->GetPoints(), &hit.normal.x);
-    hit.normal *= glm::dot(hit.normal, to - from) > 0.0 ? -1.0 : 1.0;
-    hit.isSubject = cell < this->subjectCells_;
-    return hit;
-  }
-
-private:
-  vtkIdType subjectCells_;
-  vtkNew<vtkStaticCellLocator> locator_;
-};
-
 struct Shares
 {
   double lit;
   double inShadow;
 };
 
-/// Count both shares on the rays of another grid.
+/// Count both shares on the pixels of a traced picture.
 Shares count(const LitScene& scene)
 {
-  constexpr int across = 71;
-  const Surfaces surfaces(scene);
-  vtkCamera* const camera = scene.renderer->GetActiveCamera();
-  const glm::dvec3 eye = glm::make_vec3(camera->GetPosition());
-  const glm::dvec3 forward = glm::make_vec3(camera->GetDirectionOfProjection());
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::make_vec3(camera->GetViewUp())));
-  const glm::dvec3 up = glm::cross(right, forward);
-  const double half = std::tan(glm::radians(0.5 * camera->GetViewAngle()));
-  const double reach = 10.0 * camera->GetDistance();
-  std::vector<Surfaces::Hit> onSubject;
-  std::vector<Surfaces::Hit> onGround;
+  const auto window = makeOffScreenWindow();
+  window->SetSize(71, 71);
+  window->AddRenderer(scene.renderer);
+  vtkNew<vtkGnomonShadowPass> pass;
+  pass->SetTechnique("raytraced");
+  pass->KeepVisibilityOn();
+  pass->SmoothTerminatorsOff();
+  scene.renderer->SetPass(pass);
+  scene.renderer->AddLight(scene.key);
+  window->Render();
+  const VisibilityImages& kept = pass->GetVisibility();
+  const auto isOf = [&](std::size_t i, int prop) { return kept.prop[i] == prop; };
   glm::dvec3 lower(std::numeric_limits<double>::infinity());
   glm::dvec3 upper(-lower);
-  for (int i = 0; i < across * across; ++i)
-  {
-    const double x = (2.0 * (i % across) + 1.0) / across - 1.0;
-    const double y = (2.0 * (i / across) + 1.0) / across - 1.0;
-    const glm::dvec3 end = eye + reach * (forward + half * (x * right + y * up));
-    if (const auto first = surfaces.hit(eye, end))
+  const auto all = static_cast<double>(countPixels(kept,
+    [&](std::size_t i)
     {
-      (first->isSubject ? onSubject : onGround).push_back(*first);
-      lower = first->isSubject ? glm::min(lower, first->position) : lower;
-      upper = first->isSubject ? glm::max(upper, first->position) : upper;
-    }
-  }
-  const glm::dvec3 towards = LitScene::towards(scene.key);
-  const auto isBlocked = [&](const Surfaces::Hit& point)
+      lower = isOf(i, 0) ? glm::min(lower, positionOf(kept, i)) : lower;
+      upper = isOf(i, 0) ? glm::max(upper, positionOf(kept, i)) : upper;
+      return isOf(i, 0);
+    }));
+  const auto isLit = [&](std::size_t i) { return isOf(i, 0) && kept.visibility[0][i] == 1.0f; };
+  const auto isNear = [&](std::size_t i)
   {
-    const glm::dvec3 start = point.position + 1e-4 * camera->GetDistance() * point.normal;
-    return surfaces.hit(start, start + reach * towards).has_value();
+    return isOf(i, 1) &&
+      glm::distance(positionOf(kept, i), 0.5 * (lower + upper)) <
+      0.75 * glm::distance(lower, upper);
   };
-  double lit = 0.0;
-  for (const Surfaces::Hit& point : onSubject)
-  {
-    lit += glm::dot(point.normal, towards) > 0.0 && !isBlocked(point) ? 1.0 : 0.0;
-  }
-  double near = 0.0;
-  double dark = 0.0;
-  for (const Surfaces::Hit& point : onGround)
-  {
-    if (glm::distance(point.position, 0.5 * (lower + upper)) < 0.75 * glm::distance(lower, upper))
-    {
-      near += 1.0;
-      dark += glm::dot(point.normal, towards) > 0.0 && isBlocked(point) ? 1.0 : 0.0;
-    }
-  }
-  lit /= static_cast<double>(onSubject.size());
-  return { lit, near > 0.0 ? dark / near : 1.0 - lit };
+  const auto isDark = [&](std::size_t i)
+  { return isNear(i) && kept.visibility[0][i] == 0.0f && cosineTowards(kept, i, scene.key) > 0.0; };
+  const double lit = static_cast<double>(countPixels(kept, isLit)) / all;
+  const auto near = static_cast<double>(countPixels(kept, isNear));
+  return { lit, near > 0.0 ? static_cast<double>(countPixels(kept, isDark)) / near : 1.0 - lit };
 }
 
-class FlatteringLightsOf : public testing::TestWithParam<Case>
-{
-};
+using FlatteringLightsOf = testing::TestWithParam<Case>;
 
 TEST_P(FlatteringLightsOf, sceneShowItAndItsShadow)
 {
@@ -352,7 +261,7 @@ TEST(FlatteringLights, areTheSameForTheSameRendererAndForMovedScenes)
   for (const double scale : { 1e-6, 1e6 })
   {
     LitScene other(ballOnGround());
-    for (vtkActor* const actor : { other.subject.actor.Get(), other.ground.actor.Get() })
+    for (vtkActor* const actor : { other.subject.Get(), other.ground.Get() })
     {
       actor->SetScale(scale);
       actor->SetPosition(5.0 * scale, -7.0 * scale, 3.0 * scale);
@@ -368,7 +277,7 @@ TEST(FlatteringLights, areTheSameForTheSameRendererAndForMovedScenes)
 TEST(FlatteringLights, seeGroundThatDoesNotCastAndParallelCameras)
 {
   LitScene scene(ballOnGround());
-  vtkGnomonPropKeys::SetCasts(scene.ground.actor, false);
+  vtkGnomonPropKeys::SetCasts(scene.ground, false);
   scene.renderer->GetActiveCamera()->ParallelProjectionOn();
   ASSERT_TRUE(scene.make());
   EXPECT_THAT(scene.lights->GetNote(), HasSubstr("below or behind them is in shadow"));
@@ -382,7 +291,7 @@ TEST(FlatteringLights, seeWallsAsGround)
   {
     const auto wall =
       boxOf({ x - 2.0, x < 0.0 ? -2.0 : 2.0, -0.5 }, { x < 0.0 ? x : 2.0, 2.1, 3.0 });
-    scene.renderer->AddActor(subjectOf(wall).actor);
+    scene.renderer->AddActor(actorOf(mapperOf(wall)));
   }
   scene.look({ 0.2, -1.0, 0.4 });
   scene.renderer->GetActiveCamera()->Zoom(1.6);
@@ -395,7 +304,7 @@ TEST(FlatteringLights, seeWallsAsGround)
 TEST(FlatteringLights, sayWhereNoDirectionDoesBoth)
 {
   LitScene scene(ballOnGround());
-  scene.renderer->AddActor(subjectOf(boxOf(glm::dvec3(-50.0), glm::dvec3(50.0))).actor);
+  scene.renderer->AddActor(actorOf(mapperOf(boxOf(glm::dvec3(-50.0), glm::dvec3(50.0)))));
   ASSERT_TRUE(scene.make());
   EXPECT_THAT(scene.lights->GetNote(), HasSubstr("No direction"));
   EXPECT_EQ(scene.lights->GetLitShare(), 0.0);
@@ -407,8 +316,8 @@ TEST(FlatteringLights, forNoSurfaceInViewAreTheKeyLight)
   LitScene away(ballOnGround());
   away.renderer->GetActiveCamera()->SetFocalPoint(0.0, -100.0, 100.0);
   LitScene lines(ballOnGround());
-  lines.ground.actor->VisibilityOff();
-  lines.subject.actor->GetProperty()->SetRepresentationToWireframe();
+  lines.ground->VisibilityOff();
+  lines.subject->GetProperty()->SetRepresentationToWireframe();
   for (LitScene* const scene : { &away, &lines })
   {
     ASSERT_TRUE(scene->make());
@@ -420,7 +329,7 @@ TEST(FlatteringLights, forNoSurfaceInViewAreTheKeyLight)
 TEST(FlatteringLights, ofPlanesAloneArePlaced)
 {
   LitScene scene(ballOnGround());
-  scene.subject.actor->VisibilityOff();
+  scene.subject->VisibilityOff();
   ASSERT_TRUE(scene.make());
   EXPECT_NEAR(scene.lights->GetLitShare(), 1.0, 1e-9);
   EXPECT_THAT(scene.lights->GetNote(), HasSubstr("No direction"));

@@ -227,7 +227,7 @@ bool isUnder(const glm::dvec2& floor, const Box& box)
     floor.y <= box.upper.y;
 }
 
-ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction, double value)
+ExactFloor floorUnderSun(const Box& box, double extent)
 {
   return [=](const glm::dvec2& floor)
   {
@@ -235,7 +235,7 @@ ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direct
     {
       return -1.0;
     }
-    return hitsBox(floor, -direction, box.lower, box.upper) ? 0.0 : value;
+    return hitsBox(floor, -slantingSun, box.lower, box.upper) ? 0.0 : slantingSunValue;
   };
 }
 
@@ -264,20 +264,6 @@ SunAndSpotScene::SunAndSpotScene(int width, int height)
   : SphereUnderSun(width, height)
 {
   this->addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
-}
-
-ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& directions)
-{
-  return [=](const glm::dvec2& floor)
-  {
-    double value = isUnder(floor, box) ? -1.0 : 0.0;
-    for (const glm::dvec3& direction : directions)
-    {
-      const bool lit = !hitsBox(floor, -direction, box.lower, box.upper);
-      value += value >= 0.0 && lit ? 127.5 / glm::length(direction) : 0.0;
-    }
-    return value;
-  };
 }
 
 FloorCheck checkFloor(

@@ -196,18 +196,15 @@ struct Box
 };
 /// Hangs over the floor. Its shadow from the sun is x in [0, 4]; the box hides [0, 1] of it.
 inline const Box hangingBox{ { -1.0, -1.0, 1.0 }, { 1.0, 1.0, 3.0 } };
-/// Stands on the floor. Its shadow from the sun is x in [1, 3].
-inline const Box standingBox{ { -1.0, -1.0, 0.0 }, { 1.0, 1.0, 2.0 } };
 inline const glm::dvec3 slantingSun(1.0, 0.0, -1.0);
 extern const double slantingSunValue; ///< a lit floor pixel's
 
 /// True if a box hides a floor point from straight above.
 bool isUnder(const glm::dvec2& floor, const Box& box);
 
-/// Return the exact answer for the floor of half side `extent` under one sun; negative on the box
-/// itself and beyond the floor.
-ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction = slantingSun,
-  double value = slantingSunValue);
+/// Return the exact answer for the floor of half side `extent` under the slanting sun; negative on
+/// the box itself and beyond the floor.
+ExactFloor floorUnderSun(const Box& box, double extent);
 
 /// A box over a floor of half side `extent`, under the slanting sun.
 struct BoxScene : PassScene
@@ -235,9 +232,6 @@ struct SunAndSpotScene : SphereUnderSun
 {
   SunAndSpotScene(int width, int height);
 };
-
-/// Return the exact answer under several suns of half intensity; negative on the box itself.
-ExactFloor floorUnderHalfSuns(const Box& box, const std::vector<glm::dvec3>& directions);
 
 /// Compare each pixel with the exact answer, with a tolerance of a quarter of white. Pixels with
 /// an edge of the exact answer in the square of half side `band` (floor units) are left out.
