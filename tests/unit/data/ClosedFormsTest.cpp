@@ -22,9 +22,8 @@ namespace
 
 using Filter = vtkGnomonVisibilityFilter;
 
-class ClosedForms : public testing::Test
+struct ClosedForms : testing::Test
 {
-protected:
   void TearDown() override { EXPECT_TRUE(this->messages.errors().empty()); }
 
   vtkNew<Filter> filter;

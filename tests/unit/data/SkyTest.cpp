@@ -39,9 +39,8 @@ vtkSmartPointer<vtkPolyData> patchAt(const glm::dvec3& at, const glm::dvec3& nor
   return quad(at - u - v, at + u - v, at + u + v, at - u + v);
 }
 
-class SkyTest : public testing::Test
+struct SkyTest : testing::Test
 {
-protected:
   SkyTest() { this->filter->SetUp(0.0, 0.0, 1.0); }
   void TearDown() override { EXPECT_TRUE(this->messages.errors().empty()); }
 

@@ -71,9 +71,8 @@ void addDirections(Filter* filter, int count, double hours = 1.0)
   }
 }
 
-class VisibilityFilter : public testing::Test
+struct VisibilityFilter : testing::Test
 {
-protected:
   void TearDown() override { EXPECT_EQ(this->messages.errors().size(), this->errorsTaken); }
   void expectError(const char* text)
   {

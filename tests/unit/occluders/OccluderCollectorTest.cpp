@@ -334,6 +334,23 @@ TEST(OccluderTriangles, PointsInAnyArrayAreRead)
   }
 }
 
+TEST(OccluderTriangles, PolygonsAndStripsKeepTheirFronts)
+{
+  Scene scene;
+  const auto data =
+    meshOf({ { 0, 0, 0 }, { 1, 0, 0 }, { -0.1, 1, 0 }, { 1.1, 1, 0 }, { 0, 2, 0 }, { 1, 2, 0 } },
+      { { 0, 1, 3, 5, 4, 2 } });
+  data->SetStrips(makeCells({ { 0, 1, 2, 3, 4, 5 } }));
+  scene.add(data);
+  scene.collect();
+  EXPECT_EQ(scene.occluders().triangles.size(), 8u);
+  for (const glm::uvec3& corners : scene.occluders().triangles)
+  {
+    const std::vector<glm::vec3>& at = scene.occluders().positionsCentred;
+    EXPECT_GT(glm::cross(at[corners.y] - at[corners.x], at[corners.z] - at[corners.x]).z, 0.0f);
+  }
+}
+
 TEST(OccluderTriangles, OnlyUsedPointsBecomeVertices)
 {
   Scene scene;

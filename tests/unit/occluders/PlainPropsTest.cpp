@@ -161,9 +161,8 @@ std::ostream& operator<<(std::ostream& stream, const Alteration& alteration)
 }
 
 /// An alteration, and whether the snapshot is filled in a frame, after the renderer's culler.
-class PlainPropChange : public testing::TestWithParam<std::tuple<Alteration, bool>>
+struct PlainPropChange : testing::TestWithParam<std::tuple<Alteration, bool>>
 {
-protected:
   void collect(OccluderCollector& collector, vtkRenderer* renderer) const
   {
     if (!std::get<bool>(GetParam()))

@@ -16,9 +16,8 @@ using testing::HasSubstr;
 using Way = AutoChoice::Way;
 
 /// A light that leaves its technique to the pass, in a scene whose rays take long.
-class AutoPlans : public testing::Test
+struct AutoPlans : testing::Test
 {
-protected:
   AutoPlans()
   {
     this->map_.info.evaluation = Evaluation::Pointwise;

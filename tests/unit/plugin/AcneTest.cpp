@@ -29,9 +29,8 @@ struct OfMoments
   double least;
 };
 
-class LitScenes : public PassTestOf<Variant>
+struct LitScenes : PassTestOf<Variant>
 {
-protected:
   static void choose(PassScene& scene) { GetParam().choose(scene); }
   /// Without a floor of variance, so slopes are lit by the technique's own means.
   static void chooseWithoutFloor(PassScene& scene)

@@ -16,11 +16,10 @@ namespace
 {
 
 /// A box over a floor under a sun that uses the pass's technique.
-class Auto
-  : public PassTest
-  , public BoxScene
+struct Auto
+  : PassTest
+  , BoxScene
 {
-protected:
   Auto()
     : BoxScene(160, 120)
   {

@@ -161,9 +161,8 @@ const MapWay mapWays[] = {
   { "nsm", vtkGnomonShadowPass::ROUTE_INLINE, "frame", 0.01 },
 };
 
-class Cameras : public PassTestOf<CameraKind>
+struct Cameras : PassTestOf<CameraKind>
 {
-protected:
   Cameras()
   {
     this->scene.addFloor(4.0);
@@ -189,8 +188,10 @@ TEST_P(Cameras, lampsShineOnSlopes)
 {
   this->scene.addBox({ -2.25, -2.25, 0.95 }, { -0.75, -0.75, 1.05 })->RotateY(40.0);
   this->scene.renderer->RemoveAllLights();
-  this->scene.addSpot({ -3.0, -2.0, 5.0 }, glm::dvec3(0.0), allDirections);
+  vtkLight* const lamp = this->scene.addSpot({ -3.0, -2.0, 5.0 }, { -3.0, -2.0, 9.0 }, 100.0);
   const Picture exact = this->scene.render(tracedWay);
+  lamp->SetConeAngle(allDirections); // as from 90 degrees on
+  EXPECT_EQ(differingPixels(this->scene.render(tracedWay), exact), 0u);
   for (const Way& way : { Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
          Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },
          Way{ "vsm", vtkGnomonShadowPass::ROUTE_INLINE } })

@@ -38,9 +38,8 @@ void shadeFiner(PassScene& scene)
   scene.pass->SetDelegatePass(finer);
 }
 
-class ComplaintsOf : public PassTestOf<Misuse>
+struct ComplaintsOf : PassTestOf<Misuse>
 {
-protected:
   /// Draws frames and returns what is said of them.
   std::string said(PassScene& scene, int frames)
   {

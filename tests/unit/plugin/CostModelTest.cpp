@@ -12,9 +12,8 @@ using testing::HasSubstr;
 namespace
 {
 
-class CostFactorsFile : public gnomon::test::PassTest
+struct CostFactorsFile : gnomon::test::PassTest
 {
-protected:
   /// Return why a text is no file of cost factors; empty if it is one.
   std::string refusal(const std::string& text)
   {

@@ -127,10 +127,8 @@ struct Cutouts : PassTestOf<Way>
       const bool on = share.x >= 0.0 && share.x <= 1.0 && share.y >= 0.0 && share.y <= 1.0;
       return on && drawn(share) ? 0.0 : slantingSunValue;
     };
-    const FloorCheck check = checkFloor(this->scene, picture, exact, band());
-    EXPECT_EQ(check.falseLight, 0u) << what << " of " << check.counted;
-    EXPECT_EQ(check.falseShadow, 0u) << what << " of " << check.counted;
-    EXPECT_GT(check.counted, picture.pixels() / 5) << what;
+    SCOPED_TRACE(what);
+    expectRight(checkFloor(this->scene, picture, exact, band()), picture.pixels() / 5);
   }
   static glm::dvec2 underSun(const glm::dvec2& point)
   {

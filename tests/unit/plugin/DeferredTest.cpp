@@ -42,15 +42,9 @@ public:
 vtkStandardNewMacro(UnusualMapper);
 
 /// A sphere over a floor under a sun, which the deferred route can draw.
-class Deferred : public PassTest
+struct Deferred : PassTest
 {
-protected:
-  Deferred()
-  {
-    this->sphere = this->scene.addSphereOverFloor();
-    this->sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
-    this->scene.pass->SetTechnique("raytraced");
-  }
+  Deferred() { this->scene.pass->SetTechnique("raytraced"); }
 
   Picture draw(int route)
   {
@@ -82,9 +76,7 @@ protected:
     return this->scene.report().route;
   }
 
-  PassScene scene{ 203, 157 }; ///< not a multiple of the tiles
-  vtkActor* sphere;
-  vtkLight* sun;
+  SphereUnderSun scene{ 203, 157 }; ///< not a multiple of the tiles
 };
 
 } // namespace
@@ -158,16 +150,16 @@ TEST_F(Deferred, OtherFramesTakeTheImageRouteAndSayWhy)
   this->scene.pass->SetDelegatePass(steps);
   expectReason("a render pass draws");
   this->scene.pass->SetDelegatePass(nullptr);
-  this->sphere->GetShaderProperty()->AddFragmentShaderReplacement(
+  this->scene.sphere->GetShaderProperty()->AddFragmentShaderReplacement(
     "//VTK::Light::Impl", true, "//VTK::Light::Impl\n  gl_FragData[0].r *= 0.5;\n", false);
   expectReason("shaders of its own");
-  this->sphere->GetShaderProperty()->ClearAllFragmentShaderReplacements();
-  const vtkSmartPointer<vtkMapper> usual = this->sphere->GetMapper();
+  this->scene.sphere->GetShaderProperty()->ClearAllFragmentShaderReplacements();
+  const vtkSmartPointer<vtkMapper> usual = this->scene.sphere->GetMapper();
   vtkNew<UnusualMapper> unusual;
   unusual->SetInputConnection(usual->GetInputConnection(0, 0));
-  this->sphere->SetMapper(unusual);
+  this->scene.sphere->SetMapper(unusual);
   expectReason("shaders of its own");
-  this->sphere->SetMapper(usual);
+  this->scene.sphere->SetMapper(usual);
   EXPECT_EQ(this->autoRoute(), "deferred");
 
   this->scene.pass->SetSetting("light_radius", "0.1");
@@ -222,9 +214,9 @@ TEST_F(Deferred, PropsThatPassesDoNotReachAreAsVtkDrawsThem)
 
   vtkNew<vtkPropAssembly> together;
   together->AddPart(cube);
-  together->AddPart(this->sphere);
+  together->AddPart(this->scene.sphere);
   this->scene.renderer->RemoveActor(cube);
-  this->scene.renderer->RemoveActor(this->sphere);
+  this->scene.renderer->RemoveActor(this->scene.sphere);
   this->scene.renderer->AddActor(together);
   EXPECT_EQ(this->autoRoute(), "image");
   EXPECT_THAT(this->scene.report().routeReason, HasSubstr("works on the whole screen"));

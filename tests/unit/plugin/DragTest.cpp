@@ -287,11 +287,10 @@ std::string nameOf(const testing::TestParamInfo<Drag::ParamType>& of)
   return std::string(style.name) + button.name + shadows.name + loops[static_cast<int>(loop)];
 }
 /// A scene dragged by the trackball, whose timers fire as X's.
-class PictureTimer
-  : public PassTest
-  , public DrivenScene
+struct PictureTimer
+  : PassTest
+  , DrivenScene
 {
-protected:
   PictureTimer()
     : DrivenScene(Loop::X, styles[0])
   {

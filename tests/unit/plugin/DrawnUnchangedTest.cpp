@@ -18,9 +18,8 @@ namespace
 
 /// A floor that shows no shadows, below a plate that shades all of it. Props between them must look
 /// unchanged.
-class DrawnUnchanged : public PassTestOf<Way>
+struct DrawnUnchanged : PassTestOf<Way>
 {
-protected:
   DrawnUnchanged()
   {
     for (const double height : { 0.0, 4.0 })

@@ -12,9 +12,8 @@ namespace gnomon::test
 namespace
 {
 
-class ExactInMotion : public PassTestOf<Variant>
+struct ExactInMotion : PassTestOf<Variant>
 {
-protected:
   ExactInMotion()
   {
     this->scene.addFloor(4.0);

@@ -9,9 +9,8 @@ using namespace gnomon::test;
 namespace
 {
 
-class DegenerateScenes : public PassTestOf<Variant>
+struct DegenerateScenes : PassTestOf<Variant>
 {
-protected:
   static void fill(PassScene& scene)
   {
     scene.addSphereOverFloor();

@@ -11,9 +11,8 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-class Fitting : public PassTest
+struct Fitting : PassTest
 {
-protected:
   /// A wide floor with a box on it and others far from it, of which the camera sees a small part.
   static void fill(PassScene& scene)
   {

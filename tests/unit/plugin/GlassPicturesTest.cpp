@@ -332,7 +332,7 @@ const GlassPicture glassPictures[] = {
   { "stained_panes",
     [](GlassScene& scene)
     {
-      scene.pane({ -0.5, 0.0, 1.0 }, 0.7, 20.0, { 1.0, 0.2, 0.1 });
+      scene.pane({ -0.5, 0.0, 1.0 }, 0.7, 20.0, { 1.0, 0.7, 0.8 });
       scene.pane({ 0.5, 0.2, 1.5 }, 0.6, -20.0, { 0.1, 0.4, 1.0 });
     } },
   { "panes_in_a_T",

@@ -9,9 +9,8 @@ namespace
 
 /// A lit floor that panes lie above, seen from above. The panes receive nothing and are black, so
 /// that they add no light.
-class Glass : public PassTest
+struct Glass : PassTest
 {
-protected:
   Glass()
   {
     this->scene.addFloor(8.0);

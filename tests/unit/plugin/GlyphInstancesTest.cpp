@@ -17,9 +17,8 @@ namespace
 constexpr int glyphCount = 3400;
 
 /// Glyphs in a slab over a floor, with an array for every setting of the mapper, under a sun.
-class GlyphInstances : public PassTestOf<Way>
+struct GlyphInstances : PassTestOf<Way>
 {
-protected:
   GlyphInstances()
   {
     this->scene.addFloor(8.0);

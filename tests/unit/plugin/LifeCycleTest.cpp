@@ -96,9 +96,8 @@ void expectNoMoreThanPlainVtk(const LeftBehind& left, const LeftBehind& plain)
   EXPECT_LT(left.growthMegabytes - plain.growthMegabytes, mostGrowthMegabytes);
 }
 
-class LifeCycle : public PassTestOf<Way>
+struct LifeCycle : PassTestOf<Way>
 {
-protected:
   LifeCycle() { this->scene_.choose(GetParam()); }
   void draw() { this->scene_.window->Render(); }
 

@@ -38,9 +38,8 @@ vtkSmartPointer<vtkImageData> makeChecker(int side)
   return makeImage(side, side, [](int x, int y) { return (x + y) % 2 == 0 ? white : black; });
 }
 
-class LightTextures : public PassTest
+struct LightTextures : PassTest
 {
-protected:
   LightTextures()
   {
     aim(this->lamp, { 0.0, 0.0, 10.0 });

@@ -17,9 +17,8 @@ struct Commas : std::numpunct<char>
   std::string do_grouping() const override { return "\3"; }
 };
 
-class UnderALocaleWithCommas : public PassTestOf<Variant>
+struct UnderALocaleWithCommas : PassTestOf<Variant>
 {
-protected:
   UnderALocaleWithCommas()
     : before_(std::locale::global(std::locale(std::locale::classic(), new Commas)))
   {

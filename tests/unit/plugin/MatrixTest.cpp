@@ -40,9 +40,8 @@ std::pair<double, double> expectedChannel(int unlit, int lit, double visibility,
   return { shown - tolerance, clamped ? 255.0 : shown + tolerance };
 }
 
-class Matrix : public PassTestOf<std::tuple<std::size_t, std::size_t>>
+struct Matrix : PassTestOf<std::tuple<std::size_t, std::size_t>>
 {
-protected:
   /// Four pictures of one view: as VTK draws it, without the light, the technique's visibility of
   /// the light from the bottom row up, and the picture under test.
   struct View

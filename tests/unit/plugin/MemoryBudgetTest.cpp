@@ -125,11 +125,10 @@ namespace
 {
 
 /// A box over a floor under a lamp all around.
-class MemoryBudgetOfPass
-  : public PassTest
-  , public PassScene
+struct MemoryBudgetOfPass
+  : PassTest
+  , PassScene
 {
-protected:
   MemoryBudgetOfPass()
     : PassScene(128, 96)
   {

@@ -61,9 +61,8 @@ double meanErrorWhere(const VisibilityImages& kept, const std::vector<float>& tr
   return sum / count;
 }
 
-class MonteCarlo : public PassTest
+struct MonteCarlo : PassTest
 {
-protected:
   /// A box and a sphere over a floor, under a square lamp.
   void buildScene()
   {

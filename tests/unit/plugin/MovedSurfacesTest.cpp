@@ -1,7 +1,7 @@
 // Some surfaces of many move: only the tiles that they may change are traced, and the picture
 // equals that of a new pass.
 
-#include "PassScene.h"
+#include "AreaLights.h"
 
 using namespace gnomon::test;
 
@@ -13,38 +13,17 @@ struct LitBy
 {
   const char* name;
   const char* technique;
-  std::function<void(vtkGnomonAreaLight*)> place;
+  std::function<void(PassScene&)> addLight;
   int others = 0; ///< lamps beside it
 };
 
-void placeSun(vtkGnomonAreaLight* light)
-{
-  light->SetRadius(0.0);
-  light->SetPositional(0);
-  light->SetPosition(3.0, -2.0, 6.0);
-}
-void placeLamp(vtkGnomonAreaLight* light)
-{
-  light->SetRadius(0.0);
-  light->SetPositional(1);
-  light->SetConeAngle(allDirections);
-  light->SetPosition(2.0, -1.0, 4.0);
-}
-void placeSpot(vtkGnomonAreaLight* light)
-{
-  placeLamp(light);
-  light->SetConeAngle(50.0);
-}
-void makeWide(vtkGnomonAreaLight* light)
-{
-  light->SetShapeToDisk();
-  light->SetRadius(light->GetPositional() ? 0.3 : 3.0);
-}
+const glm::dvec3 awayFromSun(-3.0, 2.0, -6.0);
+const glm::dvec3 overProps(2.0, -1.0, 4.0);
+const glm::dvec3 below(0.0);
 
 /// Balls and boxes over a floor, in rows.
-class MovedSurfaces : public PassTestOf<LitBy>
+struct MovedSurfaces : PassTestOf<LitBy>
 {
-protected:
   static constexpr int side = 6; ///< props in a row
 
   MovedSurfaces()
@@ -60,52 +39,42 @@ protected:
     }
     vtkGnomonPropKeys::SetCasts(this->props_[8], false);
     vtkGnomonPropKeys::SetReceives(this->props_[9], false);
-    this->scene.renderer->AddLight(this->light_);
-    this->light_->SetFocalPoint(0.0, 0.0, 0.0);
-    GetParam().place(this->light_);
+    GetParam().addLight(this->scene);
     for (int i = 0; i < GetParam().others; ++i)
     {
       this->scene.addSpot({ 2.0 * i - 3.0, 3.0, 4.0 }, { 0.0, 0.0, 0.0 }, allDirections);
     }
     this->scene.choose(GetParam().technique);
-    this->scene.choose(this->light_->GetRadius() > 0.0 ? "light_samples=16" : "");
     this->scene.lookFrom({ 0.0, -9.0, 9.0 });
   }
 
   PassScene scene{ 500, 330 }; ///< 8 x 21 tiles, the last ones cut off
-  vtkNew<vtkGnomonAreaLight> light_;
   std::vector<vtkActor*> props_;
 };
 
-class RecolouredSurfaces : public MovedSurfaces
-{
-};
+using RecolouredSurfaces = MovedSurfaces;
 
-const LitBy sun{ "sun", "raytraced", placeSun };
-const LitBy wideSun{ "wideSun", "raytraced",
-  [](vtkGnomonAreaLight* light)
-  {
-    placeSun(light);
-    makeWide(light);
-  } };
+const LitBy sun{ "sun", "raytraced", [](PassScene& scene) { scene.addSun(awayFromSun); } };
+const LitBy wideSun{ "wideSun", "raytraced light_samples=16",
+  [](PassScene& scene) { addSoftSun(scene, awayFromSun, "3"); } };
+void addLampAround(PassScene& scene)
+{
+  scene.addSpot(overProps, below, allDirections);
+}
 
 INSTANTIATE_TEST_SUITE_P(Lights, RecolouredSurfaces, testing::Values(sun, wideSun), byName);
 INSTANTIATE_TEST_SUITE_P(Lights, MovedSurfaces,
-  testing::Values(sun, wideSun, LitBy{ "lamp", "raytraced", placeLamp },
-    LitBy{ "spot", "silhouette", placeSpot }, LitBy{ "lamps", "raytraced", placeLamp, 2 },
-    LitBy{ "wideLamp", "penumbra",
-      [](vtkGnomonAreaLight* light)
+  testing::Values(sun, wideSun, LitBy{ "lamp", "raytraced", addLampAround },
+    LitBy{ "spot", "silhouette", [](PassScene& scene) { scene.addSpot(overProps, below, 50.0); } },
+    LitBy{ "lamps", "raytraced", addLampAround, 2 },
+    LitBy{ "wideLamp", "penumbra light_samples=16",
+      [](PassScene& scene) { addDisk(scene, overProps, below, 0.3, allDirections); } },
+    LitBy{ "pictureOfLight", "raytraced light_samples=16",
+      [](PassScene& scene)
       {
-        placeLamp(light);
-        makeWide(light);
-      } },
-    LitBy{ "pictureOfLight", "raytraced",
-      [](vtkGnomonAreaLight* light)
-      {
-        placeLamp(light);
-        makeWide(light);
-        light->SetTexture(makeImage(
-          2, 1, [](int x, int) { return x == 0 ? glm::dvec3(1.0, 0.2, 0.0) : glm::dvec3(0.5); }));
+        addDisk(scene, overProps, below, 0.3, allDirections)
+          ->SetTexture(makeImage(
+            2, 1, [](int x, int) { return x == 0 ? glm::dvec3(1.0, 0.2, 0.0) : glm::dvec3(0.5); }));
       } }),
   byName);
 
@@ -129,7 +98,7 @@ TEST_P(MovedSurfaces, areTracedAlone)
     EXPECT_GT(this->scene.report().raysTraced, 0) << step;
     // When classes are asked for again, no tile has cached ones. A prop that moves without casting
     // lets `silhouette` bake its map, which then decides all pixels.
-    const std::string technique = GetParam().technique;
+    const std::string technique = this->scene.pass->GetTechnique();
     if (technique != "silhouette")
     {
       EXPECT_EQ(this->scene.report().raysTraced < all / 2, step % 5 != 4) << step;

@@ -104,9 +104,8 @@ const std::vector<Chain>& chains()
   return all;
 }
 
-class ChainedScene : public PassTest
+struct ChainedScene : PassTest
 {
-protected:
   ChainedScene() { this->scene.lookDown(10.0); }
 
   void useChain(const Chain& chain)
@@ -148,10 +147,7 @@ TEST_P(PassChains, ShadowsAreWhereTheyAreAlone)
   this->scene.choose(std::get<1>(GetParam()));
   for (int frame = 0; frame < 2; ++frame)
   {
-    const FloorCheck found = this->check(this->scene.render());
-    EXPECT_GT(found.counted, 60000u);
-    EXPECT_EQ(found.falseLight, 0u) << "frame " << frame;
-    EXPECT_EQ(found.falseShadow, 0u) << "frame " << frame;
+    expectRight(this->check(this->scene.render()), 60000);
   }
   EXPECT_EQ(this->scene.report().mapBakes, 0);
 }

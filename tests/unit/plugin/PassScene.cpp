@@ -294,6 +294,13 @@ FloorCheck checkFloor(
   return check;
 }
 
+void expectRight(const FloorCheck& check, std::size_t leastCounted)
+{
+  EXPECT_GE(check.counted, leastCounted);
+  EXPECT_EQ(check.falseLight, 0u);
+  EXPECT_EQ(check.falseShadow, 0u);
+}
+
 std::pair<double, double> spanIn(
   const Box& box, const glm::dvec3& start, const glm::dvec3& ray, double end)
 {

@@ -183,6 +183,8 @@ struct FloorCheck
   std::size_t falseShadow = 0; ///< darker than they must be
   std::size_t wrong() const { return this->falseLight + this->falseShadow; }
 };
+/// Expect at least so many pixels to be compared, and none to be wrong.
+void expectRight(const FloorCheck& check, std::size_t leastCounted);
 
 /// The exact answer at a floor point: the pixel's value (0 to 255), or a negative one if the floor
 /// is not visible.

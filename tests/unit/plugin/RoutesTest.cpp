@@ -1,5 +1,4 @@
-// Both routes, on the built-in scenes and with all techniques, and scenes far away and of other
-// sizes.
+// Both routes with all techniques, and scenes far away and of other sizes.
 
 #include "BuiltinPass.h"
 #include "LiveObjects.h"
@@ -14,11 +13,6 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-using Routes = PassTestOf<const char*>;
-
-INSTANTIATE_TEST_SUITE_P(Scenes, Routes,
-  testing::Values("bunny", "cube", "primitives", "posts", "plates", "room", "terrain"), byText);
-
 struct Placing
 {
   const char* name;
@@ -26,19 +20,6 @@ struct Placing
   double distance; ///< along all axes
   double scale;
 };
-
-/// Return the number of pixels that differ by more than `tolerance` of 255 between the two routes.
-std::size_t differenceOfRoutes(
-  vtkGnomonShadowPass* pass, const std::function<Picture()>& render, int tolerance)
-{
-  pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-  const Picture direct = render();
-  EXPECT_EQ(pass->GetReport().route, "inline");
-  pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
-  const Picture image = render();
-  EXPECT_EQ(pass->GetReport().route, "image");
-  return differingPixels(direct, image, tolerance);
-}
 
 using PointwiseScenes = PassTestOf<Variant>;
 
@@ -91,33 +72,19 @@ void place(vtkRenderer* renderer, const Placing& placing)
 
 } // namespace
 
-TEST_P(Routes, differOnAtMostOnePixelInAHundredThousand)
-{
-  const BuiltinPass scene(GetParam(), 512);
-  scene.pass->KeepVisibilityOff();
-  const Picture plain = scene.renderPlain();
-  for (const char* text : { "nsm", "pcf kernel_size=5", "pcf kernel=box kernel_size=5",
-         "pcf kernel=poisson kernel_size=5", "pcf kernel=castano kernel_size=5" })
-  {
-    scene.choose(text);
-    const std::size_t different = differenceOfRoutes(
-      scene.pass, [&] { return scene.render(); }, 1);
-    EXPECT_LE(different, plain.pixels() / 100000) << text;
-    EXPECT_GT(differingPixels(plain, scene.render(), 32), 500u) << "no shadow";
-  }
-}
-
 TEST_BY_VARIANTS(PointwiseScenes, BothRoutes, &Variant::isPointwise)
 {
-  PassScene scene(256, 256);
-  scene.addSphereOverFloor();
-  vtkLight* const sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  SphereUnderSun scene(256, 256);
+  vtkLight* const sun = scene.sun;
   GetParam().choose(scene.pass);
   const auto expectTheSame = [&]
   {
-    const std::size_t different = differenceOfRoutes(
-      scene.pass, [&] { return scene.render(); }, 1);
-    EXPECT_LE(different, 3u);
+    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+    const Picture direct = scene.render();
+    EXPECT_EQ(scene.report().route, "inline");
+    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+    EXPECT_LE(differingPixels(direct, scene.render(), 1), 3u);
+    EXPECT_EQ(scene.report().route, "image");
   };
   // Views fitted in every frame give the image route other texels.
   scene.pass->SetSetting("fit", "once");

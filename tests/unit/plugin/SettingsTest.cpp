@@ -12,28 +12,13 @@ using testing::HasSubstr;
 namespace
 {
 
-void fillUnderSun(PassScene& scene)
+struct Settings : PassTest
 {
-  scene.addSphereOverFloor();
-  scene.addSun({ 1.0, 0.3, -1.5 });
-}
-
-class Settings : public PassTest
-{
-protected:
-  Settings()
-  {
-    fillUnderSun(this->scene);
-    this->sun = lightOf(this->scene.renderer);
-  }
-
-  PassScene scene{ 200, 150 };
-  vtkLight* sun;
+  SphereUnderSun scene{ 200, 150 };
 };
 
-class SettingsOfWay : public PassTestOf<Way, Settings>
+struct SettingsOfWay : PassTestOf<Way, Settings>
 {
-protected:
   SettingsOfWay() { this->scene.choose(GetParam()); }
 };
 INSTANTIATE_TEST_SUITE_P(Ways, SettingsOfWay, allWays, nameOf);
@@ -45,7 +30,7 @@ TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
 {
   const Picture shadowed = this->scene.render("pcf");
   this->scene.pass->SetSetting("map_samples", "4");
-  set(this->sun, "contour", "6");
+  set(this->scene.sun, "contour", "6");
   for (int frame = 0; frame < 3; ++frame)
   {
     EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
@@ -58,7 +43,7 @@ TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
     HasSubstr("light 0 has the technique 'pcf', and the setting 'contour' is for: selective."));
   // A setting for another technique is no error, and takes effect with that technique.
   this->scene.pass->SetTechnique("vsm");
-  set(this->sun, "contour", "");
+  set(this->scene.sun, "contour", "");
   this->scene.render();
   EXPECT_EQ(this->scene.report().lights[0].mapSamples, 4);
   this->scene.render("nsm");
@@ -130,7 +115,7 @@ TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyedAndBringsNoneOfVtks)
   EXPECT_EQ(differingPixels(unshadowed, this->scene.renderPlain()), 0u);
   EXPECT_GT(differingPixels(shadowed, unshadowed), 300u);
   this->scene.renderer->UseShadowsOn();
-  vtkGnomonLightKeys::SetCasts(this->sun, false);
+  vtkGnomonLightKeys::SetCasts(this->scene.sun, false);
   EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
 }
 
@@ -139,8 +124,7 @@ TEST_P(SettingsOfWay, windowsOfOnePixel)
   for (const std::array<int, 2>& size :
     { std::array<int, 2>{ { 1, 1 } }, { { 1, 40 } }, { { 40, 1 } } })
   {
-    PassScene scene(size[0], size[1]);
-    fillUnderSun(scene);
+    SphereUnderSun scene(size[0], size[1]);
     scene.choose(GetParam());
     EXPECT_EQ(drawKept(scene).width, size[0]);
     EXPECT_EQ(scene.pass->GetVisibility().height, size[1]);
@@ -173,7 +157,7 @@ TEST_P(SettingsOfWay, onePassForTwoRenderersSideBySide)
   {
     // The two renderers share VTK's programs. Without this call, VTK 9.1 leaves one renderer's
     // lights in them for the other, with or without the pass.
-    this->sun->Modified();
+    this->scene.sun->Modified();
     rightSun->Modified();
     window->Render();
     const Picture both = readPicture(window);
@@ -191,9 +175,8 @@ const std::set<std::string> tracedOnTheCpu{ "raytraced", "silhouette", "crsm", "
   "penumbra" };
 
 /// Runs with a Mesa that claims OpenGL 3.2, one 3.3 and one 4.1 (CMakeLists.txt).
-class OldOpenGL : public PassTest
+struct OldOpenGL : PassTest
 {
-protected:
   OldOpenGL()
   {
     this->scene.lookDown(5.0, 1.0);
@@ -222,9 +205,7 @@ protected:
       this->scene.pass->SetRoute(route);
       for (int frame = 0; frame < 3; ++frame)
       {
-        const FloorCheck check = this->scene.check(this->scene.render(), 0.1);
-        EXPECT_GT(check.counted, 10000u);
-        EXPECT_EQ(check.wrong(), 0u);
+        expectRight(this->scene.check(this->scene.render(), 0.1), 10000);
         EXPECT_EQ(this->scene.report().lights.at(0).technique, taken);
       }
     }

@@ -25,14 +25,12 @@ bool hasSamplersOfItsOwn(const Variant& variant)
 /// The shaders that draw the first frame's receivers have samplers of maps that do not exist yet.
 TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersOfItsOwn)
 {
-  PassScene scene(64, 48);
+  SphereUnderSun scene(64, 48);
   const auto texture = textureOf(makeImage(2, 2, [](int, int) { return glm::dvec3(0.8); }));
-  scene.addSphereOverFloor();
   scene.floor()->SetTexture(texture);
   vtkActor* const pane = scene.addFloor(1.0);
   pane->SetPosition(0.5, 0.0, 2.5);
   pane->GetProperty()->SetOpacity(0.5);
-  scene.addSun({ 1.0, 0.4, -1.5 });
   GetParam().choose(scene);
   GetParam().set(scene.pass, "light_radius", "2");
   scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
@@ -50,11 +48,9 @@ TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersO
 /// A user's own code after VTK's lighting can use its results.
 TEST(ShaderManagerWithCode, ReadsVtksLightingByBothRoutes)
 {
-  PassScene scene(64, 48);
-  vtkActor* const sphere = scene.addSphereOverFloor();
-  scene.addSun({ 1.0, 0.4, -1.5 });
+  SphereUnderSun scene(64, 48);
   const Picture before = scene.render(tracedWay);
-  sphere->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
+  scene.sphere->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
     "//VTK::Light::Impl\n"
     "  gl_FragData[0] = vec4(ambientColor + vec3(diffuse.r, 0.0, 0.0) + specular, 1.0);\n",
     false);

@@ -11,9 +11,8 @@ namespace
 {
 
 /// A floor over a page, with a shadow.
-class ShadowCatcherTest : public PassTestOf<Way>
+struct ShadowCatcherTest : PassTestOf<Way>
 {
-protected:
   ShadowCatcherTest()
   {
     this->scene.renderer->SetBackground(1.0, 1.0, 1.0);
@@ -99,9 +98,8 @@ INSTANTIATE_TEST_SUITE_P(Ways, ShadowCatcherTest,
     Way{ "penumbra light_radius=0.3", vtkGnomonShadowPass::ROUTE_AUTO }),
   [](const auto& way) { return "Number" + std::to_string(way.index); });
 
-class CaughtShadowsTest : public PassTest
+struct CaughtShadowsTest : PassTest
 {
-protected:
   CaughtShadowsTest()
   {
     vtkGnomonPropKeys::SetShadowCatcher(this->scene.floor(), true);

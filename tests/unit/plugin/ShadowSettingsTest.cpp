@@ -14,11 +14,10 @@ using testing::HasSubstr;
 namespace
 {
 
-class ShadowSettingsTest
-  : public PassTest
-  , public PassScene
+struct ShadowSettingsTest
+  : PassTest
+  , PassScene
 {
-protected:
   ShadowSettingsTest()
     : PassScene(64, 48)
   {

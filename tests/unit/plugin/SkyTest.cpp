@@ -8,9 +8,8 @@ namespace
 {
 
 /// A scene whose lights reach nothing, so that the sky alone is seen.
-class SkyTest : public PassTest
+struct SkyTest : PassTest
 {
-protected:
   SkyTest() { this->scene.pass->SetSkyDirections(64); }
 
   vtkActor* addDarkFloor()

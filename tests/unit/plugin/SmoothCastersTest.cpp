@@ -43,7 +43,7 @@ Mesh stick(const glm::dvec3& centre, double radius, double halfHeight)
 }
 
 /// A receiver, and its casters.
-struct Scene
+struct CasterScene
 {
   Mesh ground;
   std::vector<Mesh> casters;
@@ -79,7 +79,7 @@ double heightOf(vtkPolyData* mesh, double x, double y)
   return at.z;
 }
 
-Scene slab()
+CasterScene slab()
 {
   return { cube({ -4.0, -4.0, -0.5 }, { 4.0, 4.0, 0.0 }),
     { ball({ 0.0, 0.0, 0.4 }, 0.4), cube({ -1.7, 0.2, 0.0 }, { -1.3, 0.8, 0.3 }),
@@ -88,11 +88,11 @@ Scene slab()
 }
 
 /// Stones of 1 to 5 cm between posts of 2 m on a hill.
-Scene terrain()
+CasterScene terrain()
 {
-  Scene scene{ sheet(10.0, 2.0,
-                 [](double x, double y)
-                 { return 1.2 * std::cos(0.25 * (x - 1.0)) * std::cos(0.25 * (y - 1.0)); }),
+  CasterScene scene{ sheet(10.0, 2.0,
+                       [](double x, double y)
+                       { return 1.2 * std::cos(0.25 * (x - 1.0)) * std::cos(0.25 * (y - 1.0)); }),
     {}, true, { 0.4, -0.4, 2.4 }, { 1.0, 1.0, 1.2 }, { 1.0, -0.5, 0.8 } };
   const double sizes[] = { 0.01, 0.02, 0.03, 0.04, 0.05 };
   for (int i = 0; i < 25; ++i)
@@ -106,9 +106,9 @@ Scene terrain()
   return scene;
 }
 
-Scene spheresOnSpheres()
+CasterScene spheresOnSpheres()
 {
-  Scene scene{ outputOf(ballOf(glm::dvec3(0.0), 1.0, 12, 12)), {}, true, { 0.9, -2.2, 1.6 },
+  CasterScene scene{ outputOf(ballOf(glm::dvec3(0.0), 1.0, 12, 12)), {}, true, { 0.9, -2.2, 1.6 },
     { 0.0, 0.0, 0.2 }, { 1.0, 0.2, 0.8 } };
   for (int i = 0; i < 12; ++i)
   {
@@ -123,7 +123,7 @@ Scene spheresOnSpheres()
 struct NamedScene
 {
   const char* name;
-  Scene (*make)();
+  CasterScene (*make)();
 };
 
 /// True: the normals are averaged; false: each facet has its own.
@@ -143,7 +143,7 @@ Mesh withNormals(const Mesh& mesh, bool averaged)
   return outputOf(normals);
 }
 
-void addTo(PassScene& view, const Scene& scene, bool averaged)
+void addTo(PassScene& view, const CasterScene& scene, bool averaged)
 {
   vtkNew<vtkAppendPolyData> ground;
   ground->AddInputData(withNormals(scene.ground, averaged));
@@ -184,10 +184,10 @@ std::string nameOfCell(const testing::TestParamInfo<Cell>& tested)
 TEST_P(SmoothCastersTest, castersKeepTheirShadows)
 {
   const auto& [named, averaged, technique] = GetParam();
-  const Scene scene = named.make();
-  Scene bare = scene;
+  const CasterScene scene = named.make();
+  CasterScene bare = scene;
   bare.casters.clear();
-  const auto draw = [averaged = averaged](const Scene& of, bool smooth, const char* by)
+  const auto draw = [averaged = averaged](const CasterScene& of, bool smooth, const char* by)
   {
     PassScene view(400, 300);
     addTo(view, of, averaged);

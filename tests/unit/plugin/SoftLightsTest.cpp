@@ -11,9 +11,8 @@ namespace
 constexpr const char* softTechniques[] = { "raytraced", "penumbra", "sampled", "coherence", "pcss",
   "montecarlo", "planar" };
 
-class SoftLights : public PassTestOf<AreaLight>
+struct SoftLights : PassTestOf<AreaLight>
 {
-protected:
   SoftLights()
   {
     this->scene.addThings();

@@ -62,9 +62,8 @@ struct Named
   }
 };
 
-class SurfaceNames : public PassTest
+struct SurfaceNames : PassTest
 {
-protected:
   SurfaceNames()
   {
     vtkNew<vtkTextActor> text; // number 0, no surface

@@ -19,9 +19,7 @@ namespace
 /// 6 layers of 1 GiB, for which software OpenGL has no room at all.
 constexpr int hugeMap = 16384;
 
-class TextureMemory : public PassTest
-{
-};
+using TextureMemory = PassTest;
 
 void fillRoundLamp(PassScene& scene)
 {

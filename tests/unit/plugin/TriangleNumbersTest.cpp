@@ -56,9 +56,8 @@ void PrintTo(const Garbling& garbling, std::ostream* out)
 }
 
 /// The squares over a floor, from straight above.
-class TriangleNumbers : public PassTestOf<Garbling>
+struct TriangleNumbers : PassTestOf<Garbling>
 {
-protected:
   TriangleNumbers()
   {
     for (PassScene* scene : { &this->right, &this->garbled })
@@ -132,9 +131,8 @@ TEST_P(TriangleNumbers, areReplacedWherePropsBlend)
 }
 
 /// Squares whose mapper's numbers are wrong.
-class LateNumbers : public PassTest
+struct LateNumbers : PassTest
 {
-protected:
   LateNumbers()
   {
     this->mapper->number = "(gl_PrimitiveID + 2) % 4";
@@ -175,9 +173,7 @@ TEST_F(LateNumbers, areFoundBesideAnnotations)
 }
 
 /// Right numbers count as right where VTK's floats are coarse, and where depths are offset.
-class RightNumbers : public PassTest
-{
-};
+using RightNumbers = PassTest;
 
 TEST_F(RightNumbers, areBelievedAwayFromTheOrigin)
 {

@@ -12,9 +12,8 @@ namespace gnomon::test
 namespace
 {
 
-class RanksTest : public testing::Test
+struct RanksTest : testing::Test
 {
-protected:
   ManyRanks ranks_{ controller() };
 };
 

@@ -60,9 +60,8 @@ void addSpheres(RankView& view, vtkPoints* points, double radius)
 }
 
 /// Expects no errors but those that a test takes.
-class SharedTest : public testing::Test
+struct SharedTest : testing::Test
 {
-protected:
   void TearDown() override { EXPECT_EQ(this->messages_.errors().size(), this->errorsTaken_); }
   /// Expect an error since the last call, and return it.
   std::string takeError()
@@ -239,9 +238,8 @@ tool::Scene coarseScene()
   return scene;
 }
 
-class SharedTerminators : public SharedTestOf<Distribution>
+struct SharedTerminators : SharedTestOf<Distribution>
 {
-protected:
   /// Expect the same pictures without and with smooth terminators, and that these differ in more
   /// than `least` pixels.
   void expectSmooth(SplitScene& scene, std::size_t least)
@@ -347,9 +345,8 @@ private:
 };
 vtkStandardNewMacro(FailingActor);
 
-class SharedFrames : public SharedTest
+struct SharedFrames : SharedTest
 {
-protected:
   SplitScene scene_{ tool::loadScene("posts"), blocks() };
   const int own_ = controller()->GetLocalProcessId();
   const int last_ = controller()->GetNumberOfProcesses() - 1;
