@@ -101,7 +101,6 @@ std::optional<SlopeInterval> spanOfFace(const SlopeInterval& casters, double lea
 
 } // namespace
 
-//------------------------------------------------------------------------------
 LightView parallelCasterView(
   const Bounds& castersView, double radius, const glm::dmat4& viewFromCentred)
 {
@@ -120,7 +119,6 @@ LightView parallelCasterView(
   return view;
 }
 
-//------------------------------------------------------------------------------
 std::optional<LightView> spotCasterView(
   const Bounds& castersView, const glm::dmat4& viewFromCentred, double slopeLimit)
 {
@@ -142,7 +140,6 @@ std::optional<LightView> spotCasterView(
   return perspectiveView(casters->distances, slopes, viewFromCentred);
 }
 
-//------------------------------------------------------------------------------
 std::array<std::optional<LightView>, cubeFaces> cubeCasterViews(
   const Bounds& castersLight, const glm::dmat4& lightFromCentred, double inside)
 {

@@ -5,7 +5,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 glm::uvec3 HashedPoints::point(int i, const SamplePixel& pixel) const
 {
   // A hash has a word for each of four points.

@@ -24,7 +24,6 @@ double largestSingularValue(const glm::dmat2& matrix)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 glm::dmat2 texelJacobian(const glm::dmat3& texelFromAcross, const glm::dvec2& across)
 {
   const glm::dvec3 image = texelFromAcross * glm::dvec3(across, 1.0);
@@ -34,13 +33,11 @@ glm::dmat2 texelJacobian(const glm::dmat3& texelFromAcross, const glm::dvec2& ac
   return { column(0), column(1) };
 }
 
-//------------------------------------------------------------------------------
 double largestStretch(int kernelTexels)
 {
   return std::min(0.5 * (kernelTexels + 1), 4.0);
 }
 
-//------------------------------------------------------------------------------
 double mostTexelsAcross(const LightViews& views, int sizeTexels)
 {
   double most = 0.0;
@@ -57,7 +54,6 @@ double mostTexelsAcross(const LightViews& views, int sizeTexels)
   return most;
 }
 
-//------------------------------------------------------------------------------
 double reachOfArea(const LightArea& area, const LightViews& views, const Bounds& castersCentred,
   const Bounds& receiversCentred)
 {
@@ -87,7 +83,6 @@ double reachOfArea(const LightArea& area, const LightViews& views, const Bounds&
   return area.radius() * widest;
 }
 
-//------------------------------------------------------------------------------
 double longestRay(const LightView& view)
 {
   const glm::dmat3 acrossFromMap = glm::inverse(view.mapFromAcross);

@@ -43,7 +43,6 @@ glm::dvec3 pointOfSphere(double share, std::size_t number)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 double LightArea::radius() const
 {
   const double longest = glm::length(this->worldFromUnit[0]);
@@ -52,14 +51,12 @@ double LightArea::radius() const
     : longest;
 }
 
-//------------------------------------------------------------------------------
 double LightArea::extentAlong(const glm::dvec3& direction) const
 {
   const glm::dvec3 ofAxes = glm::abs(direction * this->worldFromUnit);
   return this->shape == Shape::Rectangle ? ofAxes.x + ofAxes.y : glm::length(ofAxes);
 }
 
-//------------------------------------------------------------------------------
 LightArea rectangleArea(const glm::dvec3& travel, const glm::dvec3& up, const glm::dvec2& halfSize)
 {
   const glm::dvec3 along = glm::normalize(glm::cross(travel, up));
@@ -67,7 +64,6 @@ LightArea rectangleArea(const glm::dvec3& travel, const glm::dvec3& up, const gl
     { halfSize.x * along, halfSize.y * glm::cross(along, travel), glm::dvec3(0.0) } };
 }
 
-//------------------------------------------------------------------------------
 LightArea diskArea(const glm::dvec3& travel, double radius)
 {
   // A disk's axes are arbitrary.
@@ -75,13 +71,11 @@ LightArea diskArea(const glm::dvec3& travel, double radius)
   return { LightArea::Shape::Disk, square.worldFromUnit };
 }
 
-//------------------------------------------------------------------------------
 LightArea ballArea(double radius)
 {
   return { LightArea::Shape::Ball, glm::dmat3(radius) };
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::dvec3> rimOf(const LightArea& area, std::size_t points)
 {
   std::vector<glm::dvec3> rim;

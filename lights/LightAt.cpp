@@ -69,7 +69,6 @@ void standBox(ShadowLight& at, const ShadowLight& light, const glm::dvec3& towar
 
 } // namespace
 
-//------------------------------------------------------------------------------
 ShadowLight lightAt(const ShadowLight& light, const glm::dvec3& offset, const ViewFitting& fitting)
 {
   ShadowLight at = light;

@@ -415,7 +415,6 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isHeadlight(vtkLight* light)
 {
   // In a camera light's coordinates the camera is at (0, 0, 1) and looks along -z.
@@ -428,7 +427,6 @@ bool isHeadlight(vtkLight* light)
   return light->LightTypeIsHeadlight() || (light->LightTypeIsCameraLight() && isAtCamera);
 }
 
-//------------------------------------------------------------------------------
 LightSet LightManager::collect(
   vtkRenderer* renderer, const ShadowSettings& defaults, Casting casting)
 {
@@ -443,7 +441,6 @@ LightSet LightManager::collect(
   return set;
 }
 
-//------------------------------------------------------------------------------
 LightSet LightManager::collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
   return this->read(renderer, defaults,
@@ -451,7 +448,6 @@ LightSet LightManager::collectAreas(vtkRenderer* renderer, const ShadowSettings&
     { return isArea && whyDark(light).empty() ? std::optional(std::string()) : std::nullopt; });
 }
 
-//------------------------------------------------------------------------------
 LightSet LightManager::read(
   vtkRenderer* renderer, const ShadowSettings& defaults, const WhyNot& whyNot)
 {
@@ -488,7 +484,6 @@ LightSet LightManager::read(
   return set;
 }
 
-//------------------------------------------------------------------------------
 void LightManager::makePoint(vtkLight* light)
 {
   vtkGnomonLightKeys::SetSetting(light, "light_radius", "0"); // overrides the pass
@@ -506,7 +501,6 @@ void LightManager::makePoint(vtkLight* light)
   light->GetInformation()->Set(pointKey(), 1);
 }
 
-//------------------------------------------------------------------------------
 /// Return a light's texture; null without one.
 /// @param current receives the texture, read or cached
 /// @param reason to skip the light; set if it is empty and the image is not a valid texture
@@ -535,7 +529,6 @@ std::shared_ptr<const LightTexture> LightManager::textureOf(
   return read.texture;
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType changeTime(vtkLight* light)
 {
   auto* const area = vtkGnomonAreaLight::SafeDownCast(light);
@@ -549,7 +542,6 @@ vtkMTimeType changeTime(vtkLight* light)
   return time;
 }
 
-//------------------------------------------------------------------------------
 std::optional<ShadowLight> readPlace(vtkLight* light, std::string& reason)
 {
   reason = whyWithoutPlace(light);

@@ -147,13 +147,11 @@ std::variant<SobolPoints, HashedPoints> pointsFor(const ShadowLight& light)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 glm::vec2 diskPoint(const glm::vec2& square)
 {
   return concentric(square);
 }
 
-//------------------------------------------------------------------------------
 LightSamples::LightSamples(const ShadowLight& light)
   : count_(light.lightSamples)
   , points_(pointsFor(light))
@@ -162,13 +160,11 @@ LightSamples::LightSamples(const ShadowLight& light)
 {
 }
 
-//------------------------------------------------------------------------------
 SamplePixel LightSamples::pixel(std::uint32_t column, std::uint32_t row) const
 {
   return std::visit([&](const auto& points) { return points.pixel(column, row); }, this->points_);
 }
 
-//------------------------------------------------------------------------------
 /// Compute offsets on the light for points of the unit cube.
 /// @param pointOf returns a point by its number, below `count`, for either kind of points
 template <typename PointOf>
@@ -195,7 +191,6 @@ void LightSamples::place(std::size_t count, const PointOf& pointOf, const Coordi
     this->points_);
 }
 
-//------------------------------------------------------------------------------
 glm::vec3 LightSamples::offset(int i, const SamplePixel& pixel) const
 {
   glm::vec3 offset;
@@ -204,7 +199,6 @@ glm::vec3 LightSamples::offset(int i, const SamplePixel& pixel) const
   return offset;
 }
 
-//------------------------------------------------------------------------------
 void LightSamples::offsets(const std::uint32_t* samples, const SamplePixel* pixels,
   std::size_t count, const Coordinates& to) const
 {
@@ -215,7 +209,6 @@ void LightSamples::offsets(const std::uint32_t* samples, const SamplePixel* pixe
     to);
 }
 
-//------------------------------------------------------------------------------
 void LightSamples::offsets(const SamplePixel& pixel, const Coordinates& to) const
 {
   this->place(
@@ -224,7 +217,6 @@ void LightSamples::offsets(const SamplePixel& pixel, const Coordinates& to) cons
     to);
 }
 
-//------------------------------------------------------------------------------
 glm::vec3 LightSamples::offsetInHalf(int i) const
 {
   glm::vec3 offset;
@@ -238,7 +230,6 @@ glm::vec3 LightSamples::offsetInHalf(int i) const
   return offset;
 }
 
-//------------------------------------------------------------------------------
 glm::dvec4 lightPoint(const ShadowLight& light, const glm::dvec3& centreWorld)
 {
   return light.kind == LightKind::Directional
@@ -246,7 +237,6 @@ glm::dvec4 lightPoint(const ShadowLight& light, const glm::dvec3& centreWorld)
     : glm::dvec4(light.positionWorld - centreWorld, 1.0);
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::dvec4> lightSamples(const ShadowLight& light, const glm::dvec3& centreWorld)
 {
   const glm::dvec4 centre = lightPoint(light, centreWorld);
@@ -266,7 +256,6 @@ std::vector<glm::dvec4> lightSamples(const ShadowLight& light, const glm::dvec3&
   return samples;
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::dvec3> pairedLightSamples(const ShadowLight& light)
 {
   if (!light.area || light.area->worldFromUnit == glm::dmat3(0.0))
@@ -296,7 +285,6 @@ std::vector<glm::dvec3> pairedLightSamples(const ShadowLight& light)
   return samples;
 }
 
-//------------------------------------------------------------------------------
 std::size_t pairedPointsWanted(std::size_t all, std::size_t before, std::size_t perFrame)
 {
   if (perFrame == 0)
@@ -307,14 +295,12 @@ std::size_t pairedPointsWanted(std::size_t all, std::size_t before, std::size_t 
   return wanted + (all - wanted) % 2;
 }
 
-//------------------------------------------------------------------------------
 bool isSquare(int samples)
 {
   const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(samples))));
   return side * side == samples;
 }
 
-//------------------------------------------------------------------------------
 std::string refusedSamples(const ShadowLight& light)
 {
   return light.area && light.lightSampling == LightSampling::Jittered &&

@@ -15,7 +15,6 @@ glm::dmat4 rotationOnto(const glm::dvec3& x, const glm::dvec3& y, const glm::dve
 
 } // namespace
 
-//------------------------------------------------------------------------------
 glm::dmat4 lightFromCentred(const ShadowLight& light, const glm::dvec3& centreWorld)
 {
   const glm::dvec3& z = light.directionWorld;
@@ -35,14 +34,12 @@ glm::dmat4 lightFromCentred(const ShadowLight& light, const glm::dvec3& centreWo
   return light.kind == LightKind::Directional ? rotation : glm::translate(rotation, origin);
 }
 
-//------------------------------------------------------------------------------
 glm::dvec4 nearFaceCentred(const ShadowLight& light, const glm::dvec3& centreWorld)
 {
   return { light.directionWorld,
     -glm::dot(light.directionWorld, light.positionWorld - centreWorld) };
 }
 
-//------------------------------------------------------------------------------
 glm::dvec3 axisAcross(const glm::dvec3& direction)
 {
   const glm::dvec3 magnitude = glm::abs(direction);
@@ -53,7 +50,6 @@ glm::dvec3 axisAcross(const glm::dvec3& direction)
   return magnitude.y <= magnitude.z ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
 }
 
-//------------------------------------------------------------------------------
 int cubeFaceOf(const glm::dvec3& positionLight)
 {
   const glm::dvec3 length = glm::abs(positionLight);
@@ -62,7 +58,6 @@ int cubeFaceOf(const glm::dvec3& positionLight)
   return 2 * axis + (positionLight[axis] >= 0.0 ? 0 : 1);
 }
 
-//------------------------------------------------------------------------------
 glm::dmat3 cubeFaceFromLight(int face)
 {
   const int axis = face / 2;

@@ -62,7 +62,6 @@ glm::dvec3 meanOver(const LightTexture& texture, const HalfWidthAt& halfWidthAt)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const LightTexture> readLightTexture(vtkImageData* image, std::string& reason)
 {
   const int* const dimensions = image->GetDimensions();
@@ -119,7 +118,6 @@ std::shared_ptr<const LightTexture> readLightTexture(vtkImageData* image, std::s
   return texture;
 }
 
-//------------------------------------------------------------------------------
 glm::vec3 PlacedTexture::colourAt(const glm::vec3& offset) const
 {
   const glm::vec3 place = this->pictureFromWorld * offset;
@@ -131,7 +129,6 @@ glm::vec3 PlacedTexture::colourAt(const glm::vec3& offset) const
       static_cast<std::size_t>(texel.x)];
 }
 
-//------------------------------------------------------------------------------
 PlacedTexture placeTexture(std::shared_ptr<const LightTexture> texture, LightArea::Shape shape,
   const glm::dvec3& travel, const glm::dvec3& up, const glm::dvec2& halfSize)
 {

@@ -3,7 +3,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 glm::dmat4 LightView::clipFromCentred() const
 {
   const glm::dmat3& map = this->mapFromAcross;
@@ -22,7 +21,6 @@ glm::dmat4 LightView::clipFromCentred() const
   return clipFromView * this->rays.viewFromCentred;
 }
 
-//------------------------------------------------------------------------------
 bool LightView::maySee(const Bounds& centred) const
 {
   const glm::dvec2 middle = 0.5 * (this->readable.lower + this->readable.upper);
@@ -35,7 +33,6 @@ bool LightView::maySee(const Bounds& centred) const
   return mayShow(readableFromClip * this->clipFromCentred(), centred);
 }
 
-//------------------------------------------------------------------------------
 glm::dmat3 texelFromAcross(const glm::dmat3& mapFromAcross, int sizeTexels)
 {
   const double half = 0.5 * sizeTexels;
@@ -43,7 +40,6 @@ glm::dmat3 texelFromAcross(const glm::dmat3& mapFromAcross, int sizeTexels)
   return texelFromMap * mapFromAcross;
 }
 
-//------------------------------------------------------------------------------
 glm::dmat3 texelFromAcross(const LightView& view, int sizeTexels)
 {
   return texelFromAcross(view.mapFromAcross, sizeTexels);

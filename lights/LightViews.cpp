@@ -237,7 +237,6 @@ void fitCube(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 ViewLayout viewLayout(const ShadowLight& light)
 {
   const bool wide =
@@ -249,32 +248,27 @@ ViewLayout viewLayout(const ShadowLight& light)
   return light.projection == Projection::Splits ? ViewLayout::Splits : ViewLayout::Single;
 }
 
-//------------------------------------------------------------------------------
 bool isWarped(const ShadowLight& light)
 {
   return light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid;
 }
 
-//------------------------------------------------------------------------------
 bool choosesWarp(const ShadowLight& light)
 {
   return light.fittedToReceivers && light.projection == Projection::Lispsm;
 }
 
-//------------------------------------------------------------------------------
 bool isFittedToCamera(const ShadowLight& light)
 {
   return isWarped(light) || light.projection == Projection::Splits || light.fit != ViewFit::Off;
 }
 
-//------------------------------------------------------------------------------
 int mostViews(const ShadowLight& light)
 {
   const ViewLayout layout = viewLayout(light);
   return layout == ViewLayout::Cube ? cubeFaces : layout == ViewLayout::Splits ? light.splits : 1;
 }
 
-//------------------------------------------------------------------------------
 std::string refusedProjection(const ShadowLight& light)
 {
   const std::string name = findSetting("projection")->get(light);
@@ -295,7 +289,6 @@ std::string refusedProjection(const ShadowLight& light)
   return {};
 }
 
-//------------------------------------------------------------------------------
 LightViews fitLightViews(const ShadowLight& light, const ViewFitting& fitting)
 {
   LightViews result;
@@ -332,7 +325,6 @@ LightViews fitLightViews(const ShadowLight& light, const ViewFitting& fitting)
   return result;
 }
 
-//------------------------------------------------------------------------------
 void moveTexels(LightViews& views, const glm::dvec2& texels, int sideTexels)
 {
   MapFit move;

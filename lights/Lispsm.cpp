@@ -8,13 +8,11 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 double lispsmOptimum(double alpha)
 {
   return 1.0 / (std::sqrt(alpha) - 1.0);
 }
 
-//------------------------------------------------------------------------------
 glm::dmat3 lispsmFromAcross(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays)
 {
@@ -29,7 +27,6 @@ glm::dmat3 lispsmFromAcross(
   return warpedOrUniform(*frame, nearWarp, bodyView, camera, rays);
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::dmat3> lispsmSeries(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays)
 {

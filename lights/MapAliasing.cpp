@@ -8,7 +8,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 PerspectiveAliasing perspectiveAliasing(const std::vector<glm::dvec3>& bodyView,
   const CameraView& camera, const LightRays& rays, const glm::dmat3& mapFromAcross)
 {

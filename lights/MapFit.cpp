@@ -58,7 +58,6 @@ std::optional<MapFit> fitAxes(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Rectangle rangeOf(const glm::dmat3& mapFromAcross, const std::vector<glm::dvec2>& across)
 {
   Rectangle result;
@@ -69,7 +68,6 @@ Rectangle rangeOf(const glm::dmat3& mapFromAcross, const std::vector<glm::dvec2>
   return result;
 }
 
-//------------------------------------------------------------------------------
 glm::dmat3 uniformFromRange(const Rectangle& range)
 {
   if (range.empty())
@@ -86,25 +84,21 @@ glm::dmat3 uniformFromRange(const Rectangle& range)
   return fit.matrix();
 }
 
-//------------------------------------------------------------------------------
 glm::dmat3 uniformFromAcross(const std::vector<glm::dvec2>& across)
 {
   return uniformFromRange(rangeOf(glm::dmat3(1.0), across));
 }
 
-//------------------------------------------------------------------------------
 double MapTexels::inside() const
 {
   return std::max(1.0 - 2.0 * this->border / this->side, 0.5);
 }
 
-//------------------------------------------------------------------------------
 Rectangle MapTexels::covered() const
 {
   return { wholeMap.lower / this->inside(), wholeMap.upper / this->inside() };
 }
 
-//------------------------------------------------------------------------------
 std::optional<MapFit> fitTo(
   const Rectangle& visible, const MapTexels& texels, const Rectangle& covered)
 {
@@ -117,7 +111,6 @@ std::optional<MapFit> fitTo(
     });
 }
 
-//------------------------------------------------------------------------------
 std::optional<MapFit> fitSnappedTo(
   const Rectangle& visible, const MapTexels& texels, const Rectangle& covered)
 {

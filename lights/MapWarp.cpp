@@ -76,7 +76,6 @@ double halfFieldOfViewDegrees(const CameraView& camera, const glm::dvec3& asideC
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::optional<WarpFrame> warpFrame(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays)
 {
@@ -121,7 +120,6 @@ std::optional<WarpFrame> warpFrame(
   return frame;
 }
 
-//------------------------------------------------------------------------------
 glm::dmat3 warpedFromAcross(
   const WarpFrame& frame, double nearWarp, const std::vector<glm::dvec2>& across)
 {
@@ -134,7 +132,6 @@ glm::dmat3 warpedFromAcross(
   return uniformFromRange(rangeOf(warped, across)) * warped;
 }
 
-//------------------------------------------------------------------------------
 double warpEta(double gammaDegrees, double thetaDegrees)
 {
   const double gamma = std::min(gammaDegrees, 180.0 - gammaDegrees);
@@ -161,14 +158,12 @@ double warpEta(double gammaDegrees, double thetaDegrees)
   return etaC;
 }
 
-//------------------------------------------------------------------------------
 double fallOff(const WarpFrame& frame, double nearWarp)
 {
   const double eta = warpEta(frame.gammaDegrees, frame.thetaDegrees);
   return eta > -1.0 ? (nearWarp - eta) / (1.0 + eta) : std::numeric_limits<double>::infinity();
 }
 
-//------------------------------------------------------------------------------
 double leastAliasingNear(const WarpFrame& frame, const std::vector<glm::dvec3>& bodyView,
   const CameraView& camera, const LightRays& rays)
 {
@@ -210,7 +205,6 @@ double leastAliasingNear(const WarpFrame& frame, const std::vector<glm::dvec3>& 
   return std::exp(0.5 * (lower + upper));
 }
 
-//------------------------------------------------------------------------------
 glm::dmat3 warpedOrUniform(const WarpFrame& frame, double nearWarp,
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays)
 {

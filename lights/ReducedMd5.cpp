@@ -61,7 +61,6 @@ std::uint32_t mixed(std::size_t group, const glm::uvec4& state)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 glm::uvec4 reducedMd5(glm::uvec4 seed, std::uint32_t key)
 {
   seed = seed ^ glm::uvec4(key); // GLM 1.0.1 declares ^= nodiscard

@@ -57,19 +57,16 @@ void makeParallel(ShadowLight& light, const glm::dvec3& toScene)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 double SceneFrame::unitWorld() const
 {
   return std::ldexp(1.0, this->exponent);
 }
 
-//------------------------------------------------------------------------------
 double SceneFrame::unitsPerWorld() const
 {
   return std::ldexp(1.0, -this->exponent);
 }
 
-//------------------------------------------------------------------------------
 glm::dmat4 SceneFrame::centredFrom(const glm::dmat4& worldFromSpace) const
 {
   glm::dmat4 matrix = worldFromSpace;
@@ -81,7 +78,6 @@ glm::dmat4 SceneFrame::centredFrom(const glm::dmat4& worldFromSpace) const
   return matrix;
 }
 
-//------------------------------------------------------------------------------
 SceneFrame sceneFrameOf(const Bounds& boundsWorld)
 {
   const double radius = boundsWorld.radius();
@@ -101,7 +97,6 @@ SceneFrame sceneFrameOf(const Bounds& boundsWorld)
   return frame;
 }
 
-//------------------------------------------------------------------------------
 std::string enterFrame(ShadowLight& light, const SceneFrame& frame)
 {
   const double units = frame.unitsPerWorld();

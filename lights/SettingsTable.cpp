@@ -78,7 +78,6 @@ struct Expected
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string listOf(const std::vector<std::string>& names)
 {
   std::string list;
@@ -89,13 +88,11 @@ std::string listOf(const std::vector<std::string>& names)
   return list;
 }
 
-//------------------------------------------------------------------------------
 int choiceOf(int number, std::initializer_list<int> numbers)
 {
   return static_cast<int>(std::find(numbers.begin(), numbers.end(), number) - numbers.begin());
 }
 
-//------------------------------------------------------------------------------
 const std::vector<const Setting*>& shadowSettings()
 {
   static const std::vector<const Setting*> all = []
@@ -113,7 +110,6 @@ const std::vector<const Setting*>& shadowSettings()
   return all;
 }
 
-//------------------------------------------------------------------------------
 const Setting* findSetting(const std::string& name)
 {
   const std::vector<const Setting*>& settings = shadowSettings();
@@ -122,7 +118,6 @@ const Setting* findSetting(const std::string& name)
   return found == settings.end() ? nullptr : *found;
 }
 
-//------------------------------------------------------------------------------
 std::string settingNames()
 {
   std::vector<std::string> names;
@@ -133,7 +128,6 @@ std::string settingNames()
   return listOf(names);
 }
 
-//------------------------------------------------------------------------------
 std::string textOfNumber(const std::string& settingName, double number)
 {
   const Setting* const setting = findSetting(settingName);
@@ -148,13 +142,11 @@ std::string textOfNumber(const std::string& settingName, double number)
   return isInteger ? std::to_string(static_cast<int>(number)) : shortest(number);
 }
 
-//------------------------------------------------------------------------------
 std::optional<SettingValue> readValue(const SettingValues& values, const std::string& text)
 {
   return std::visit(ReadText{ text }, values);
 }
 
-//------------------------------------------------------------------------------
 std::string textOf(const SettingValues& values, const SettingValue& value)
 {
   if (const auto* text = std::get_if<std::string>(&value))
@@ -170,20 +162,17 @@ std::string textOf(const SettingValues& values, const SettingValue& value)
   return choices ? choices->names[static_cast<std::size_t>(integer)] : std::to_string(integer);
 }
 
-//------------------------------------------------------------------------------
 std::string expectedOf(const SettingValues& values)
 {
   return std::visit(Expected{}, values);
 }
 
-//------------------------------------------------------------------------------
 std::string errorOf(const std::string& name, const SettingValues& values, const std::string& found)
 {
   return "Invalid value '" + found + "' for the setting '" + name + "', expected " +
     expectedOf(values);
 }
 
-//------------------------------------------------------------------------------
 bool Setting::set(ShadowSettings& settings, const std::string& text) const
 {
   const std::optional<SettingValue> value = readValue(this->values, text);
@@ -196,7 +185,6 @@ bool Setting::set(ShadowSettings& settings, const std::string& text) const
   return true;
 }
 
-//------------------------------------------------------------------------------
 std::string Setting::get(const ShadowSettings& settings) const
 {
   return textOf(this->values, this->read(settings));

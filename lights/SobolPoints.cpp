@@ -67,7 +67,6 @@ shuffled(std::uint32_t number, std::uint32_t seed)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 SobolPoints::SobolPoints(int count, std::uint32_t seed)
   : orderSeed_(hashOf(seed + 4u))
 {
@@ -111,7 +110,6 @@ SobolPoints::SobolPoints(int count, std::uint32_t seed)
   }
 }
 
-//------------------------------------------------------------------------------
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]
 #endif
@@ -129,7 +127,6 @@ SobolPoints::sobol(std::uint32_t number) const
   return { x, y, z };
 }
 
-//------------------------------------------------------------------------------
 std::uint32_t SobolPoints::partOf(const glm::uvec3& point) const
 {
   const auto leading = [](std::uint32_t word, int bits)
@@ -138,7 +135,6 @@ std::uint32_t SobolPoints::partOf(const glm::uvec3& point) const
     leading(point.x, this->columnBits_);
 }
 
-//------------------------------------------------------------------------------
 SamplePixel SobolPoints::pixel(std::uint32_t column, std::uint32_t row) const
 {
   const std::uint32_t place = shuffled(spread(column) | (spread(row) << 1), this->orderSeed_);

@@ -6,7 +6,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 std::vector<double> splitDistances(const DistanceInterval& visible, int count, double lambda)
 {
   const double n = visible.nearest;

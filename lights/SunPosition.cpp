@@ -132,7 +132,6 @@ constexpr double daysOfCentury = 36525.0;
 
 } // namespace
 
-//------------------------------------------------------------------------------
 SunPosition sunPosition(const SunView& view)
 {
   const double century = (view.julianDay - julianDay2000) / daysOfCentury;
@@ -186,7 +185,6 @@ SunPosition sunPosition(const SunView& view)
     glm::degrees(std::asin(glm::clamp(sine, -1.0, 1.0))), glm::degrees(declinationSeen), distance };
 }
 
-//------------------------------------------------------------------------------
 double refractionDegrees(double elevationDegrees, double pressureMillibar, double celsius)
 {
   constexpr double radiusAndRefraction = 0.26667 + 0.5667;
@@ -199,7 +197,6 @@ double refractionDegrees(double elevationDegrees, double pressureMillibar, doubl
     (60.0 * std::tan(glm::radians(lifted)));
 }
 
-//------------------------------------------------------------------------------
 double julianDayOf(int year, int month, int day)
 {
   if (month <= 2) // counts as a month of the previous year
@@ -212,7 +209,6 @@ double julianDayOf(int year, int month, int day)
     century + std::floor(century / 4.0) - 1524.5;
 }
 
-//------------------------------------------------------------------------------
 int daysOfMonth(int year, int month)
 {
   constexpr std::array<int, 12> days = { 31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31 };

@@ -35,7 +35,6 @@ double focusOf(const WarpFrame& frame, const CameraView& camera, const LightRays
 
 } // namespace
 
-//------------------------------------------------------------------------------
 glm::dmat3 trapezoidFromAcross(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays)
 {

@@ -114,7 +114,6 @@ HalfSpace beyond(const CameraView& camera, const LightRays& rays, double distanc
 
 } // namespace
 
-//------------------------------------------------------------------------------
 ConvexBody::ConvexBody(const Bounds& box, const glm::dmat4& transformation)
 {
   if (box.empty())
@@ -143,7 +142,6 @@ ConvexBody::ConvexBody(const Bounds& box, const glm::dmat4& transformation)
   }
 }
 
-//------------------------------------------------------------------------------
 ConvexBody ConvexBody::clipped(const HalfSpace& halfSpace) const
 {
   ConvexBody result;
@@ -171,7 +169,6 @@ ConvexBody ConvexBody::clipped(const HalfSpace& halfSpace) const
   return result;
 }
 
-//------------------------------------------------------------------------------
 ConvexBody ConvexBody::clipped(const std::vector<HalfSpace>& halfSpaces) const
 {
   ConvexBody result = *this;
@@ -182,7 +179,6 @@ ConvexBody ConvexBody::clipped(const std::vector<HalfSpace>& halfSpaces) const
   return result;
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::dvec3> ConvexBody::vertices() const
 {
   std::vector<glm::dvec3> result;
@@ -194,7 +190,6 @@ std::vector<glm::dvec3> ConvexBody::vertices() const
   return result;
 }
 
-//------------------------------------------------------------------------------
 std::vector<HalfSpace> coneHalfSpaces(double coneTangent, double nearest)
 {
   std::vector<HalfSpace> result{ { 0.0, 0.0, 1.0, -nearest } };
@@ -207,21 +202,18 @@ std::vector<HalfSpace> coneHalfSpaces(double coneTangent, double nearest)
   return result;
 }
 
-//------------------------------------------------------------------------------
 std::vector<HalfSpace> cubeFaceHalfSpaces(double nearest)
 {
   return { { 0.0, 0.0, 1.0, -nearest }, { -1.0, 0.0, 1.0, 0.0 }, { 1.0, 0.0, 1.0, 0.0 },
     { 0.0, -1.0, 1.0, 0.0 }, { 0.0, 1.0, 1.0, 0.0 } };
 }
 
-//------------------------------------------------------------------------------
 std::vector<HalfSpace> boxHalfSpaces(const glm::dvec3& box)
 {
   return { { 0.0, 0.0, 1.0, 0.0 }, { 0.0, 0.0, -1.0, box.z }, { -1.0, 0.0, 0.0, box.x },
     { 1.0, 0.0, 0.0, box.x }, { 0.0, -1.0, 0.0, box.y }, { 0.0, 1.0, 0.0, box.y } };
 }
 
-//------------------------------------------------------------------------------
 double nearestOf(const Bounds& sceneCentred, const LightRays& rays)
 {
   double farthest = 0.0;
@@ -232,7 +224,6 @@ double nearestOf(const Bounds& sceneCentred, const LightRays& rays)
   return nearestShare * farthest;
 }
 
-//------------------------------------------------------------------------------
 ConvexBody visibleBody(const CameraView& camera, const Bounds& sceneCentred, const LightRays& rays,
   const std::vector<HalfSpace>& reach)
 {
@@ -247,7 +238,6 @@ ConvexBody visibleBody(const CameraView& camera, const Bounds& sceneCentred, con
   return ConvexBody(sceneCentred, rays.viewFromCentred).clipped(reach).clipped(frustum);
 }
 
-//------------------------------------------------------------------------------
 ConvexBody sliced(const ConvexBody& body, const CameraView& camera, const LightRays& rays,
   double nearDistance, double farDistance)
 {
@@ -255,7 +245,6 @@ ConvexBody sliced(const ConvexBody& body, const CameraView& camera, const LightR
     .clipped(-beyond(camera, rays, farDistance));
 }
 
-//------------------------------------------------------------------------------
 DistanceRange distancesOf(
   const std::vector<glm::dvec3>& pointsView, const CameraView& camera, const LightRays& rays)
 {

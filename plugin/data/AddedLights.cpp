@@ -24,20 +24,17 @@ std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& n)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isDirection(const glm::dvec3& vector)
 {
   const double length = glm::length(vector);
   return length > 0.0 && std::isfinite(length);
 }
 
-//------------------------------------------------------------------------------
 bool areHours(double hours)
 {
   return hours >= 0.0 && std::isfinite(hours);
 }
 
-//------------------------------------------------------------------------------
 const AddedLight* findLight(const std::vector<AddedLight>& lights, int number)
 {
   return number >= 0 && number < static_cast<int>(lights.size())
@@ -45,7 +42,6 @@ const AddedLight* findLight(const std::vector<AddedLight>& lights, int number)
     : nullptr;
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType changeTime(const std::vector<AddedLight>& lights)
 {
   vtkMTimeType time = 0;
@@ -56,7 +52,6 @@ vtkMTimeType changeTime(const std::vector<AddedLight>& lights)
   return time;
 }
 
-//------------------------------------------------------------------------------
 std::vector<WeightedLight> weightedLights(const std::vector<AddedLight>& added,
   const SceneFrame& frame, double diameterDegrees, std::string& reason)
 {

@@ -89,7 +89,6 @@ double share(std::size_t part, std::size_t all)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 glm::dvec3 KeyDirection::towardsView() const
 {
   const double yaw = glm::radians(this->left);
@@ -97,7 +96,6 @@ glm::dvec3 KeyDirection::towardsView() const
   return { -std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw) };
 }
 
-//------------------------------------------------------------------------------
 CoarsePicture::CoarsePicture(const Occluders& occluders, const CameraView& camera)
   : worldFromView_(glm::transpose(glm::dmat3(camera.viewFromCentred)))
 {
@@ -122,7 +120,6 @@ CoarsePicture::CoarsePicture(const Occluders& occluders, const CameraView& camer
   this->findGround();
 }
 
-//------------------------------------------------------------------------------
 /// Find the points that the camera's rays meet.
 void CoarsePicture::look(
   const Occluders& occluders, const CameraView& camera, const EmbreeTracer& eye)
@@ -160,7 +157,6 @@ void CoarsePicture::look(
   }
 }
 
-//------------------------------------------------------------------------------
 /// Mark the ground, and forget what lies on it far from the subject.
 void CoarsePicture::findGround()
 {
@@ -204,7 +200,6 @@ void CoarsePicture::findGround()
     this->points_.begin(), this->points_.end(), [](const Point& point) { return point.isGround; }));
 }
 
-//------------------------------------------------------------------------------
 LightShares CoarsePicture::sharesOf(const KeyDirection& direction) const
 {
   const glm::vec3 towards(this->towards(direction));
@@ -237,7 +232,6 @@ LightShares CoarsePicture::sharesOf(const KeyDirection& direction) const
                                 share(counts[0][1], this->groundCount_) };
 }
 
-//------------------------------------------------------------------------------
 CoarsePicture::Choice CoarsePicture::chooseKey() const
 {
   const std::vector<KeyDirection> all = directions();

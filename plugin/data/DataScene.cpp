@@ -38,7 +38,6 @@ void sumUp(std::vector<std::uint32_t>& first)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 DataScene::DataScene(const std::vector<Input>& inputs)
 {
   Bounds boundsWorld;
@@ -75,7 +74,6 @@ DataScene::DataScene(const std::vector<Input>& inputs)
   }
 }
 
-//------------------------------------------------------------------------------
 void DataScene::add(const Input& input, int number)
 {
   vtkIdType firstCell = input.data->GetNumberOfVerts() + input.data->GetNumberOfLines();
@@ -129,7 +127,6 @@ void DataScene::add(const Input& input, int number)
   }
 }
 
-//------------------------------------------------------------------------------
 template <typename Visit>
 void DataScene::visitReceivers(const Visit& visit) const
 {
@@ -143,7 +140,6 @@ void DataScene::visitReceivers(const Visit& visit) const
   }
 }
 
-//------------------------------------------------------------------------------
 DataScene::Elements DataScene::cells() const
 {
   Elements elements;
@@ -162,7 +158,6 @@ DataScene::Elements DataScene::cells() const
   return elements;
 }
 
-//------------------------------------------------------------------------------
 DataScene::Elements DataScene::points() const
 {
   Elements all;
@@ -212,7 +207,6 @@ DataScene::Elements DataScene::points() const
   return elements;
 }
 
-//------------------------------------------------------------------------------
 std::optional<glm::dvec3> DataScene::pointCentred(std::size_t point) const
 {
   const std::uint32_t vertex = this->vertexOfPoint_[point];

@@ -90,7 +90,6 @@ std::uint32_t hashOf(std::uint32_t key)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void SampleStarts::clear()
 {
   this->position.clear();
@@ -100,7 +99,6 @@ void SampleStarts::clear()
   this->disc.clear();
 }
 
-//------------------------------------------------------------------------------
 ReceiverStarts::ReceiverStarts(
   const DataScene& scene, bool ofPoints, int samples, bool hasDisc, ReceivingSide side)
   : scene_(scene)
@@ -114,7 +112,6 @@ ReceiverStarts::ReceiverStarts(
 {
 }
 
-//------------------------------------------------------------------------------
 std::vector<std::uint32_t> ReceiverStarts::order() const
 {
   const Bounds bounds = [this]
@@ -150,7 +147,6 @@ std::vector<std::uint32_t> ReceiverStarts::order() const
   return order;
 }
 
-//------------------------------------------------------------------------------
 void ReceiverStarts::append(std::size_t element, SampleStarts& starts, bool middle) const
 {
   if (this->ofPoints_)
@@ -175,7 +171,6 @@ void ReceiverStarts::append(std::size_t element, SampleStarts& starts, bool midd
   }
 }
 
-//------------------------------------------------------------------------------
 float ReceiverStarts::offsetOf(std::uint32_t triangle) const
 {
   const Corners corners = this->scene_.corners(triangle);
@@ -188,7 +183,6 @@ float ReceiverStarts::offsetOf(std::uint32_t triangle) const
   return shadowRayOffsetInside(noise, static_cast<float>(longest / pixelsAlong));
 }
 
-//------------------------------------------------------------------------------
 void ReceiverStarts::appendStart(
   std::uint32_t triangle, const glm::dvec3& at, float leastOffset, SampleStarts& starts) const
 {
@@ -198,7 +192,6 @@ void ReceiverStarts::appendStart(
   starts.offset.push_back(std::max(leastOffset, this->offsetOf(triangle)));
 }
 
-//------------------------------------------------------------------------------
 /// Return the centroid of a cell's triangles, weighted by area.
 glm::dvec3 ReceiverStarts::middleOf(std::size_t element) const
 {
@@ -215,7 +208,6 @@ glm::dvec3 ReceiverStarts::middleOf(std::size_t element) const
   return sum / area; // triangles of the snapshot have an area
 }
 
-//------------------------------------------------------------------------------
 /// Append a cell's start on the triangle closest to its middle. That may be an edge between two
 /// triangles, so that the start is off both.
 void ReceiverStarts::appendMiddle(std::size_t element, SampleStarts& starts) const
@@ -247,7 +239,6 @@ void ReceiverStarts::appendMiddle(std::size_t element, SampleStarts& starts) con
   starts.first.push_back(static_cast<std::uint32_t>(starts.position.size()));
 }
 
-//------------------------------------------------------------------------------
 /// Append starts spread over a cell. The unit square is cut into columns, one for each triangle,
 /// with a width in proportion to its area. Each column maps to its triangle such that areas keep
 /// their shares (Turk 1990).
@@ -283,7 +274,6 @@ void ReceiverStarts::appendSpread(std::size_t element, SampleStarts& starts) con
   }
 }
 
-//------------------------------------------------------------------------------
 void ReceiverStarts::appendCorners(std::size_t element, SampleStarts& starts) const
 {
   const std::optional<glm::dvec3> point = this->scene_.pointCentred(element);
@@ -298,7 +288,6 @@ void ReceiverStarts::appendCorners(std::size_t element, SampleStarts& starts) co
   starts.first.push_back(static_cast<std::uint32_t>(starts.position.size()));
 }
 
-//------------------------------------------------------------------------------
 /// Append disc points in random order, since both they and the starts come from one sequence.
 void ReceiverStarts::appendDisc(std::size_t element, SampleStarts& starts) const
 {

@@ -18,7 +18,6 @@ struct SkyRun::Scratch
   std::vector<float> radiance;      ///< likewise
 };
 
-//------------------------------------------------------------------------------
 SkyRun::SkyRun(const ReceiverStarts& starts, const EmbreeTracer& tracer, const Sky& sky,
   int directions, bool bothSides, const Arrays& arrays)
   : receivers_(starts)
@@ -31,14 +30,12 @@ SkyRun::SkyRun(const ReceiverStarts& starts, const EmbreeTracer& tracer, const S
 {
 }
 
-//------------------------------------------------------------------------------
 std::uint64_t SkyRun::rays() const
 {
   return std::uint64_t(this->done_) * static_cast<std::uint64_t>(this->directions_.count()) *
     (this->bothSides_ ? 2 : 1);
 }
 
-//------------------------------------------------------------------------------
 bool SkyRun::go(const std::function<bool(double)>& goOn)
 {
   const auto count = static_cast<std::size_t>(this->directions_.count());
@@ -66,7 +63,6 @@ bool SkyRun::go(const std::function<bool(double)>& goOn)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void SkyRun::see(std::size_t element, Scratch& scratch) const
 {
   SampleStarts& starts = scratch.starts;
@@ -94,7 +90,6 @@ void SkyRun::see(std::size_t element, Scratch& scratch) const
   }
 }
 
-//------------------------------------------------------------------------------
 /// Trace an element's rays, each from one of its starts by chance.
 SkySums SkyRun::trace(std::size_t element, float side, Scratch& scratch) const
 {

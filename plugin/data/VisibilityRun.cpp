@@ -57,7 +57,6 @@ bool mayShine(const WeightedLight& light, const glm::vec3& up)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 VisibilityRun::VisibilityRun(const DataScene& scene, const ReceiverStarts& starts,
   const EmbreeTracer& tracer, Plan plan, const VisibilityArrays& arrays)
   : scene_(scene)
@@ -76,7 +75,6 @@ VisibilityRun::VisibilityRun(const DataScene& scene, const ReceiverStarts& start
   this->orderLights();
 }
 
-//------------------------------------------------------------------------------
 /// Sort directions along the curve, then append the lights that have a position. Directions below
 /// the horizon are left out.
 void VisibilityRun::orderLights()
@@ -103,14 +101,12 @@ void VisibilityRun::orderLights()
   this->plan_.lights = std::move(lights);
 }
 
-//------------------------------------------------------------------------------
 std::size_t VisibilityRun::chunkSize() const
 {
   return std::max<std::size_t>(
     1, samplesOfChunk / static_cast<std::size_t>(this->receivers_.samples()));
 }
 
-//------------------------------------------------------------------------------
 double VisibilityRun::shareDone() const
 {
   // No lights remain if all are below the horizon.
@@ -121,7 +117,6 @@ double VisibilityRun::shareDone() const
   return this->order_.empty() ? 1.0 : done / static_cast<double>(this->order_.size());
 }
 
-//------------------------------------------------------------------------------
 bool VisibilityRun::go(const std::function<bool(double)>& goOn)
 {
   while (this->chunkBegin_ < this->order_.size())
@@ -149,7 +144,6 @@ bool VisibilityRun::go(const std::function<bool(double)>& goOn)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void VisibilityRun::beginChunk()
 {
   this->chunkBegun_ = true;
@@ -158,7 +152,6 @@ void VisibilityRun::beginChunk()
   this->hours_.assign((this->chunkEnd_ - this->chunkBegin_) * this->samplesOfElement_, 0.0);
 }
 
-//------------------------------------------------------------------------------
 void VisibilityRun::traceBlock(std::size_t firstLight, std::size_t lastLight)
 {
   const std::size_t elements = this->chunkEnd_ - this->chunkBegin_;
@@ -177,7 +170,6 @@ void VisibilityRun::traceBlock(std::size_t firstLight, std::size_t lastLight)
   this->rays_ += rays;
 }
 
-//------------------------------------------------------------------------------
 /// Trace a tile.
 /// @param firstElement, lastElement counted from the chunk's first
 /// @return the number of rays
@@ -238,7 +230,6 @@ std::uint64_t VisibilityRun::traceTile(
   return tile.rays();
 }
 
-//------------------------------------------------------------------------------
 void VisibilityRun::explain()
 {
   if (!this->arrays_.fate && !this->arrays_.blockerCell && !this->arrays_.blockerInput)
@@ -256,7 +247,6 @@ void VisibilityRun::explain()
     });
 }
 
-//------------------------------------------------------------------------------
 /// Explain the fate of the element's middle. A point has the fate of its start that is nearest to
 /// being lit. A start that faces the light precedes one that does not.
 void VisibilityRun::explainOne(std::size_t element, SampleStarts& starts) const
@@ -320,7 +310,6 @@ void VisibilityRun::explainOne(std::size_t element, SampleStarts& starts) const
   set(this->arrays_.blockerInput, input);
 }
 
-//------------------------------------------------------------------------------
 void VisibilityRun::finishChunk()
 {
   const auto samples = static_cast<double>(this->samplesOfElement_);

@@ -26,7 +26,6 @@ bool mayTakeMap(const LightPlan& plan)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const PointwiseTechnique* CastingLight::pointwise() const
 {
   if (this->filtered && this->plan.shadedBy != ShadedBy::Fetch)
@@ -45,7 +44,6 @@ const PointwiseTechnique* CastingLight::pointwise() const
   return nullptr;
 }
 
-//------------------------------------------------------------------------------
 void CastingLights::begin(const std::vector<LightPlan>& lights, TechniqueCache& ofView)
 {
   this->lights_.clear();
@@ -65,7 +63,6 @@ void CastingLights::begin(const std::vector<LightPlan>& lights, TechniqueCache& 
   }
 }
 
-//------------------------------------------------------------------------------
 void CastingLights::take(const std::vector<LightPlan>& lights)
 {
   for (const LightPlan& plan : lights)
@@ -80,14 +77,12 @@ void CastingLights::take(const std::vector<LightPlan>& lights)
   }
 }
 
-//------------------------------------------------------------------------------
 LightTechnique& CastingLights::techniqueOf(
   const ShadowLight& light, const EstimatorEntry& estimator)
 {
   return this->cacheOf(light).of(light.sceneIndex, estimator);
 }
 
-//------------------------------------------------------------------------------
 void CastingLights::endFrame()
 {
   for (const CastingLight& casting : this->lights_)
@@ -106,7 +101,6 @@ void CastingLights::endFrame()
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return the cache of a light's techniques. Maps that are fitted to a camera in every frame belong
 /// to one view.
 TechniqueCache& CastingLights::cacheOf(const ShadowLight& light)
@@ -114,7 +108,6 @@ TechniqueCache& CastingLights::cacheOf(const ShadowLight& light)
   return isFittedToCamera(light) && light.fit != ViewFit::Once ? *this->ofView_ : this->ofAllViews_;
 }
 
-//------------------------------------------------------------------------------
 bool smoothsEdges(const CastingLights& lights)
 {
   return std::any_of(lights.begin(), lights.end(),

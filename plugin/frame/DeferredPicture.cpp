@@ -42,7 +42,6 @@ void attachTo(GLenum target, GLenum attachment, GLuint texture)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string DeferredPicture::whyUnsupported()
 {
   GLint framebuffer = 0;
@@ -63,7 +62,6 @@ std::string DeferredPicture::whyUnsupported()
   return "";
 }
 
-//------------------------------------------------------------------------------
 void DeferredPicture::attach(bool withFragments)
 {
   GLint viewport[4];
@@ -90,7 +88,6 @@ void DeferredPicture::attach(bool withFragments)
   }
 }
 
-//------------------------------------------------------------------------------
 void DeferredPicture::allocate(const glm::ivec2& extent, bool eightBit)
 {
   const bool isSameExtent = this->extent_ == extent;
@@ -115,7 +112,6 @@ void DeferredPicture::allocate(const glm::ivec2& extent, bool eightBit)
   this->eightBit_ = eightBit;
 }
 
-//------------------------------------------------------------------------------
 /// Copy the picture so far into the colours in shadow, because fragments may blend with it.
 void DeferredPicture::copyPicture() const
 {
@@ -145,7 +141,6 @@ void DeferredPicture::copyPicture() const
     from.x, from.y, to.x, to.y, from.x, from.y, to.x, to.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-//------------------------------------------------------------------------------
 void DeferredPicture::detach()
 {
   if (this->blending_)
@@ -157,7 +152,6 @@ void DeferredPicture::detach()
   glDrawBuffers(1, outputs.data());
 }
 
-//------------------------------------------------------------------------------
 void DeferredPicture::read(ReceiverImages& images) const
 {
   images.width = this->size_.x;
@@ -168,7 +162,6 @@ void DeferredPicture::read(ReceiverImages& images) const
     this->framebuffer_.name(), this->origin_, this->size_, GL_RG, images.fragments.data());
 }
 
-//------------------------------------------------------------------------------
 void DeferredPicture::readDepths(std::vector<float>& depths) const
 {
   GLint picture = 0;
@@ -176,7 +169,6 @@ void DeferredPicture::readDepths(std::vector<float>& depths) const
   gnomon::readDepths(static_cast<GLuint>(picture), this->origin_, this->size_, depths);
 }
 
-//------------------------------------------------------------------------------
 void DeferredPicture::keepShadows(const std::vector<float>& visibility)
 {
   const ShadowedTiles tiles = findShadowedTiles(visibility, this->size_);
@@ -207,7 +199,6 @@ void DeferredPicture::keepShadows(const std::vector<float>& visibility)
   glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
-//------------------------------------------------------------------------------
 /// Upload visibility for the mixture of colours. The caller holds a GlStateGuard.
 void DeferredPicture::uploadMixed(const std::vector<float>& visibility)
 {
@@ -231,7 +222,6 @@ void DeferredPicture::uploadMixed(const std::vector<float>& visibility)
     GL_TEXTURE_2D, 0, 0, 0, this->size_.x, this->size_.y, GL_RED, GL_UNSIGNED_SHORT, texels.data());
 }
 
-//------------------------------------------------------------------------------
 void DeferredPicture::darken(const TextureBinding& visibility, ShaderLibrary& shaders)
 {
   const GlStateGuard guard;
@@ -270,7 +260,6 @@ void DeferredPicture::darken(const TextureBinding& visibility, ShaderLibrary& sh
   draw({ "SOME_ARE_LIT", "MIXES" }, 0, this->cornersInPart_);
 }
 
-//------------------------------------------------------------------------------
 std::size_t DeferredPicture::bytes() const
 {
   // Fragments of two floats, and a colour.

@@ -24,7 +24,6 @@ void put(std::uint32_t& texel, std::size_t light, float visibility)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void EdgeImage::update(
   const glm::ivec2& size, const std::vector<const std::vector<EdgePixel>*>& ofLights)
 {
@@ -56,7 +55,6 @@ void EdgeImage::update(
   this->upload(width);
 }
 
-//------------------------------------------------------------------------------
 void EdgeImage::upload(std::size_t width)
 {
   constexpr std::size_t rowsAtOnce = 64; // so that a few edges more fit into the same texture
@@ -76,7 +74,6 @@ void EdgeImage::upload(std::size_t width)
     GL_TEXTURE_2D, 0, 0, 0, columns, rows, format.format, format.type, this->texels_.data());
 }
 
-//------------------------------------------------------------------------------
 std::size_t EdgeImage::bytes() const
 {
   return bytesOf(this->texels_) + this->texture_.bytes();

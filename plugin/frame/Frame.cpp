@@ -5,7 +5,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 void Frame::endStage(const std::string& name)
 {
   if (this->wishes.measureStages)
@@ -16,7 +15,6 @@ void Frame::endStage(const std::string& name)
   }
 }
 
-//------------------------------------------------------------------------------
 void Frame::noteReuse(const std::string& value, const std::string& changes)
 {
   this->counts.values.push_back({ value, changes.empty(), changes });

@@ -9,7 +9,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 FramePlanner::FramePlanner(
   Frame& frame, const Occluders& occluders, SnapshotTracer& tracer, ShaderLibrary& shaders)
   : frame_(frame)
@@ -19,7 +18,6 @@ FramePlanner::FramePlanner(
 {
 }
 
-//------------------------------------------------------------------------------
 void FramePlanner::plan(const Bake& bake, const ReadDeferredFacts& readDeferredFacts)
 {
   const double start = steadyMilliseconds();
@@ -52,7 +50,6 @@ void FramePlanner::plan(const Bake& bake, const ReadDeferredFacts& readDeferredF
   this->milliseconds_ = steadyMilliseconds() - start;
 }
 
-//------------------------------------------------------------------------------
 /// Have all processes plan by the first one's times: it may be the only one with an interactor.
 void FramePlanner::takeTimesOfFirst()
 {
@@ -75,7 +72,6 @@ void FramePlanner::takeTimesOfFirst()
   }
 }
 
-//------------------------------------------------------------------------------
 Evidence FramePlanner::gather(
   const EvidenceRequest& request, const LightPlan& resting, const Bake& bake)
 {
@@ -103,7 +99,6 @@ Evidence FramePlanner::gather(
   return evidence;
 }
 
-//------------------------------------------------------------------------------
 /// Probe a light's map until it is clear on which side of a limit its error is. A map that is shown
 /// meanwhile has one look in this frame. If the light shines on a small part of the picture, look
 /// there, too.
@@ -141,7 +136,6 @@ void FramePlanner::probe(const PointwiseTechnique& technique, const ShadowLight&
   this->frame_.counts.probes += static_cast<std::int64_t>(found.asked - before);
 }
 
-//------------------------------------------------------------------------------
 /// Probe an area light's visibility, traced from another light, until it is clear on which side of
 /// a limit its error is.
 /// @return true if it is clear that it keeps the limit
@@ -160,7 +154,6 @@ bool FramePlanner::keepsError(const ShadowLight& other, const ShadowLight& light
   return found.mostRms() <= limit;
 }
 
-//------------------------------------------------------------------------------
 /// Find pixels to probe: the same ones for all probes of a frame, unless `looked_` is false.
 void FramePlanner::look()
 {
@@ -173,7 +166,6 @@ void FramePlanner::look()
   }
 }
 
-//------------------------------------------------------------------------------
 void FramePlanner::remember(double milliseconds, bool isUsual)
 {
   MotionTimes& times = this->history_.times;

@@ -99,7 +99,6 @@ void reportProcesses(FrameReport& report, const Ranks& ranks, const SharedReceiv
 
 } // namespace
 
-//------------------------------------------------------------------------------
 FrameReport reportOf(
   const Frame& frame, const OccluderCollector& collector, const FrameTotals& totals)
 {

@@ -152,7 +152,6 @@ constexpr int mostFetchesOneByOne = 15;
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string litOf(const CastingLight& casting, int light)
 {
   return casting.lightInShaders().texture ? "gnomonLit" + std::to_string(light)
@@ -160,7 +159,6 @@ std::string litOf(const CastingLight& casting, int light)
                                           : "1.0";
 }
 
-//------------------------------------------------------------------------------
 HookGlsl::HookGlsl(const HookVariant& variant, const CastingLights& lights)
   : variant_(variant)
   , hasLights_(!lights.empty() || variant.skyLayer != noSkyLayer)
@@ -211,7 +209,6 @@ HookGlsl::HookGlsl(const HookVariant& variant, const CastingLights& lights)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Add how shaders find a pixel's visibility in images.
 void HookGlsl::addImages()
 {
@@ -255,7 +252,6 @@ void HookGlsl::addImages()
   }
 }
 
-//------------------------------------------------------------------------------
 void HookGlsl::addLights(const CastingLights& lights)
 {
   int number = 0;
@@ -285,7 +281,6 @@ void HookGlsl::addLights(const CastingLights& lights)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return statements that light a fragment by the sky, before VTK's lights; empty if VTK does not
 /// light it.
 /// @param view the expression of the fragment's view of the sky
@@ -307,7 +302,6 @@ std::string HookGlsl::lightOfSky(const std::string& fragmentShader, const std::s
     share + ");\n";
 }
 
-//------------------------------------------------------------------------------
 bool HookGlsl::operator==(const HookGlsl& other) const
 {
   const auto parts = [](const HookGlsl& of)
@@ -319,14 +313,12 @@ bool HookGlsl::operator==(const HookGlsl& other) const
   return parts(*this) == parts(other);
 }
 
-//------------------------------------------------------------------------------
 bool HookGlsl::serve(bool receiversStage)
 {
   const bool hasOwn = this->variant_.numbering == Numbering::Receivers && receiversStage;
   return std::exchange(this->receiversStage_, hasOwn) != hasOwn;
 }
 
-//------------------------------------------------------------------------------
 std::map<std::string, std::vector<std::string>> HookGlsl::samplers() const
 {
   static const std::regex declaration("uniform ([iu]?sampler\\w+) (\\w+);");
@@ -340,7 +332,6 @@ std::map<std::string, std::vector<std::string>> HookGlsl::samplers() const
   return samplers;
 }
 
-//------------------------------------------------------------------------------
 void HookGlsl::mark(
   std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const
 {
@@ -362,7 +353,6 @@ void HookGlsl::mark(
   replace(fragmentShader, light, beginMarker + "\n  " + light);
 }
 
-//------------------------------------------------------------------------------
 void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader,
   std::string& fragmentShader, bool drawsReceivers, int corners) const
 {
@@ -455,7 +445,6 @@ void HookGlsl::fill(const std::string& vertexShader, std::string& geometryShader
   replace(fragmentShader, endMarker, end);
 }
 
-//------------------------------------------------------------------------------
 /// Return statements that compute gnomonInShadow, the fragment's colour with the light hidden, in a
 /// scope of their own.
 std::string HookGlsl::lightInShadow(const std::string& fragmentShader) const
@@ -464,7 +453,6 @@ std::string HookGlsl::lightInShadow(const std::string& fragmentShader) const
     "\n  gnomonInShadow = gl_FragData[0];\n  }\n";
 }
 
-//------------------------------------------------------------------------------
 /// Return statements that compute gnomonUnshadowed, the colour of a shadow catcher that nothing
 /// hides a light from. They end its highlights: these belong to the camera, not to the place.
 std::string HookGlsl::lightWithoutCasters(const std::string& fragmentShader) const
@@ -477,7 +465,6 @@ std::string HookGlsl::lightWithoutCasters(const std::string& fragmentShader) con
     "\n  gnomonUnshadowed = gl_FragData[0];\n  ambientColor = gnomonAmbient;\n  }\n";
 }
 
-//------------------------------------------------------------------------------
 /// Return statements that write the receiver's outputs.
 /// @param primitive the expression of the driver's number
 std::string HookGlsl::writeReceiver(bool receives, const std::string& primitive) const

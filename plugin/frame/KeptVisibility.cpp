@@ -139,7 +139,6 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
 
 } // namespace
 
-//------------------------------------------------------------------------------
 VisibilityImages keepVisibility(const CastingLights& lights, const ViewValues& view,
   const ReceiverPixels& receivers, const Occluders& occluders,
   const std::vector<SurfaceName>& names)

@@ -10,14 +10,12 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 LightTechnique::LightTechnique(const EstimatorEntry& estimator)
   : estimator_(&estimator)
   , technique_(estimator.create())
 {
 }
 
-//------------------------------------------------------------------------------
 /// Return why an optional map is neither used nor baked later, as a clause; empty if it may be.
 std::string LightTechnique::reasonAgainstMap(
   const ShadowLight& light, const MapStage& stage, bool isBaked) const
@@ -33,7 +31,6 @@ std::string LightTechnique::reasonAgainstMap(
   return this->takesRays_ ? "" : "the light needs few shadow rays, or none, without a map";
 }
 
-//------------------------------------------------------------------------------
 void LightTechnique::updateMaps(
   const ShadowLight& light, const MapStage& stage, LightCounts& counts)
 {
@@ -77,7 +74,6 @@ void LightTechnique::updateMaps(
   counts.castersLeftOut = this->baked_.castersLeftOut;
 }
 
-//------------------------------------------------------------------------------
 /// Lay out the light's views, and store the fitting.
 LightViews LightTechnique::layOut(
   const ShadowLight& light, const MapStage& stage, const MapReach& reach)
@@ -111,7 +107,6 @@ LightViews LightTechnique::layOut(
   return views;
 }
 
-//------------------------------------------------------------------------------
 /// Return the inputs of the maps of this frame.
 LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const MapStage& stage)
 {
@@ -132,7 +127,6 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
   return wanted;
 }
 
-//------------------------------------------------------------------------------
 void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake wanted)
 {
   this->baked_.key.reset(); // stays empty if memory runs out
@@ -156,7 +150,6 @@ void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake 
   ++stage.counts.mapBakes;
 }
 
-//------------------------------------------------------------------------------
 std::string LightTechnique::Bake::changesTo(const Bake& wanted) const
 {
   return this->key ? wanted.key->changesFrom(*this->key) : "there were none";

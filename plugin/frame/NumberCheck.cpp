@@ -133,19 +133,16 @@ NumberCheck emptyCheck(std::size_t surfaces)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::int64_t NumberCheck::allPixels() const
 {
   return std::accumulate(this->pixels.begin(), this->pixels.end(), std::int64_t(0));
 }
 
-//------------------------------------------------------------------------------
 std::int64_t NumberCheck::allWrong() const
 {
   return std::accumulate(this->wrong.begin(), this->wrong.end(), std::int64_t(0));
 }
 
-//------------------------------------------------------------------------------
 NumberCheck checkNumbers(const ReceiverImages& images, const NumberTruth& truth,
   const std::vector<DrawnSurface>& drawnSurfaces, const std::vector<std::uint8_t>& compared,
   const Occluders& occluders)

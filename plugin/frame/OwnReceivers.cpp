@@ -6,7 +6,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 Receivers& OwnReceivers::receivers()
 {
   ReceiversValue& value = this->frame_.view->receivers;
@@ -30,7 +29,6 @@ Receivers& OwnReceivers::receivers()
   return *value.onCpu;
 }
 
-//------------------------------------------------------------------------------
 void OwnReceivers::prepare()
 {
   Receivers& receivers = this->receivers();

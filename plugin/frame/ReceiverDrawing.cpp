@@ -157,13 +157,11 @@ bool isLeafDrawnByPasses(vtkProp* leaf)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool hasOwnShaders(vtkProp* prop)
 {
   return factsOf(prop).ofUser;
 }
 
-//------------------------------------------------------------------------------
 ShownProps readShownProps(const vtkRenderState* s, PropRecords& records)
 {
   ShownProps shown;
@@ -192,7 +190,6 @@ ShownProps readShownProps(const vtkRenderState* s, PropRecords& records)
   return shown;
 }
 
-//------------------------------------------------------------------------------
 ByPasses drawnByPasses(vtkProp* prop)
 {
   if (!isAssembly(prop))
@@ -211,7 +208,6 @@ ByPasses drawnByPasses(vtkProp* prop)
   return all ? ByPasses::All : any ? ByPasses::Some : ByPasses::Nothing;
 }
 
-//------------------------------------------------------------------------------
 void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec2& size,
   bool withPoints, ReceiverTarget& target)
 {

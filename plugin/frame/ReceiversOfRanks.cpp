@@ -7,7 +7,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 ReceiversOfRanks::ReceiversOfRanks(Frame& frame, const OccluderCollector& collector,
   const std::vector<SurfaceName>& names, SharedPatches& patches)
   : ReceiversOnCpu(frame, collector, names)
@@ -15,7 +14,6 @@ ReceiversOfRanks::ReceiversOfRanks(Frame& frame, const OccluderCollector& collec
 {
 }
 
-//------------------------------------------------------------------------------
 /// Surfaces of several ranks have no names that all know.
 const std::vector<SurfaceName>& ReceiversOfRanks::names() const
 {
@@ -23,7 +21,6 @@ const std::vector<SurfaceName>& ReceiversOfRanks::names() const
   return none;
 }
 
-//------------------------------------------------------------------------------
 SharedReceivers& ReceiversOfRanks::shared()
 {
   ReceiversValue& value = this->frame_.view->receivers;
@@ -45,7 +42,6 @@ SharedReceivers& ReceiversOfRanks::shared()
   return value.shared;
 }
 
-//------------------------------------------------------------------------------
 /// Share some receivers of this process, and the curves above them.
 void ReceiversOfRanks::share(const ReceiverPixels& own, SharedReceivers& shared)
 {
@@ -63,7 +59,6 @@ void ReceiversOfRanks::share(const ReceiverPixels& own, SharedReceivers& shared)
   }
 }
 
-//------------------------------------------------------------------------------
 void ReceiversOfRanks::prepare()
 {
   ReceiversValue& value = this->frame_.view->receivers;
@@ -90,7 +85,6 @@ void ReceiversOfRanks::prepare()
   }
 }
 
-//------------------------------------------------------------------------------
 void ReceiversOfRanks::smoothEdges(const std::function<void(const SharedPicture* several)>& smooth)
 {
   Ranks& ranks = *this->frame_.ranks;

@@ -3,7 +3,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 ReceiversOnCpu::ReceiversOnCpu(
   Frame& frame, const OccluderCollector& collector, const std::vector<SurfaceName>& names)
   : frame_(frame)
@@ -12,7 +11,6 @@ ReceiversOnCpu::ReceiversOnCpu(
 {
 }
 
-//------------------------------------------------------------------------------
 /// Read back what VTK drew.
 void ReceiversOnCpu::readImages()
 {

@@ -16,7 +16,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 ReceiversStage::ReceiversStage(Frame& frame, OccluderCollector& collector, PassPrograms& programs,
   ShaderManager::StageValues& values)
   : frame_(frame)
@@ -26,14 +25,12 @@ ReceiversStage::ReceiversStage(Frame& frame, OccluderCollector& collector, PassP
 {
 }
 
-//------------------------------------------------------------------------------
 bool ReceiversStage::readsPoints() const
 {
   return std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
     [](const CastingLight& casting) { return !casting.isOnCpu(); });
 }
 
-//------------------------------------------------------------------------------
 const ShownProps& ReceiversStage::shownProps(const vtkRenderState* s)
 {
   if (!this->shownProps_)
@@ -45,7 +42,6 @@ const ShownProps& ReceiversStage::shownProps(const vtkRenderState* s)
   return *this->shownProps_;
 }
 
-//------------------------------------------------------------------------------
 /// Return the key of the picture of the receivers.
 ValueKey ReceiversStage::keyOf(const vtkRenderState* s)
 {
@@ -60,7 +56,6 @@ ValueKey ReceiversStage::keyOf(const vtkRenderState* s)
   return key;
 }
 
-//------------------------------------------------------------------------------
 void ReceiversStage::findStale(const vtkRenderState* s)
 {
   ReceiversValue& value = this->frame_.view->receivers;
@@ -79,14 +74,12 @@ void ReceiversStage::findStale(const vtkRenderState* s)
   value.framesTraced = 0;
 }
 
-//------------------------------------------------------------------------------
 int ReceiversStage::countRest()
 {
   this->restingFrames_ = this->due_ ? 0 : this->restingFrames_ + 1;
   return this->restingFrames_;
 }
 
-//------------------------------------------------------------------------------
 void ReceiversStage::begin(const vtkRenderState* s)
 {
   this->values_.receiversStage = true;
@@ -95,7 +88,6 @@ void ReceiversStage::begin(const vtkRenderState* s)
     vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow()), this->values_);
 }
 
-//------------------------------------------------------------------------------
 void ReceiversStage::update(const vtkRenderState* s, vtkObjectBase* pass)
 {
   const bool areDue = this->due_.has_value() || !this->frame_.view->receivers.shared.areShared();
@@ -126,7 +118,6 @@ void ReceiversStage::update(const vtkRenderState* s, vtkObjectBase* pass)
   this->values_.depths = { GL_TEXTURE_2D, this->frame_.view->receivers.target.depths() };
 }
 
-//------------------------------------------------------------------------------
 /// Compare the triangle numbers that new programs have drawn with the depths.
 NumberCheck ReceiversStage::checkNumbers(const vtkRenderState* s)
 {
@@ -157,7 +148,6 @@ NumberCheck ReceiversStage::checkNumbers(const vtkRenderState* s)
   return this->programs_.numbers.check(images, truth, this->collector_.drawnSurfaces(), occluders);
 }
 
-//------------------------------------------------------------------------------
 bool ReceiversStage::ensureRightNumbers(const vtkRenderState* s)
 {
   const std::int64_t wrongByDriver = std::exchange(this->wrongByDriver_, 0);
@@ -186,7 +176,6 @@ bool ReceiversStage::ensureRightNumbers(const vtkRenderState* s)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void ReceiversStage::take()
 {
   if (this->due_)

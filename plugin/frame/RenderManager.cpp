@@ -61,13 +61,11 @@ bool drawsInSoftware()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 RenderManager::RenderManager(PassPrograms& programs)
   : programs_(programs)
 {
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::beginFrame(const FrameWishes& wishes, Ranks& ranks)
 {
   Frame& frame = this->frame_;
@@ -97,7 +95,6 @@ void RenderManager::beginFrame(const FrameWishes& wishes, Ranks& ranks)
   this->newProgramsBefore_ = programs.library.compiles() + programs.shaders.newPrograms();
 }
 
-//------------------------------------------------------------------------------
 bool RenderManager::readLights(
   vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews)
 {
@@ -112,7 +109,6 @@ bool RenderManager::readLights(
   return !lights.set.lights.empty() || frame.wishes.showsSky() || frame.wishes.keepVisibility;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
@@ -144,7 +140,6 @@ const std::vector<std::string>& RenderManager::readProps(const vtkRenderState* s
   return this->collector_.leftOut();
 }
 
-//------------------------------------------------------------------------------
 bool RenderManager::changes(const vtkRenderState* s)
 {
   std::size_t shown = hashOf(this->frame_.scene.lights, false);
@@ -155,7 +150,6 @@ bool RenderManager::changes(const vtkRenderState* s)
   return std::exchange(this->frame_.view->shown, shown) != shown;
 }
 
-//------------------------------------------------------------------------------
 /// Read what a plan must know of the picture.
 void RenderManager::readPicture(
   const vtkRenderState* s, bool moves, bool mayRefine, bool drawnPlainly)
@@ -174,7 +168,6 @@ void RenderManager::readPicture(
     this->frame_.wishes.factors ? *this->frame_.wishes.factors : defaultFactors(picture.inSoftware);
 }
 
-//------------------------------------------------------------------------------
 const FramePlan& RenderManager::plan(
   const vtkRenderState* s, bool moves, bool mayRefine, bool drawnPlainly)
 {
@@ -206,7 +199,6 @@ const FramePlan& RenderManager::plan(
   return plan;
 }
 
-//------------------------------------------------------------------------------
 /// Give the hook its tasks in this frame.
 void RenderManager::configureShaders(const vtkRenderState* s)
 {
@@ -230,7 +222,6 @@ void RenderManager::configureShaders(const vtkRenderState* s)
   this->stageValues_.skyLight = frame.plan.sky ? frame.plan.sky->light : glm::vec3(0.0f);
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::makeRoomForLayers()
 {
   VisibilityLayers& layers = this->frame_.view->layers;
@@ -248,7 +239,6 @@ void RenderManager::makeRoomForLayers()
   this->stageValues_.layersSize = size;
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass)
 {
   this->makeRoomForLayers();
@@ -256,7 +246,6 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
   this->visibility_.findStale();
 }
 
-//------------------------------------------------------------------------------
 /// Return the inputs of maps.
 /// @param bakesOptional false: bakes of optional maps wait for a later frame
 MapStage RenderManager::mapStage(bool bakesOptional)
@@ -267,7 +256,6 @@ MapStage RenderManager::mapStage(bool bakesOptional)
     this->frame_.counts, this->collector_.pointsCentred() };
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::bakeMaps()
 {
   for (CastingLight& casting : this->frame_.lights)
@@ -290,14 +278,12 @@ void RenderManager::bakeMaps()
   this->frame_.endStage("maps");
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::computeVisibility()
 {
   this->sky_.compute(); // may store the receivers, which the lights read then
   this->visibility_.compute();
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::beginOpaque(const vtkRenderState* s)
 {
   this->makeRoomForLayers();
@@ -305,7 +291,6 @@ void RenderManager::beginOpaque(const vtkRenderState* s)
   this->frame_.view->receivers.deferred.attach(this->receivers_.areDue());
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::endOpaque(const vtkRenderState* s)
 {
   this->programs_.shaders.endStage();
@@ -324,7 +309,6 @@ void RenderManager::endOpaque(const vtkRenderState* s)
   this->visibility_.findStale();
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::drawShadows()
 {
   this->frame_.view->receivers.deferred.darken(
@@ -333,7 +317,6 @@ void RenderManager::drawShadows()
   this->frame_.endStage("shading: shadows");
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::beginShading(const vtkRenderState* s)
 {
   this->stageValues_.receiversStage = false;
@@ -343,7 +326,6 @@ void RenderManager::beginShading(const vtkRenderState* s)
   this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
 }
 
-//------------------------------------------------------------------------------
 std::string RenderManager::endShading()
 {
   const bool fitted = this->programs_.shaders.endStage();
@@ -354,7 +336,6 @@ std::string RenderManager::endShading()
       this->frame_.plan.picture.route.reason;
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::compareSurfaces(const vtkRenderState* s)
 {
   const SharedReceivers& shared = this->frame_.view->receivers.shared;
@@ -379,7 +360,6 @@ void RenderManager::compareSurfaces(const vtkRenderState* s)
   this->report_.otherSurfaces = this->frame_.ranks->sum(others);
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::endFrame(const vtkRenderState* s)
 {
   Frame& frame = this->frame_;
@@ -415,7 +395,6 @@ void RenderManager::endFrame(const vtkRenderState* s)
   this->report_ = reportOf(frame, this->collector_, totals);
 }
 
-//------------------------------------------------------------------------------
 double RenderManager::progress() const
 {
   double progress = this->frame_.counts.skyProgress;
@@ -426,13 +405,11 @@ double RenderManager::progress() const
   return progress;
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::abandonFrame()
 {
   this->programs_.shaders.endStage();
 }
 
-//------------------------------------------------------------------------------
 void RenderManager::setShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
 {

@@ -152,13 +152,11 @@ bool isUnseenReceiver(const Surface& surface)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool canDrawMaps()
 {
   return GNOMON_HAS_GL(VERSION_4_3);
 }
 
-//------------------------------------------------------------------------------
 SceneLights LightReading::read(
   vtkRenderer* renderer, const ShadowSettings& defaults, const FrameWishes& wishes)
 {
@@ -188,7 +186,6 @@ SceneLights LightReading::read(
   return lights;
 }
 
-//------------------------------------------------------------------------------
 MapTraits LightReading::traitsOf(const EstimatorEntry& estimator, const ShadowLight& light)
 {
   auto known = this->techniques_.find(&estimator);
@@ -201,7 +198,6 @@ MapTraits LightReading::traitsOf(const EstimatorEntry& estimator, const ShadowLi
     technique.mapReach(light).dependsOnViews() };
 }
 
-//------------------------------------------------------------------------------
 SceneProps readProps(const Occluders& occluders)
 {
   SceneProps props;

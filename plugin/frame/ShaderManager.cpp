@@ -25,7 +25,6 @@ GLenum bindingOf(GLenum target)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void ShaderManager::configure(const HookVariant& variant, const CastingLights& lights)
 {
   VolumeHook volumes = variant.volumes ? VolumeHook(variant.vtkViewIsRigid, lights) : VolumeHook();
@@ -40,7 +39,6 @@ void ShaderManager::configure(const HookVariant& variant, const CastingLights& l
   this->lights_ = &lights;
 }
 
-//------------------------------------------------------------------------------
 void ShaderManager::numberByGeometryShaders(bool number)
 {
   if (number != this->numbersByGeometryShaders_)
@@ -50,7 +48,6 @@ void ShaderManager::numberByGeometryShaders(bool number)
   }
 }
 
-//------------------------------------------------------------------------------
 void ShaderManager::fillShader(const std::string& vertexShader, std::string& geometryShader,
   std::string& fragmentShader, bool drawsReceivers, int corners)
 {
@@ -60,7 +57,6 @@ void ShaderManager::fillShader(const std::string& vertexShader, std::string& geo
   this->programs_.insert(std::hash<std::string>()(vertexShader + geometryShader + fragmentShader));
 }
 
-//------------------------------------------------------------------------------
 void ShaderManager::fillVolume(std::string& fragmentShader)
 {
   ++this->rebuilds_;
@@ -68,7 +64,6 @@ void ShaderManager::fillVolume(std::string& fragmentShader)
   this->programs_.insert(std::hash<std::string>()(fragmentShader));
 }
 
-//------------------------------------------------------------------------------
 int ShaderManager::bindTexture(const TextureBinding& texture)
 {
   const int unit = this->window_->GetState()->GetTextureUnitManager()->Allocate();
@@ -84,7 +79,6 @@ int ShaderManager::bindTexture(const TextureBinding& texture)
   return unit;
 }
 
-//------------------------------------------------------------------------------
 void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues& values)
 {
   this->window_ = window;
@@ -125,7 +119,6 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(spare));
 }
 
-//------------------------------------------------------------------------------
 /// Bind empty textures. The receivers stage reads none, and maps may be missing. But samplers of
 /// different types must not share a unit, or OpenGL draws nothing.
 void ShaderManager::separateSamplers()
@@ -142,7 +135,6 @@ void ShaderManager::separateSamplers()
   }
 }
 
-//------------------------------------------------------------------------------
 /// Bind the images and maps of the lights' visibility.
 void ShaderManager::bindVisibility(const StageValues& values)
 {
@@ -186,7 +178,6 @@ void ShaderManager::bindVisibility(const StageValues& values)
   }
 }
 
-//------------------------------------------------------------------------------
 bool ShaderManager::endStage()
 {
   if (!this->window_)
@@ -207,7 +198,6 @@ bool ShaderManager::endStage()
   return this->layersFit_;
 }
 
-//------------------------------------------------------------------------------
 /// Find the layers' first pixel in the present viewport: passes between this one and the props may
 /// have a framebuffer of their own.
 /// @return false if the layers do not fit it
@@ -223,7 +213,6 @@ bool ShaderManager::findOrigin(glm::ivec2& origin)
   return fits;
 }
 
-//------------------------------------------------------------------------------
 ShaderManager::ReadyProgram& ShaderManager::makeReady(vtkShaderProgram* program)
 {
   const auto [ready, isNew] = this->ready_.try_emplace(program);
@@ -242,7 +231,6 @@ ShaderManager::ReadyProgram& ShaderManager::makeReady(vtkShaderProgram* program)
   return ready->second;
 }
 
-//------------------------------------------------------------------------------
 void ShaderManager::setParameters(vtkShaderProgram* program, const HookedSurface& drawn)
 {
   ReadyProgram& ready = this->makeReady(program);

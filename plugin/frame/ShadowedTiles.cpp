@@ -41,7 +41,6 @@ void countDark(const std::vector<float>& visibility, int width, int bottom, int 
 
 } // namespace
 
-//------------------------------------------------------------------------------
 ShadowedTiles findShadowedTiles(const std::vector<float>& visibility, const glm::ivec2& size)
 {
   ShadowedTiles tiles;

@@ -11,7 +11,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 void SkyStage::compute()
 {
   const std::optional<SkyPlan>& plan = this->frame_.plan.sky;
@@ -61,7 +60,6 @@ void SkyStage::compute()
     static_cast<double>(value.image->batches()) / SkyDirections::batches;
 }
 
-//------------------------------------------------------------------------------
 /// Have all receivers see all of the sky.
 void SkyStage::showAll(const SkyPlan& plan, SkyValue& value)
 {
@@ -75,7 +73,6 @@ void SkyStage::showAll(const SkyPlan& plan, SkyValue& value)
   this->frame_.endStage("sky: upload");
 }
 
-//------------------------------------------------------------------------------
 /// Trace a frame's directions.
 void SkyStage::trace(const SkyPlan& plan, SkyImage& image)
 {

@@ -7,7 +7,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 SnapshotTracer::SnapshotTracer(Frame& frame, const Occluders& occluders, const PatchNames& patches,
   TransmittanceStage& transmittance)
   : frame_(frame)
@@ -17,7 +16,6 @@ SnapshotTracer::SnapshotTracer(Frame& frame, const Occluders& occluders, const P
 {
 }
 
-//------------------------------------------------------------------------------
 void SnapshotTracer::update()
 {
   if (!this->tracer_)
@@ -42,7 +40,6 @@ void SnapshotTracer::update()
   this->frame_.endStage("visibility: build");
 }
 
-//------------------------------------------------------------------------------
 /// Bring what lets light through up to date.
 void SnapshotTracer::updateFilters()
 {
@@ -68,7 +65,6 @@ void SnapshotTracer::updateFilters()
   this->tracer_->filterSamples(this->ofMeans_ ? &*this->ofMeans_ : nullptr);
 }
 
-//------------------------------------------------------------------------------
 const RayFilter& SnapshotTracer::filterOf(const LightPlan& light)
 {
   if (light.marches || this->transmittance_.volumes().media().empty())

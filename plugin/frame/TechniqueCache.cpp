@@ -5,7 +5,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 LightTechnique& TechniqueCache::of(int sceneIndex, const EstimatorEntry& estimator)
 {
   const std::pair key(sceneIndex, &estimator);
@@ -18,7 +17,6 @@ LightTechnique& TechniqueCache::of(int sceneIndex, const EstimatorEntry& estimat
   return found->second.technique;
 }
 
-//------------------------------------------------------------------------------
 void TechniqueCache::dropUnless(
   const std::function<bool(int sceneIndex, const EstimatorEntry&)>& isWanted)
 {
@@ -29,7 +27,6 @@ void TechniqueCache::dropUnless(
   }
 }
 
-//------------------------------------------------------------------------------
 void TechniqueCache::keep(int sceneIndex, const EstimatorEntry& estimator)
 {
   const auto found = this->techniques_.find({ sceneIndex, &estimator });
@@ -39,7 +36,6 @@ void TechniqueCache::keep(int sceneIndex, const EstimatorEntry& estimator)
   }
 }
 
-//------------------------------------------------------------------------------
 void TechniqueCache::dropUnused()
 {
   for (auto cached = this->techniques_.begin(); cached != this->techniques_.end();)
@@ -49,7 +45,6 @@ void TechniqueCache::dropUnused()
   }
 }
 
-//------------------------------------------------------------------------------
 std::size_t TechniqueCache::bytesOfMaps() const
 {
   std::size_t bytes = 0;

@@ -26,7 +26,6 @@ Bounds boundsOfSheets(const Occluders& occluders)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const Volumes& TransmittanceStage::volumes()
 {
   if (this->volumes_.update(this->occluders_))
@@ -36,7 +35,6 @@ const Volumes& TransmittanceStage::volumes()
   return this->volumes_;
 }
 
-//------------------------------------------------------------------------------
 const Sheets* TransmittanceStage::sheets()
 {
   if (!this->occluders_.hasSheets())
@@ -64,7 +62,6 @@ const Sheets* TransmittanceStage::sheets()
   return &*this->sheets_;
 }
 
-//------------------------------------------------------------------------------
 /// Return a light's stacks and map, without those of others or of another resolution.
 TransmittanceStage::OfLight& TransmittanceStage::find(const LightPlan& light)
 {
@@ -86,7 +83,6 @@ TransmittanceStage::OfLight& TransmittanceStage::find(const LightPlan& light)
   return found;
 }
 
-//------------------------------------------------------------------------------
 const VolumeStack& TransmittanceStage::stackOf(const LightPlan& light)
 {
   OfLight& found = this->find(light);
@@ -99,7 +95,6 @@ const VolumeStack& TransmittanceStage::stackOf(const LightPlan& light)
   return *found.stack;
 }
 
-//------------------------------------------------------------------------------
 const AreaStacks& TransmittanceStage::areaStacksOf(const LightPlan& light)
 {
   OfLight& found = this->find(light);
@@ -112,7 +107,6 @@ const AreaStacks& TransmittanceStage::areaStacksOf(const LightPlan& light)
   return *found.ofArea;
 }
 
-//------------------------------------------------------------------------------
 /// Return what takes its share of a light at points.
 std::vector<const PointFilter*> TransmittanceStage::filtersOf(const LightPlan& light)
 {
@@ -145,7 +139,6 @@ std::vector<const PointFilter*> TransmittanceStage::filtersOf(const LightPlan& l
   return filters;
 }
 
-//------------------------------------------------------------------------------
 void TransmittanceStage::attach()
 {
   for (auto of = this->ofLights_.begin(); of != this->ofLights_.end();)

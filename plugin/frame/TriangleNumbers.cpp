@@ -36,13 +36,11 @@ int bitsOf(std::uint32_t number)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool TriangleNumbers::isNew(vtkShaderProgram* program, std::uint32_t primitives) const
 {
   return this->known_.count({ program, bitsOf(primitives) }) == 0;
 }
 
-//------------------------------------------------------------------------------
 void TriangleNumbers::add(vtkShaderProgram* program, std::uint32_t primitives, int drawnSurface)
 {
   const Draw draw(program, bitsOf(primitives));
@@ -54,7 +52,6 @@ void TriangleNumbers::add(vtkShaderProgram* program, std::uint32_t primitives, i
   this->added_[draw].push_back(drawnSurface);
 }
 
-//------------------------------------------------------------------------------
 bool TriangleNumbers::isDue()
 {
   const bool anyFirst = std::any_of(this->added_.begin(), this->added_.end(),
@@ -64,7 +61,6 @@ bool TriangleNumbers::isDue()
   return !this->added_.empty() && isPowerOfTwo;
 }
 
-//------------------------------------------------------------------------------
 NumberCheck TriangleNumbers::check(const ReceiverImages& images, const NumberTruth& truth,
   const std::vector<DrawnSurface>& drawnSurfaces, const Occluders& occluders)
 {
@@ -88,7 +84,6 @@ NumberCheck TriangleNumbers::check(const ReceiverImages& images, const NumberTru
   return found;
 }
 
-//------------------------------------------------------------------------------
 std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader)
 {
   const std::string main = "\nvoid main(";        // comments begin otherwise
@@ -112,7 +107,6 @@ std::string handOnDrawn(std::string& vertexShader, std::string& geometryShader)
   return "flat in ivec2 gnomonDrawnVSOutput;\n";
 }
 
-//------------------------------------------------------------------------------
 std::string numberingShader(const std::string& vertexShader, int corners)
 {
   static const std::regex output(

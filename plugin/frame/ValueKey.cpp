@@ -3,7 +3,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 std::set<std::string> ValueKey::changedParts(const ValueKey& other) const
 {
   std::set<std::string> changed;
@@ -25,7 +24,6 @@ std::set<std::string> ValueKey::changedParts(const ValueKey& other) const
   return changed;
 }
 
-//------------------------------------------------------------------------------
 std::string ValueKey::changesFrom(const ValueKey& other) const
 {
   std::string changes;

@@ -11,7 +11,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 void VisibilityValue::dropTiles()
 {
   this->classes.clear();
@@ -19,13 +18,11 @@ void VisibilityValue::dropTiles()
   this->onCpu = {};
 }
 
-//------------------------------------------------------------------------------
 std::size_t VisibilityValue::bytes() const
 {
   return bytesOf(this->classes) + bytesOf(this->edges) + bytesOf(this->onCpu) + this->tiles.bytes();
 }
 
-//------------------------------------------------------------------------------
 std::size_t ViewValues::bytesOfImages() const
 {
   return this->receivers.target.bytes() + this->receivers.deferred.bytes() +
@@ -36,7 +33,6 @@ std::size_t ViewValues::bytesOfImages() const
     (this->sky.image ? this->sky.image->bytes() : 0);
 }
 
-//------------------------------------------------------------------------------
 ViewValues& RendererViews::of(vtkRenderer* renderer)
 {
   Name name{ renderer->GetActiveCamera()->GetLeftEye(), {} };
@@ -56,13 +52,11 @@ ViewValues& RendererViews::of(vtkRenderer* renderer)
   return view->values;
 }
 
-//------------------------------------------------------------------------------
 std::size_t RendererViews::bytesOfImages() const
 {
   return bytesOfAll(this->views_, [](const View& view) { return view.values.bytesOfImages(); });
 }
 
-//------------------------------------------------------------------------------
 std::size_t RendererViews::bytesOfMaps() const
 {
   return bytesOfAll(

@@ -49,7 +49,6 @@ void addArray(vtkImageData* image, const VisibilityImages& images, const std::st
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void fillImage(const VisibilityImages& images, vtkImageData* image)
 {
   image->Initialize();

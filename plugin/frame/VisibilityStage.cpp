@@ -54,7 +54,6 @@ std::vector<ClassCount> countClasses(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 VisibilityStage::VisibilityStage(Frame& frame, const Occluders& occluders, OccluderBuffers& buffers,
   SnapshotTracer& tracer, ShaderLibrary& shaders)
   : frame_(frame)
@@ -65,7 +64,6 @@ VisibilityStage::VisibilityStage(Frame& frame, const Occluders& occluders, Occlu
 {
 }
 
-//------------------------------------------------------------------------------
 /// The key of a light's visibility; its maps follow from the same parts.
 ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
 {
@@ -79,14 +77,12 @@ ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
   return key;
 }
 
-//------------------------------------------------------------------------------
 /// True if this frame stores pixel classes.
 bool VisibilityStage::classifies() const
 {
   return this->frame_.wishes.keepVisibility || this->frame_.wishes.measureStages;
 }
 
-//------------------------------------------------------------------------------
 /// Return what a value lacks that is made from the same parts, as a clause; empty if nothing.
 std::string VisibilityStage::whyUnfinished(
   const CastingLight& casting, const VisibilityValue& value) const
@@ -102,7 +98,6 @@ std::string VisibilityStage::whyUnfinished(
   return this->classifies() && !value.classified ? "how pixels were decided is asked for" : "";
 }
 
-//------------------------------------------------------------------------------
 void VisibilityStage::findStale()
 {
   std::vector<VisibilityValue>& values = this->frame_.view->visibility;
@@ -145,7 +140,6 @@ void VisibilityStage::findStale()
   }
 }
 
-//------------------------------------------------------------------------------
 /// Have all processes compute the visibility of lights that is stale in one of them.
 void VisibilityStage::agreeOnStale()
 {
@@ -166,7 +160,6 @@ void VisibilityStage::agreeOnStale()
   }
 }
 
-//------------------------------------------------------------------------------
 /// Classify tiles without rays, where the technique can skip them.
 void VisibilityStage::judge()
 {
@@ -188,7 +181,6 @@ void VisibilityStage::judge()
   this->frame_.endStage("visibility: judge tiles");
 }
 
-//------------------------------------------------------------------------------
 void VisibilityStage::compute()
 {
   FrameCounts& counts = this->frame_.counts;
@@ -253,14 +245,12 @@ void VisibilityStage::compute()
   }
 }
 
-//------------------------------------------------------------------------------
 void VisibilityStage::dropImages()
 {
   this->images_ = VisibilityImages{};
   this->imagesOf_ = nullptr;
 }
 
-//------------------------------------------------------------------------------
 /// Begin a light's image, in which unchanged tiles of the last one may be reused.
 /// @param traced the light, with as many samples as the image has
 /// @return null where all tiles are computed
@@ -291,7 +281,6 @@ TracedTiles* VisibilityStage::beginTiles(
   return &value.tiles;
 }
 
-//------------------------------------------------------------------------------
 /// Fill a light's layers by its technique.
 /// @param verdicts null: nothing is known of its tiles
 /// @param value whose classes, if they are asked for, and notes are filled
@@ -337,7 +326,6 @@ void VisibilityStage::fill(
   }
 }
 
-//------------------------------------------------------------------------------
 /// Fill a light's layers or bit by a technique that traces.
 /// @param verdicts null: nothing is known of its tiles
 void VisibilityStage::trace(
@@ -441,7 +429,6 @@ void VisibilityStage::trace(
   this->frame_.endStage("visibility: upload");
 }
 
-//------------------------------------------------------------------------------
 /// Bring the picture's edges on the image route up to date with those of the lights.
 void VisibilityStage::updateEdges()
 {

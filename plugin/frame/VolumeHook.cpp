@@ -53,7 +53,6 @@ ShareCode codeOf(const std::vector<std::pair<int, std::string>>& factors, int ro
 
 } // namespace
 
-//------------------------------------------------------------------------------
 VolumeHook::VolumeHook(bool viewIsRigid, const CastingLights& lights)
   : declarations_(std::string("#define VTK_VIEW_IS_RIGID ") + (viewIsRigid ? "1\n" : "0\n") +
       frameShaders().at("plugin/frame/hook.glsl"))
@@ -74,7 +73,6 @@ VolumeHook::VolumeHook(bool viewIsRigid, const CastingLights& lights)
   this->declarations_ += frameShaders().at("plugin/frame/hook_volume.glsl");
 }
 
-//------------------------------------------------------------------------------
 void VolumeHook::fill(std::string& fragmentShader) const
 {
   static const std::regex array(R"(uniform vec3 in_lightDiffuseColor\[(\d+)\];)");

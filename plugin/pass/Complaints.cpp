@@ -10,7 +10,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 std::vector<std::string> Complaints::news(
   vtkRenderer* renderer, Topic topic, const std::vector<std::string>& texts)
 {
@@ -37,7 +36,6 @@ std::vector<std::string> Complaints::news(
   return news;
 }
 
-//------------------------------------------------------------------------------
 std::string Complaints::news(vtkRenderer* renderer, Topic topic, const std::string& text)
 {
   std::vector<std::string> texts;
@@ -49,14 +47,12 @@ std::string Complaints::news(vtkRenderer* renderer, Topic topic, const std::stri
   return texts.empty() ? std::string() : texts.front();
 }
 
-//------------------------------------------------------------------------------
 void Complaints::tellError(
   vtkObject* teller, vtkRenderer* renderer, Topic topic, const std::string& error)
 {
   tell(teller, vtkCommand::ErrorEvent, this->news(renderer, topic, error));
 }
 
-//------------------------------------------------------------------------------
 void tell(vtkObject* teller, unsigned long event, const std::string& text)
 {
   if (!text.empty() && teller->HasObserver(event))

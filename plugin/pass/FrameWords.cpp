@@ -9,7 +9,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 void tellOfPlan(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
   const FramePlan& plan, RouteWish wished)
 {
@@ -31,7 +30,6 @@ void tellOfPlan(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
         plan.picture.route.reason + "; this frame takes the image route.");
 }
 
-//------------------------------------------------------------------------------
 void tellWhatIsLeftOut(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
   const std::vector<std::string>& leftOut)
 {
@@ -44,7 +42,6 @@ void tellWhatIsLeftOut(vtkObject* pass, vtkRenderer* renderer, Complaints& compl
   }
 }
 
-//------------------------------------------------------------------------------
 void tellOfMisfit(vtkObject* pass, vtkRenderer* renderer, Complaints& complaints,
   const std::string& shader, const std::string& how)
 {

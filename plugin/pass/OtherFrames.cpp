@@ -18,7 +18,6 @@ OtherFrames::~OtherFrames()
   this->forget();
 }
 
-//------------------------------------------------------------------------------
 void OtherFrames::drawn(vtkRenderer* renderer)
 {
   if (renderer != this->renderer_)
@@ -30,7 +29,6 @@ void OtherFrames::drawn(vtkRenderer* renderer)
   this->drawn_ = true;
 }
 
-//------------------------------------------------------------------------------
 void OtherFrames::endFrame()
 {
   if (!std::exchange(this->drawn_, false))
@@ -41,7 +39,6 @@ void OtherFrames::endFrame()
   }
 }
 
-//------------------------------------------------------------------------------
 void OtherFrames::forget()
 {
   if (this->renderer_)

@@ -63,7 +63,6 @@ bool wouldStopRepeatingTimer(vtkRenderWindowInteractor* interactor)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 PictureTimer::PictureTimer(vtkObject* pass)
   : pass_(pass)
 {
@@ -77,13 +76,11 @@ PictureTimer::PictureTimer(vtkObject* pass)
     { style->RemoveObserver(static_cast<vtkCommand*>(muting)); });
 }
 
-//------------------------------------------------------------------------------
 PictureTimer::~PictureTimer()
 {
   this->follow(nullptr);
 }
 
-//------------------------------------------------------------------------------
 bool PictureTimer::asksForSpeed(vtkRenderWindow* window)
 {
   // VTK's default rate (0.0001) is below this.
@@ -93,13 +90,11 @@ bool PictureTimer::asksForSpeed(vtkRenderWindow* window)
     window->GetDesiredUpdateRate() > interactor->GetStillUpdateRate();
 }
 
-//------------------------------------------------------------------------------
 bool PictureTimer::moves(bool changed)
 {
   return this->schedule_.moves(changed, steadyMilliseconds());
 }
 
-//------------------------------------------------------------------------------
 bool PictureTimer::mayRefine(vtkRenderWindow* window)
 {
   if (!window || window != this->window_ || window->GetOffScreenRendering() ||
@@ -119,7 +114,6 @@ bool PictureTimer::mayRefine(vtkRenderWindow* window)
   return this->timersFire_;
 }
 
-//------------------------------------------------------------------------------
 void PictureTimer::drawn(vtkRenderWindow* window, const ShownPicture& picture)
 {
   ++*this->frames_;
@@ -131,7 +125,6 @@ void PictureTimer::drawn(vtkRenderWindow* window, const ShownPicture& picture)
   this->obey(this->schedule_.drawn(picture, this->acts(), steadyMilliseconds()));
 }
 
-//------------------------------------------------------------------------------
 /// Observe a window's interactor in place of the last one.
 void PictureTimer::follow(vtkRenderWindow* window)
 {
@@ -165,7 +158,6 @@ void PictureTimer::follow(vtkRenderWindow* window)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return the style that has the interactor's events; null if it is none of VTK's.
 vtkInteractorStyle* PictureTimer::style() const
 {
@@ -178,21 +170,18 @@ vtkInteractorStyle* PictureTimer::style() const
   return vtkInteractorStyle::SafeDownCast(style);
 }
 
-//------------------------------------------------------------------------------
 bool PictureTimer::acts() const
 {
   vtkInteractorStyle* const style = this->style();
   return style && style->GetState() != VTKIS_NONE;
 }
 
-//------------------------------------------------------------------------------
 bool PictureTimer::usesTimers() const
 {
   return this->interactor_ && this->interactor_->GetInitialized() && !this->drawsOnlyInPaint_ &&
     std::this_thread::get_id() == this->thread_;
 }
 
-//------------------------------------------------------------------------------
 /// Draw, start or stop a timer. Drawing may delete this.
 void PictureTimer::obey(const TimerOrder& order)
 {
@@ -213,7 +202,6 @@ void PictureTimer::obey(const TimerOrder& order)
   }
 }
 
-//------------------------------------------------------------------------------
 void PictureTimer::start(int milliseconds)
 {
   this->waits_ = false;
@@ -234,7 +222,6 @@ void PictureTimer::start(int milliseconds)
   }
 }
 
-//------------------------------------------------------------------------------
 void PictureTimer::draw()
 {
   // Observers of the frame may delete the pass, and this with it.
@@ -264,7 +251,6 @@ void PictureTimer::draw()
   }
 }
 
-//------------------------------------------------------------------------------
 /// Watches as a passive observer: it changes nothing that other observers see.
 void PictureTimer::onEvent(vtkObject*, unsigned long event, void* self, void* timerId)
 {
@@ -279,7 +265,6 @@ void PictureTimer::onEvent(vtkObject*, unsigned long event, void* self, void* ti
                                   : of.schedule_.interacts());
 }
 
-//------------------------------------------------------------------------------
 void PictureTimer::watchTimer(int id)
 {
   vtkInteractorStyle* const style = this->style();
@@ -306,7 +291,6 @@ void PictureTimer::watchTimer(int id)
   this->schedule_.fired();
 }
 
-//------------------------------------------------------------------------------
 /// Draws a picture that is due. Other observers do not see the events of this timer.
 void PictureTimer::onTimer(vtkObject*, unsigned long, void* self, void* timerId)
 {

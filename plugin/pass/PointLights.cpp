@@ -73,7 +73,6 @@ void place(vtkLight* point, const ShadowLight& light, const glm::dvec3& offset)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 PointedLight pointedLight(ShadowLight light)
 {
   PointedLight pointed;
@@ -102,7 +101,6 @@ PointedLight pointedLight(ShadowLight light)
   return pointed;
 }
 
-//------------------------------------------------------------------------------
 PointLights::PointLights(vtkRenderer* renderer, const std::vector<PointedLight>& areas)
   : renderer_(renderer)
   , own_(renderer->GetLights())
@@ -126,7 +124,6 @@ PointLights::PointLights(vtkRenderer* renderer, const std::vector<PointedLight>&
   RendererAccess::lights(renderer) = this->standIns_;
 }
 
-//------------------------------------------------------------------------------
 PointLights::~PointLights()
 {
   RendererAccess::lights(this->renderer_) = this->own_;
@@ -135,7 +132,6 @@ PointLights::~PointLights()
   this->own_->Modified();
 }
 
-//------------------------------------------------------------------------------
 void PointLights::moveTo(std::size_t point)
 {
   for (const PointedLight& area : this->areas_)

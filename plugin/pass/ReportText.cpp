@@ -108,14 +108,12 @@ double numberOf(const Json& value)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string textOf(const FrameReport& report)
 {
   // Names of props may contain any bytes.
   return jsonOf(report).dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-//------------------------------------------------------------------------------
 void fillTable(const FrameReport& report, vtkTable* lights)
 {
   lights->Initialize();

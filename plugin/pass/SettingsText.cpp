@@ -52,7 +52,6 @@ Json jsonOf(const Setting& setting)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string textOfSettings()
 {
   Json json = Json::object();

@@ -97,7 +97,6 @@ private:
   std::vector<Asked> asked_;
 };
 
-//------------------------------------------------------------------------------
 AutoPlan Planner::plan()
 {
   AutoPlan plan;
@@ -140,7 +139,6 @@ AutoPlan Planner::plan()
   return plan;
 }
 
-//------------------------------------------------------------------------------
 /// Return the present counts, and note what changed since the last frame.
 FrameCounters Planner::takeChanges()
 {
@@ -191,7 +189,6 @@ FrameCounters Planner::takeChanges()
   return counters;
 }
 
-//------------------------------------------------------------------------------
 /// Reset the hysteresis. The next motion proves its choices again.
 void Planner::rest()
 {
@@ -206,7 +203,6 @@ void Planner::rest()
   }
 }
 
-//------------------------------------------------------------------------------
 /// Choose between maps and rays for lights with hard shadows.
 /// @return the report's sentence
 std::string Planner::move(const FrameCounters& counters)
@@ -273,7 +269,6 @@ std::string Planner::move(const FrameCounters& counters)
   return text;
 }
 
-//------------------------------------------------------------------------------
 /// Return why lights with hard shadows cannot use maps in this frame, as a clause; empty if they
 /// may.
 std::string Planner::whyNoMaps() const
@@ -292,7 +287,6 @@ std::string Planner::whyNoMaps() const
     : "";
 }
 
-//------------------------------------------------------------------------------
 /// Return why rays are used though maps may be, as a clause; empty if they are not.
 /// @param byMaps, byRays modelled milliseconds
 std::string Planner::whyRaysAreFast(double byMaps, double byRays) const
@@ -311,7 +305,6 @@ std::string Planner::whyRaysAreFast(double byMaps, double byRays) const
   return !stay && fits ? "they keep the time budget" : "";
 }
 
-//------------------------------------------------------------------------------
 /// Return the milliseconds of a frame by rays, as earlier ones took.
 /// @param modelled if there were none
 double Planner::expectedByRays(double modelled) const
@@ -327,7 +320,6 @@ double Planner::expectedByRays(double modelled) const
         });
 }
 
-//------------------------------------------------------------------------------
 /// Shade a light by a map, the coarsest from the present step on that keeps the error. Before a
 /// motion shows a map, it may be a coarser one, too.
 /// @return why there is none, as a clause; empty on success
@@ -404,7 +396,6 @@ std::string Planner::tryMap(const LightPlan& light, AutoChoice& choice)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Choose the first step of an area light, from the present one on, that keeps the error: hard
 /// shadows of its centre, or its fewest samples.
 void Planner::takeSamples(const LightPlan& light, AutoChoice& choice)
@@ -453,7 +444,6 @@ void Planner::takeSamples(const LightPlan& light, AutoChoice& choice)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return the answer to a request: a plan that is made again asks the same, in the same order.
 /// @throws Needs if there is none yet
 const Evidence& Planner::evidenceFor(const EvidenceRequest& request)
@@ -467,7 +457,6 @@ const Evidence& Planner::evidenceFor(const EvidenceRequest& request)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 AutoPlan planAuto(const Scene& scene, const std::vector<LightPlan>& lights,
   const FrameWishes& wishes, const AutoHistory& history, const std::vector<Evidence>& evidence)
 {

@@ -5,7 +5,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 bool BakeBackoff::usesMap(bool rested, bool baked, bool mayBake)
 {
   if (this->served_ > 0 && !baked)
@@ -25,7 +24,6 @@ bool BakeBackoff::usesMap(bool rested, bool baked, bool mayBake)
   return true;
 }
 
-//------------------------------------------------------------------------------
 std::string BakeBackoff::reason() const
 {
   return this->served_ > 0

@@ -27,7 +27,6 @@ double costOfPlain(const FrameCounters& counters, const CostFactors& factors)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isSoftwareRenderer(const std::string& renderer)
 {
   // The software renderers of Mesa, Google and Microsoft.
@@ -37,7 +36,6 @@ bool isSoftwareRenderer(const std::string& renderer)
     [&](const char* name) { return renderer.find(name) != std::string::npos; });
 }
 
-//------------------------------------------------------------------------------
 CostFactors defaultFactors(bool software)
 {
   CostFactors factors;
@@ -54,7 +52,6 @@ CostFactors defaultFactors(bool software)
   return factors;
 }
 
-//------------------------------------------------------------------------------
 const std::array<NamedFactor, 10>& namedFactors()
 {
   static const std::array<NamedFactor, 10> factors = { {
@@ -72,7 +69,6 @@ const std::array<NamedFactor, 10>& namedFactors()
   return factors;
 }
 
-//------------------------------------------------------------------------------
 std::string textOf(const CostFactors& factors)
 {
   std::ostringstream text;
@@ -84,7 +80,6 @@ std::string textOf(const CostFactors& factors)
   return text.str();
 }
 
-//------------------------------------------------------------------------------
 CostFactors readFactors(const std::string& path)
 {
   std::ifstream file(path);
@@ -137,7 +132,6 @@ CostFactors readFactors(const std::string& path)
   return factors;
 }
 
-//------------------------------------------------------------------------------
 double costByMaps(const FrameCounters& counters, const CostFactors& factors)
 {
   const double asked = static_cast<double>(counters.pixels) * factors.askPixel;
@@ -149,7 +143,6 @@ double costByMaps(const FrameCounters& counters, const CostFactors& factors)
       static_cast<double>(counters.newMaps) * triangles / framesOfMap);
 }
 
-//------------------------------------------------------------------------------
 double costByRays(const FrameCounters& counters, const CostFactors& factors)
 {
   const auto drawn = static_cast<double>(counters.drawn);

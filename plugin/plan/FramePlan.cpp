@@ -181,7 +181,6 @@ void placeVisibility(FramePlan& plan)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 FramePlan planAtRest(const Scene& scene, const FrameWishes& wishes, const AutoHistory& history)
 {
   FramePlan plan;
@@ -205,7 +204,6 @@ FramePlan planAtRest(const Scene& scene, const FrameWishes& wishes, const AutoHi
   return plan;
 }
 
-//------------------------------------------------------------------------------
 FramePlan planTechniques(FramePlan plan, const Scene& scene, const FrameWishes& wishes,
   const std::vector<Evidence>& evidence)
 {
@@ -215,7 +213,6 @@ FramePlan planTechniques(FramePlan plan, const Scene& scene, const FrameWishes& 
   return plan;
 }
 
-//------------------------------------------------------------------------------
 FramePlan planDrawing(FramePlan plan, const Scene& scene, const FrameWishes& wishes)
 {
   if (!plan.hasShadows)
@@ -251,7 +248,6 @@ FramePlan planDrawing(FramePlan plan, const Scene& scene, const FrameWishes& wis
   return plan;
 }
 
-//------------------------------------------------------------------------------
 Numbering numberingOf(const NumberingFacts& facts)
 {
   constexpr int patience = 3; // frames
@@ -267,7 +263,6 @@ Numbering numberingOf(const NumberingFacts& facts)
   return facts.restingFrames < patience || facts.severalViews ? Numbering::All : Numbering::None;
 }
 
-//------------------------------------------------------------------------------
 bool storesReceivers(const TracingFacts& facts)
 {
   constexpr int patience = 2;     // frames

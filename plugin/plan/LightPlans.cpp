@@ -198,20 +198,17 @@ std::string whyNotReceivers(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isHard(const TechniqueInfo& info, const ShadowLight& light)
 {
   return info.evaluation == Evaluation::ScreenCpu && info.exact && !light.area;
 }
 
-//------------------------------------------------------------------------------
 std::size_t edgeSamplesOf(const TechniqueInfo& info, const ShadowLight& light)
 {
   const bool smooths = info.has(edgeSettings()) && !light.area;
   return smooths ? static_cast<std::size_t>(std::max(light.edge.samples, 1)) : 1;
 }
 
-//------------------------------------------------------------------------------
 bool smoothsPictures(const TechniqueInfo& info, const ShadowLight& light)
 {
   constexpr int automatic = 0; // of `edge_samples`
@@ -219,13 +216,11 @@ bool smoothsPictures(const TechniqueInfo& info, const ShadowLight& light)
     !light.isPointOfArea; // the mean of many pictures is smooth
 }
 
-//------------------------------------------------------------------------------
 bool isBit(const TechniqueInfo& info, const ShadowLight& light)
 {
   return isHard(info, light) && edgeSamplesOf(info, light) == 1;
 }
 
-//------------------------------------------------------------------------------
 LightPlans planLights(const Scene& scene, const FrameWishes& wishes)
 {
   LightPlans plans;
@@ -272,7 +267,6 @@ LightPlans planLights(const Scene& scene, const FrameWishes& wishes)
   return plans;
 }
 
-//------------------------------------------------------------------------------
 void takeLight(LightPlan& plan, Composition other)
 {
   plan.light = std::move(other.light);
@@ -280,7 +274,6 @@ void takeLight(LightPlan& plan, Composition other)
   plan.identity.area = plan.light.area ? plan.identity.area : 0;
 }
 
-//------------------------------------------------------------------------------
 Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const Scene& scene)
 {
   ShadowLight light = asked;
@@ -290,7 +283,6 @@ Composition planAsMap(const ShadowLight& asked, int mapSizeTexels, const Scene& 
   return scene.lights.compose(std::move(light));
 }
 
-//------------------------------------------------------------------------------
 Composition planAsCentre(const ShadowLight& asked, const Scene& scene)
 {
   ShadowLight light = asked;
@@ -299,7 +291,6 @@ Composition planAsCentre(const ShadowLight& asked, const Scene& scene)
   return scene.lights.compose(std::move(light));
 }
 
-//------------------------------------------------------------------------------
 ShadedBy planShading(const LightPlan& plan, Route route, bool points)
 {
   if (plan.info().isPointwise())
@@ -309,7 +300,6 @@ ShadedBy planShading(const LightPlan& plan, Route route, bool points)
   return points ? ShadedBy::AtPoints : ShadedBy::Fetch;
 }
 
-//------------------------------------------------------------------------------
 ShadowLight lightAtPoints(const ShadowLight& light)
 {
   ShadowLight atPoints = light;
@@ -318,7 +308,6 @@ ShadowLight lightAtPoints(const ShadowLight& light)
   return atPoints;
 }
 
-//------------------------------------------------------------------------------
 void planEdges(LightPlan& plan, bool transmits, bool moves, bool mayFollow)
 {
   constexpr int samplesAtRest = 16;
@@ -327,7 +316,6 @@ void planEdges(LightPlan& plan, bool transmits, bool moves, bool mayFollow)
   plan.edgesFollow = mayFollow;
 }
 
-//------------------------------------------------------------------------------
 void planFit(LightPlan& plan, Route route, bool points, const SceneLights& scene)
 {
   if (!plan.info().bakesMap())

@@ -86,7 +86,6 @@ double mostOfUnit(const ShadowLight& light, const Bounds& seen)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 MemoryShares shareMemory(
   const std::vector<LightNeed>& lights, double budget, std::size_t pixels, bool mayBeInline)
 {
@@ -122,7 +121,6 @@ MemoryShares shareMemory(
   return shares;
 }
 
-//------------------------------------------------------------------------------
 int largestMapIn(double bytes, const ShadowLight& light)
 {
   int size = 1;
@@ -133,7 +131,6 @@ int largestMapIn(double bytes, const ShadowLight& light)
   return size;
 }
 
-//------------------------------------------------------------------------------
 LightNeed needOf(const ShadowLight& light, const TechniqueInfo& info, const Bounds& seen)
 {
   LightNeed need;

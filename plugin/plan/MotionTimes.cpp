@@ -32,7 +32,6 @@ void mix(double& known, double milliseconds)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void MotionTimes::add(bool byRays, double rest)
 {
   mix(byRays ? this->restByRays : this->restByMaps, rest);
@@ -47,13 +46,11 @@ void MotionTimes::add(bool byRays, double rest)
   }
 }
 
-//------------------------------------------------------------------------------
 void MotionTimes::addImage(int sceneIndex, double samples, double milliseconds)
 {
   mix(this->sample[sceneIndex], milliseconds / std::max(samples, 1.0));
 }
 
-//------------------------------------------------------------------------------
 void MotionTimes::addSky(double milliseconds)
 {
   if (milliseconds > 0.0)
@@ -64,7 +61,6 @@ void MotionTimes::addSky(double milliseconds)
   this->sky *= forgetting;
 }
 
-//------------------------------------------------------------------------------
 double limitOf(const FrameWishes& wishes, const MotionTimes& times)
 {
   const double asked = std::max(wishes.windowTime, wishes.isShared ? wishes.timeBudget : 0.0);
@@ -77,7 +73,6 @@ double limitOf(const FrameWishes& wishes, const MotionTimes& times)
   return std::max(asked, 1.3 * drawing);
 }
 
-//------------------------------------------------------------------------------
 bool skyIsInTime(const FrameWishes& wishes, const MotionTimes& times)
 {
   const double limit = limitOf(wishes, times);
@@ -87,7 +82,6 @@ bool skyIsInTime(const FrameWishes& wishes, const MotionTimes& times)
   return limit == 0.0 || times.sky == 0.0 || rest + images + times.sky <= spared * limit;
 }
 
-//------------------------------------------------------------------------------
 int samplesInTime(
   const FrameWishes& wishes, const MotionTimes& times, int sceneIndex, std::size_t lights, int most)
 {

@@ -51,7 +51,6 @@ std::string whyNoPoints(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string whyNotDeferred(
   const std::vector<LightPlan>& lights, const FrameWishes& wishes, const Scene& scene)
 {
@@ -94,7 +93,6 @@ std::string whyNotDeferred(
     : "";
 }
 
-//------------------------------------------------------------------------------
 std::string whyNoInlineMaps(
   const std::vector<LightPlan>& lights, const FrameWishes& wishes, const Scene& scene)
 {
@@ -129,7 +127,6 @@ std::string whyNoInlineMaps(
     : "";
 }
 
-//------------------------------------------------------------------------------
 PicturePlan planPicture(
   const std::vector<LightPlan>& lights, const FrameWishes& wishes, const Scene& scene)
 {

@@ -6,21 +6,18 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 bool PictureSchedule::moves(bool changed, double now)
 {
   this->changedAt_ = changed ? now : this->changedAt_;
   return now - this->changedAt_ < patience;
 }
 
-//------------------------------------------------------------------------------
 TimerOrder PictureSchedule::refine(double now)
 {
   this->dueAt_ = now;
   return this->order(false, now);
 }
 
-//------------------------------------------------------------------------------
 /// A scene that changes in each frame makes no progress. It gets one frame with all points, if its
 /// lights' technique is the pass's, and no timer after it.
 TimerOrder PictureSchedule::drawn(const ShownPicture& picture, bool acts, double now)
@@ -38,14 +35,12 @@ TimerOrder PictureSchedule::drawn(const ShownPicture& picture, bool acts, double
   return this->order(acts, now);
 }
 
-//------------------------------------------------------------------------------
 TimerOrder PictureSchedule::pressed()
 {
   this->isHeld_ = true;
   return this->interacts();
 }
 
-//------------------------------------------------------------------------------
 /// Any button's release counts for all: programs may swallow releases, as of a menu's button.
 TimerOrder PictureSchedule::released(double now)
 {
@@ -53,7 +48,6 @@ TimerOrder PictureSchedule::released(double now)
   return this->order(false, now); // the style, told later, stops acting
 }
 
-//------------------------------------------------------------------------------
 TimerOrder PictureSchedule::interacts()
 {
   const bool waits = this->firesAt_.has_value();
@@ -61,7 +55,6 @@ TimerOrder PictureSchedule::interacts()
   return { waits ? TimerOrder::Kind::Stop : TimerOrder::Kind::None };
 }
 
-//------------------------------------------------------------------------------
 TimerOrder PictureSchedule::timerEvent(bool acts, double now)
 {
   if (this->dueAt_ && *this->dueAt_ <= now && !acts && !this->isHeld_)
@@ -73,7 +66,6 @@ TimerOrder PictureSchedule::timerEvent(bool acts, double now)
   return this->order(acts, now);
 }
 
-//------------------------------------------------------------------------------
 /// Order a timer if a picture is due and none waits. Interactors may lose a timer: those of wx and
 /// PyQt name the last one that the process started, whichever fires.
 TimerOrder PictureSchedule::order(bool acts, double now)

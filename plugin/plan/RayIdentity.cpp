@@ -27,7 +27,6 @@ void hashColumns(std::size_t& seed, const Matrix& matrix)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 RayIdentity identityOf(const ShadowLight& light)
 {
   RayIdentity identity;

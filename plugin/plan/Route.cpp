@@ -3,14 +3,12 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 const char* nameOf(Route route)
 {
   constexpr const char* names[] = { "inline", "image", "deferred" };
   return names[static_cast<std::size_t>(route)];
 }
 
-//------------------------------------------------------------------------------
 RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs)
 {
   if (wished == RouteWish::Deferred)

@@ -18,7 +18,6 @@ std::atomic<std::uint64_t> lastSerial{ 0 };
 
 } // namespace
 
-//------------------------------------------------------------------------------
 ManyRanks::ManyRanks(vtkMultiProcessController* controller)
   : controller_(controller)
   , count_(controller->GetNumberOfProcesses())
@@ -39,23 +38,19 @@ ManyRanks::ManyRanks(vtkMultiProcessController* controller)
   this->threads_ = std::max<std::size_t>(std::thread::hardware_concurrency() / neighbours, 1);
 }
 
-//------------------------------------------------------------------------------
 ManyRanks::~ManyRanks() = default;
 
-//------------------------------------------------------------------------------
 vtkMultiProcessController* ManyRanks::controller() const
 {
   return this->controller_;
 }
 
-//------------------------------------------------------------------------------
 void ManyRanks::giveUp()
 {
   this->othersWait_ = false;
   throw RankFailure("the processes cannot reach each other");
 }
 
-//------------------------------------------------------------------------------
 /// Return the error of the first rank that has one, with its number; empty if none has.
 std::string ManyRanks::firstFailure(const std::string& mine)
 {
@@ -81,7 +76,6 @@ std::string ManyRanks::firstFailure(const std::string& mine)
     " failed: " + error;
 }
 
-//------------------------------------------------------------------------------
 /// Throw on all ranks if one of them fails in place of this call. Between it and the call that
 /// follows, nothing may throw.
 void ManyRanks::agree()
@@ -94,7 +88,6 @@ void ManyRanks::agree()
   }
 }
 
-//------------------------------------------------------------------------------
 /// Reduce numbers over all ranks, in place.
 template <typename Number>
 void ManyRanks::reduce(std::vector<Number>& numbers, int operation)
@@ -109,7 +102,6 @@ void ManyRanks::reduce(std::vector<Number>& numbers, int operation)
   numbers = std::move(all);
 }
 
-//------------------------------------------------------------------------------
 std::string ManyRanks::beginFrame(const std::string& whyNot)
 {
   this->bytesShared_ = 0;
@@ -118,14 +110,12 @@ std::string ManyRanks::beginFrame(const std::string& whyNot)
   return error;
 }
 
-//------------------------------------------------------------------------------
 void ManyRanks::endFrame()
 {
   this->agree();
   this->othersWait_ = false;
 }
 
-//------------------------------------------------------------------------------
 void ManyRanks::fail(const std::string& error) noexcept
 {
   if (this->othersWait_)
@@ -142,7 +132,6 @@ void ManyRanks::fail(const std::string& error) noexcept
   }
 }
 
-//------------------------------------------------------------------------------
 bool ManyRanks::isAny(bool mine)
 {
   std::vector<int> any{ mine ? 1 : 0 };
@@ -150,7 +139,6 @@ bool ManyRanks::isAny(bool mine)
   return any.front() != 0;
 }
 
-//------------------------------------------------------------------------------
 void ManyRanks::requireSame(const std::function<std::uint64_t()>& number, const std::string& what)
 {
   const std::uint64_t mine = number();
@@ -163,7 +151,6 @@ void ManyRanks::requireSame(const std::function<std::uint64_t()>& number, const 
   }
 }
 
-//------------------------------------------------------------------------------
 std::int64_t ManyRanks::sum(std::int64_t mine)
 {
   std::vector<long long> sum{ mine };
@@ -171,7 +158,6 @@ std::int64_t ManyRanks::sum(std::int64_t mine)
   return sum.front();
 }
 
-//------------------------------------------------------------------------------
 Bounds ManyRanks::united(const Bounds& mine)
 {
   std::vector<double> extremes{ mine.lower.x, mine.lower.y, mine.lower.z, -mine.upper.x,
@@ -181,21 +167,18 @@ Bounds ManyRanks::united(const Bounds& mine)
     { -extremes[3], -extremes[4], -extremes[5] } };
 }
 
-//------------------------------------------------------------------------------
 void ManyRanks::reduceToLeast(std::vector<float>& numbers)
 {
   this->reduce(numbers, vtkCommunicator::MIN_OP);
   this->bytesShared_ += sizeof(float) * numbers.size();
 }
 
-//------------------------------------------------------------------------------
 void ManyRanks::uniteBits(std::vector<std::uint64_t>& bits)
 {
   this->reduce(bits, vtkCommunicator::BITWISE_OR_OP);
   this->bytesShared_ += sizeof(std::uint64_t) * bits.size();
 }
 
-//------------------------------------------------------------------------------
 std::vector<std::size_t> ManyRanks::firstsOf(std::size_t mine)
 {
   const auto own = static_cast<vtkIdType>(mine);
@@ -213,7 +196,6 @@ std::vector<std::size_t> ManyRanks::firstsOf(std::size_t mine)
   return firsts;
 }
 
-//------------------------------------------------------------------------------
 void ManyRanks::gatherBytes(
   const void* mine, void* all, std::size_t elementBytes, const std::vector<std::size_t>& firsts)
 {

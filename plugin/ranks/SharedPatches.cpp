@@ -157,7 +157,6 @@ std::vector<std::shared_ptr<Patches>> patchesOf(const Occluders& snapshot,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool SharedPatches::update(Ranks& ranks, const Occluders& snapshot,
   const std::vector<SharedName>& names, const ReceiverPixels& own)
 {
@@ -179,7 +178,6 @@ bool SharedPatches::update(Ranks& ranks, const Occluders& snapshot,
   return true;
 }
 
-//------------------------------------------------------------------------------
 /// Name the patches of patches_. Ranks send the edges that one triangle of theirs has, and one of
 /// each patch, as other ranks may have all of it. Each finds these among its own edges.
 void SharedPatches::name(
@@ -261,7 +259,6 @@ void SharedPatches::name(
   }
 }
 
-//------------------------------------------------------------------------------
 std::size_t SharedPatches::bytes() const
 {
   std::size_t bytes = bytesOf(this->names_) + bytesOf(this->patches_);

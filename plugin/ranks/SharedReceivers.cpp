@@ -25,7 +25,6 @@ Surface receivingSurface()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void keepNearest(
   Ranks& ranks, const std::vector<float>& windowDepths, std::vector<glm::vec2>& fragments)
 {
@@ -40,7 +39,6 @@ void keepNearest(
   }
 }
 
-//------------------------------------------------------------------------------
 void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot)
 {
   this->clear();
@@ -92,7 +90,6 @@ void SharedReceivers::share(Ranks& ranks, const ReceiverPixels& own, const Occlu
   this->receivers_.emplace(this->pixels_);
 }
 
-//------------------------------------------------------------------------------
 void SharedReceivers::shareCurves(
   Ranks& ranks, const ReceiverPixels& own, const Occluders& snapshot, const PatchNames& names)
 {
@@ -119,7 +116,6 @@ void SharedReceivers::shareCurves(
   }
 }
 
-//------------------------------------------------------------------------------
 void SharedReceivers::shareSurfaces(
   Ranks& ranks, std::vector<glm::vec2>& fragments, const std::vector<std::size_t>& numbers)
 {
@@ -143,7 +139,6 @@ void SharedReceivers::shareSurfaces(
     [](float number) { return glm::vec2(number, 0.0f); });
 }
 
-//------------------------------------------------------------------------------
 std::size_t SharedReceivers::bytes() const
 {
   return this->pixels_.bytes() + bytesOf(this->claims_) + bytesOf(this->packed_) +
@@ -152,7 +147,6 @@ std::size_t SharedReceivers::bytes() const
     this->isOwn_.capacity() / 8;
 }
 
-//------------------------------------------------------------------------------
 /// Insert a rank's receivers into the picture. Where several ranks drew the same depth, the
 /// receivers' numbers decide, so that it does not matter which rank has which triangle. If two
 /// ranks have the same triangle, their receivers are the same.
@@ -192,7 +186,6 @@ void SharedReceivers::insert(bool isOwn, const std::uint64_t* claims, const Pack
   }
 }
 
-//------------------------------------------------------------------------------
 SharedReceivers::PackedReceiver SharedReceivers::at(std::size_t pixel) const
 {
   PackedReceiver receiver;

@@ -35,13 +35,11 @@ struct LodPropAccess : vtkLODProp3D
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isPlainActor(const vtkProp* prop)
 {
   return typeid(*prop) == typeid(vtkOpenGLActor);
 }
 
-//------------------------------------------------------------------------------
 ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* renderer)
 {
   if (isPlainActor(actor))
@@ -64,7 +62,6 @@ ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* re
   return { actor, actor->GetMapper(), matrix };
 }
 
-//------------------------------------------------------------------------------
 vtkProp3D* selectedLevel(vtkLODProp3D* prop)
 {
   const vtkLODProp3DEntry* first = LodPropAccess::entries(prop);

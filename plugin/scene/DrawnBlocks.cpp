@@ -63,7 +63,6 @@ bool hasSurfaces(const DrawnBlock& block)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::vector<SurfaceCells>& cellsOf(const DrawnBlock& block)
 {
   static const std::vector<SurfaceCells> spheres = { SurfaceCells::Spheres };
@@ -97,7 +96,6 @@ const std::vector<SurfaceCells>& cellsOf(const DrawnBlock& block)
     (block.lineRadiusFromWorld != glm::dvec4(0.0) ? 4u : 0u)];
 }
 
-//------------------------------------------------------------------------------
 glm::dvec4 radiusFromWorld(const DrawnBlock& block, SurfaceCells cells)
 {
   return cells == SurfaceCells::PointSpheres ? block.pointRadiusFromWorld
@@ -105,7 +103,6 @@ glm::dvec4 radiusFromWorld(const DrawnBlock& block, SurfaceCells cells)
                                              : glm::dvec4(0.0);
 }
 
-//------------------------------------------------------------------------------
 void takeNormals(vtkActor* actor, DrawnBlock& block)
 {
   if (actor->GetProperty()->GetInterpolation() != VTK_FLAT && actor->GetProperty()->GetLighting())
@@ -114,7 +111,6 @@ void takeNormals(vtkActor* actor, DrawnBlock& block)
   }
 }
 
-//------------------------------------------------------------------------------
 vtkMapper* BlockFinder::update(vtkProp* viewProp, vtkMapper* mapper, MapperKind& kind)
 {
   if (const char* reason = reasonAgainst(mapper, kind))
@@ -136,7 +132,6 @@ vtkMapper* BlockFinder::update(vtkProp* viewProp, vtkMapper* mapper, MapperKind&
   return mapper;
 }
 
-//------------------------------------------------------------------------------
 std::size_t BlockFinder::add(
   const DrawnActor& drawn, const DrawnProp& prop, const std::string& texture)
 {
@@ -166,7 +161,6 @@ std::size_t BlockFinder::add(
   return blocks.size() - before;
 }
 
-//------------------------------------------------------------------------------
 void BlockFinder::addAll(const DrawnActor& drawn, const DrawnProp& prop)
 {
   vtkMapper* const mapper = drawn.mapper;
@@ -217,7 +211,6 @@ void BlockFinder::addAll(const DrawnActor& drawn, const DrawnProp& prop)
   }
 }
 
-//------------------------------------------------------------------------------
 void BlockFinder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
 {
   const std::optional<DrawnSolids> drawn = drawnSolids(mapper);
@@ -230,7 +223,6 @@ void BlockFinder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
     solidsBlock(mapper, static_cast<vtkPolyDataMapper*>(mapper)->GetInput(), drawn->cells));
 }
 
-//------------------------------------------------------------------------------
 /// Store the radii of spheres at vertices and tubes along lines in a block of the actor's.
 void BlockFinder::takePixelSizes(vtkActor* actor, DrawnBlock& block)
 {
@@ -250,7 +242,6 @@ void BlockFinder::takePixelSizes(vtkActor* actor, DrawnBlock& block)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Update a mapper's input.
 /// @return true if there is any
 bool BlockFinder::updateInput(vtkMapper* mapper, MapperKind kind)

@@ -53,7 +53,6 @@ bool drawsSurface(vtkAbstractMapper* mapper, vtkProp* prop, SurfaceCells cells)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 int cornersOfPrimitives(vtkAbstractMapper* mapper, vtkProp* prop)
 {
   const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
@@ -64,7 +63,6 @@ int cornersOfPrimitives(vtkAbstractMapper* mapper, vtkProp* prop)
   return *cells == SurfaceCells::PointSpheres ? 1 : *cells == SurfaceCells::LineTubes ? 2 : 3;
 }
 
-//------------------------------------------------------------------------------
 std::size_t DrawnLookup::PlaceHash::operator()(const Place& place) const
 {
   std::size_t seed = 0;
@@ -77,7 +75,6 @@ std::size_t DrawnLookup::PlaceHash::operator()(const Place& place) const
   return seed;
 }
 
-//------------------------------------------------------------------------------
 std::size_t DrawnLookup::QuestionHash::operator()(const Question& question) const
 {
   std::size_t seed = 0;
@@ -87,7 +84,6 @@ std::size_t DrawnLookup::QuestionHash::operator()(const Question& question) cons
   return seed;
 }
 
-//------------------------------------------------------------------------------
 void DrawnLookup::clear()
 {
   this->held_.clear();
@@ -97,7 +93,6 @@ void DrawnLookup::clear()
   this->taken_.clear();
 }
 
-//------------------------------------------------------------------------------
 void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   const glm::dmat4& worldFromModel, std::vector<HeldSurface> held,
   std::optional<std::size_t> plainNumber)
@@ -129,7 +124,6 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   this->held_.push_back(std::move(held));
 }
 
-//------------------------------------------------------------------------------
 void DrawnLookup::beginFrame()
 {
   ++this->frame_;
@@ -138,7 +132,6 @@ void DrawnLookup::beginFrame()
   this->drawnSurfaces_.clear();
 }
 
-//------------------------------------------------------------------------------
 void DrawnLookup::setDrawers(
   const std::vector<const void*>& translucentReceivers, const std::vector<const void*>& seenThrough)
 {
@@ -146,7 +139,6 @@ void DrawnLookup::setDrawers(
   this->seenThrough_ = { seenThrough.begin(), seenThrough.end() };
 }
 
-//------------------------------------------------------------------------------
 /// True if a prop or its mapper is among drawers, as DrawnProps lists them.
 bool DrawnLookup::isAmong(vtkProp* prop, const std::unordered_set<const void*>& drawers)
 {
@@ -154,7 +146,6 @@ bool DrawnLookup::isAmong(vtkProp* prop, const std::unordered_set<const void*>& 
   return actor && (drawers.count(prop) > 0 || drawers.count(actor->GetMapper()) > 0);
 }
 
-//------------------------------------------------------------------------------
 std::size_t DrawnLookup::bytes() const
 {
   return bytesOf(this->held_) + bytesOfTable(this->heldAt_) + bytesOf(this->plain_) +
@@ -165,7 +156,6 @@ std::size_t DrawnLookup::bytes() const
       this->drawnSurfaces_, [](const DrawnSurface& drawn) { return bytesOf(drawn.blocks); });
 }
 
-//------------------------------------------------------------------------------
 const DrawnLookup::HeldSurfaces* DrawnLookup::heldBy(vtkProp* prop) const
 {
   vtkMatrix4x4* matrix = prop->GetMatrix();
@@ -185,7 +175,6 @@ const DrawnLookup::HeldSurfaces* DrawnLookup::heldBy(vtkProp* prop) const
   return found != this->heldAt_.end() ? &this->held_[found->second] : nullptr;
 }
 
-//------------------------------------------------------------------------------
 /// Return the surface that is made of these cells, or null. Helpers and parts of mappers draw
 /// shallow copies of its data. VTK draws glyphs that share the cells in the order in which they are
 /// held.
@@ -212,7 +201,6 @@ const DrawnLookup::HeldSurface* DrawnLookup::match(
   return &*place;
 }
 
-//------------------------------------------------------------------------------
 /// Return a plain prop's drawing, if the prop is in its place; else null.
 DrawnLookup::PlainDrawing* DrawnLookup::plainHere(vtkProp* prop, std::optional<std::size_t> number)
 {
@@ -227,7 +215,6 @@ DrawnLookup::PlainDrawing* DrawnLookup::plainHere(vtkProp* prop, std::optional<s
   return isHere ? &plain : nullptr;
 }
 
-//------------------------------------------------------------------------------
 /// Return the facts about a plain prop, which is one of the frame's drawn surfaces.
 HookedSurface DrawnLookup::take(PlainDrawing& plain, const Occluders& occluders)
 {
@@ -241,7 +228,6 @@ HookedSurface DrawnLookup::take(PlainDrawing& plain, const Occluders& occluders)
   return { plain.index, surface.receives, false, surface.facetHeight, 0 };
 }
 
-//------------------------------------------------------------------------------
 /// Match the blocks that a mapper is about to draw with the surfaces that are held.
 /// @return the blocks that are found, and the facts about them but the index
 std::pair<DrawnSurface, HookedSurface> DrawnLookup::matchBlocks(const HeldSurfaces& held,
@@ -269,7 +255,6 @@ std::pair<DrawnSurface, HookedSurface> DrawnLookup::matchBlocks(const HeldSurfac
   return { std::move(drawn), hooked };
 }
 
-//------------------------------------------------------------------------------
 HookedSurface DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop,
   std::optional<std::size_t> number, const Occluders& occluders)
 {

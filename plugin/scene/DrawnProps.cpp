@@ -11,13 +11,11 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 {
   return glm::transpose(glm::make_mat4(&matrix->Element[0][0])); // VTK's elements go row by row
 }
 
-//------------------------------------------------------------------------------
 DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory, TranslucentRole translucent)
 {
   memory.cutouts.beginFrame();

@@ -193,7 +193,6 @@ bool orientable(vtkGlyph3DMapper* mapper, vtkDataArray* array)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<Glyph> drawnGlyphs(vtkGlyph3DMapper* mapper)
 {
   std::vector<Glyph> glyphs;
@@ -226,7 +225,6 @@ std::vector<Glyph> drawnGlyphs(vtkGlyph3DMapper* mapper)
   return glyphs;
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::mat4> glyphInstances(vtkGlyph3DMapper* mapper, vtkDataSet* points, int source)
 {
   vtkDataArray* orientations = ArrayAccess::orientations(mapper, points);

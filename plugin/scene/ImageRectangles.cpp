@@ -73,13 +73,11 @@ void place(vtkPoints* points, const std::array<double, 12>& corners)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void ImageRectangles::beginFrame()
 {
   forgetUnasked(this->known_);
 }
 
-//------------------------------------------------------------------------------
 ImageRectangle ImageRectangles::find(vtkImageSlice* slice)
 {
   auto* mapper = vtkOpenGLImageSliceMapper::SafeDownCast(slice->GetMapper());
@@ -99,7 +97,6 @@ ImageRectangle ImageRectangles::find(vtkImageSlice* slice)
   return { actor, static_cast<vtkPolyDataMapper*>(actor->GetMapper())->GetInput(), known.data };
 }
 
-//------------------------------------------------------------------------------
 std::size_t ImageRectangles::bytes() const
 {
   return bytesOfTable(this->known_); // and a rectangle each

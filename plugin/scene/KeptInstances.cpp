@@ -36,14 +36,12 @@ bool isVisible(const glm::mat4x3& instance, const glm::dvec3& extentSource)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool areInstancesCheaper(std::size_t trianglesOfSource, std::size_t instances)
 {
   return trianglesOfSource >= fewestTrianglesOfSource &&
     trianglesOfSource * instances >= fewestTriangles;
 }
 
-//------------------------------------------------------------------------------
 bool PlacedInstances::areMoved(const Surface& before) const
 {
   const auto sameLeftOut = [](const glm::mat4x3& a, const glm::mat4x3& b)
@@ -53,7 +51,6 @@ bool PlacedInstances::areMoved(const Surface& before) const
       before.centredFromSource.begin(), before.centredFromSource.end(), sameLeftOut);
 }
 
-//------------------------------------------------------------------------------
 std::optional<PlacedInstances> placeKeptInstances(const glm::dmat4& worldFromModel,
   const std::vector<glm::mat4>& modelFromInstance, const SceneFrame& source,
   const Bounds& boundsSource, const SceneFrame& frame)

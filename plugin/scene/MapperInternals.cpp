@@ -159,14 +159,12 @@ struct DataSetMapperAccess : vtkDataSetMapper
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::optional<SurfaceCells> cellsAboutToBeDrawn(vtkAbstractMapper* mapper)
 {
   auto* openGl = vtkOpenGLPolyDataMapper::SafeDownCast(mapper);
   return openGl ? MapperAccess::cells(openGl) : std::nullopt;
 }
 
-//------------------------------------------------------------------------------
 std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells)
 {
   const int primitiveType = cells == SurfaceCells::Polygons ? vtkOpenGLPolyDataMapper::PrimitiveTris
@@ -187,13 +185,11 @@ std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells)
   return calls;
 }
 
-//------------------------------------------------------------------------------
 vtkPolyDataMapper* innerMapper(vtkDataSetMapper* mapper)
 {
   return DataSetMapperAccess::inner(mapper);
 }
 
-//------------------------------------------------------------------------------
 std::optional<DrawnSolids> drawnSolids(vtkMapper* mapper)
 {
   if (auto* spheres = vtkOpenGLSphereMapper::SafeDownCast(mapper))
@@ -216,13 +212,11 @@ std::optional<DrawnSolids> drawnSolids(vtkMapper* mapper)
   return std::nullopt;
 }
 
-//------------------------------------------------------------------------------
 std::vector<vtkMapper*> solidMappers(vtkOpenGLMoleculeMapper* mapper)
 {
   return MoleculeMapperAccess::solids(mapper);
 }
 
-//------------------------------------------------------------------------------
 const char* coordinatesArray(vtkAbstractMapper* mapper, const std::string& texture)
 {
   // Helpers that draw the blocks of composite data do not receive these arrays.

@@ -25,7 +25,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 MapperKind kindOf(vtkMapper* mapper)
 {
   if (std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") == 0)
@@ -50,7 +49,6 @@ MapperKind kindOf(vtkMapper* mapper)
                                              : MapperKind::Other;
 }
 
-//------------------------------------------------------------------------------
 bool drawnAsSurface(vtkProperty* property, vtkMapper* mapper)
 {
   if (property->GetRepresentation() == VTK_SURFACE)
@@ -61,7 +59,6 @@ bool drawnAsSurface(vtkProperty* property, vtkMapper* mapper)
   return kind == MapperKind::Solids || kind == MapperKind::Molecule || kind == MapperKind::Splats;
 }
 
-//------------------------------------------------------------------------------
 bool isSeenThrough(vtkActor* actor)
 {
   return actor->GetForceOpaque() &&
@@ -69,7 +66,6 @@ bool isSeenThrough(vtkActor* actor)
       (actor->GetMapper() && actor->GetMapper()->HasTranslucentPolygonalGeometry()));
 }
 
-//------------------------------------------------------------------------------
 bool hasOwnFramebuffer(vtkMapper* mapper)
 {
   constexpr std::array<const char*, 3> classes = { "vtkSurfaceLICMapper",
@@ -79,7 +75,6 @@ bool hasOwnFramebuffer(vtkMapper* mapper)
       classes.begin(), classes.end(), [mapper](const char* name) { return mapper->IsA(name); });
 }
 
-//------------------------------------------------------------------------------
 bool mayMoveVertices(vtkActor* actor)
 {
   vtkShaderProperty* code = actor->GetShaderProperty();
@@ -91,7 +86,6 @@ bool mayMoveVertices(vtkActor* actor)
   return may;
 }
 
-//------------------------------------------------------------------------------
 bool showsLight(vtkProperty* property)
 {
   return property->GetLighting() &&
@@ -99,7 +93,6 @@ bool showsLight(vtkProperty* property)
       property->GetSpecular() > 0.0);
 }
 
-//------------------------------------------------------------------------------
 void runInput(vtkMapper* mapper, MapperKind kind)
 {
   if (kind != MapperKind::PlainPolyData && kind != MapperKind::PolyData &&
@@ -127,7 +120,6 @@ void runInput(vtkMapper* mapper, MapperKind kind)
   input->Update();
 }
 
-//------------------------------------------------------------------------------
 const char* reasonAgainst(vtkMapper* mapper, MapperKind kind)
 {
   if (kind == MapperKind::Other)
@@ -150,7 +142,6 @@ const char* reasonAgainst(vtkMapper* mapper, MapperKind kind)
     : nullptr;
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::dvec4> clipPlanesOf(vtkAbstractMapper* mapper)
 {
   constexpr int mostPlanes = 6;

@@ -12,7 +12,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 SnapshotChange OccluderCollector::collect(
   vtkRenderer* renderer, CollectOptions options, Ranks& ranks)
 {
@@ -51,7 +50,6 @@ SnapshotChange OccluderCollector::collect(
   return change;
 }
 
-//------------------------------------------------------------------------------
 /// Index the snapshot's surfaces by prop and matrix.
 void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
 {
@@ -78,7 +76,6 @@ void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
   }
 }
 
-//------------------------------------------------------------------------------
 void OccluderCollector::noteWhatIsTooLarge(const std::vector<WantedSurface>& wanted)
 {
   for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -103,7 +100,6 @@ void OccluderCollector::noteWhatIsTooLarge(const std::vector<WantedSurface>& wan
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return a note if a prop is so much larger than others that a fill value explains it. Empty if
 /// none is.
 std::string OccluderCollector::noteOnBoxes(const std::vector<WantedSurface>& wanted) const
@@ -131,7 +127,6 @@ std::string OccluderCollector::noteOnBoxes(const std::vector<WantedSurface>& wan
     ": its box is more than 2^20 times as large as the median prop's, as a fill value makes it";
 }
 
-//------------------------------------------------------------------------------
 Bounds OccluderCollector::pointsCentred() const
 {
   return this->pointsWorld_.empty()
@@ -139,13 +134,11 @@ Bounds OccluderCollector::pointsCentred() const
     : affinelyTransformed(this->pointsWorld_, this->occluders().frame.centredFrom(glm::dmat4(1.0)));
 }
 
-//------------------------------------------------------------------------------
 std::size_t OccluderCollector::bytes() const
 {
   return this->surfaces_.bytes() + this->lookup_.bytes() + this->propMemory_.bytes();
 }
 
-//------------------------------------------------------------------------------
 HookedSurface OccluderCollector::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
 {
   return this->lookup_.find(

@@ -155,7 +155,6 @@ bool hasSize(const glm::mat4x3& matrix)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
   const glm::dmat4& worldFromModel, const std::vector<glm::dvec4>& clipPlanes,
   const SceneFrame& frame)
@@ -189,7 +188,6 @@ PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
   return result;
 }
 
-//------------------------------------------------------------------------------
 Bounds boundsOfSolids(const DrawnBlock& block, SurfaceCells cells)
 {
   if (!areSizedInPixels(cells))

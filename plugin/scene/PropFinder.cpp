@@ -66,7 +66,6 @@ bool mayCastOrReceive(vtkProp* viewProp)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 PropFinder::PropFinder(vtkRenderer* renderer, PropMemory& memory, TranslucentRole translucent)
   : renderer_(renderer)
   , memory_(memory)
@@ -79,7 +78,6 @@ PropFinder::PropFinder(vtkRenderer* renderer, PropMemory& memory, TranslucentRol
   this->drawn_.blocks.reserve(count);
 }
 
-//------------------------------------------------------------------------------
 void PropFinder::addViewProp(vtkProp* viewProp, int number)
 {
   this->number_ = number;
@@ -88,13 +86,11 @@ void PropFinder::addViewProp(vtkProp* viewProp, int number)
   this->addViewProp(viewProp);
 }
 
-//------------------------------------------------------------------------------
 bool PropFinder::casts(bool byDefault) const
 {
   return byDefault ? vtkGnomonPropKeys::GetCasts(this->viewProp_) : askedToCast(this->viewProp_);
 }
 
-//------------------------------------------------------------------------------
 void PropFinder::addPass(const DrawnActor& taken, DrawnProp& prop, const std::string& texture)
 {
   prop.firstBlock = this->drawn_.blocks.size();
@@ -105,7 +101,6 @@ void PropFinder::addPass(const DrawnActor& taken, DrawnProp& prop, const std::st
   }
 }
 
-//------------------------------------------------------------------------------
 void PropFinder::addBox(const double* sides, const glm::dmat4& worldFromModel)
 {
   const Bounds model{ { sides[0], sides[2], sides[4] }, { sides[1], sides[3], sides[5] } };
@@ -115,7 +110,6 @@ void PropFinder::addBox(const double* sides, const glm::dmat4& worldFromModel)
   }
 }
 
-//------------------------------------------------------------------------------
 void PropFinder::skip(vtkObjectBase* what, const char* why)
 {
   if (mayCastOrReceive(this->viewProp_))
@@ -126,7 +120,6 @@ void PropFinder::skip(vtkObjectBase* what, const char* why)
   }
 }
 
-//------------------------------------------------------------------------------
 void PropFinder::addViewProp(vtkProp* viewProp)
 {
   if (!viewProp->GetVisibility())
@@ -167,7 +160,6 @@ void PropFinder::addViewProp(vtkProp* viewProp)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Return a prop without its blocks.
 DrawnProp PropFinder::propOf(vtkActor* actor, vtkMapper* mapper, vtkMatrix4x4* matrix)
 {
@@ -191,7 +183,6 @@ DrawnProp PropFinder::propOf(vtkActor* actor, vtkMapper* mapper, vtkMatrix4x4* m
   return prop;
 }
 
-//------------------------------------------------------------------------------
 /// Add a prop as addLeaf() would, from the answers of an earlier frame.
 void PropFinder::addPlain(const PlainProp& plain)
 {
@@ -203,7 +194,6 @@ void PropFinder::addPlain(const PlainProp& plain)
   this->drawn_.props.push_back(std::move(prop));
 }
 
-//------------------------------------------------------------------------------
 /// The ways to take a leaf that is no plain actor. Its first base class in the table decides.
 const PropFinder::LeafKind PropFinder::leafKinds[] = {
   { "vtkSkybox" },
@@ -220,7 +210,6 @@ const PropFinder::LeafKind PropFinder::leafKinds[] = {
   { "vtkProp3D", nullptr, "draws through props of its own" },
 };
 
-//------------------------------------------------------------------------------
 void PropFinder::addLeaf(vtkProp* leaf, vtkMatrix4x4* matrix)
 {
   if (isPlainActor(leaf))
@@ -245,7 +234,6 @@ void PropFinder::addLeaf(vtkProp* leaf, vtkMatrix4x4* matrix)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Add the level of detail that VTK draws, where its owner is.
 void PropFinder::addLevel(vtkProp* leaf, vtkMatrix4x4* matrix)
 {
@@ -255,7 +243,6 @@ void PropFinder::addLevel(vtkProp* leaf, vtkMatrix4x4* matrix)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Add the rectangle of an image that is asked to cast. VTK draws it in the opaque pass.
 void PropFinder::addImage(vtkProp* leaf, vtkMatrix4x4* matrix)
 {
@@ -289,7 +276,6 @@ void PropFinder::addImage(vtkProp* leaf, vtkMatrix4x4* matrix)
   this->drawn_.props.push_back(std::move(prop));
 }
 
-//------------------------------------------------------------------------------
 /// Add a volume that casts, receives or does both.
 void PropFinder::addVolume(vtkProp* leaf, vtkMatrix4x4* matrix)
 {
@@ -320,7 +306,6 @@ void PropFinder::addVolume(vtkProp* leaf, vtkMatrix4x4* matrix)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Add an actor that draws surfaces, if the snapshot can hold them.
 void PropFinder::addActor(vtkProp* leaf, vtkMatrix4x4* matrix)
 {
@@ -373,7 +358,6 @@ void PropFinder::addActor(vtkProp* leaf, vtkMatrix4x4* matrix)
   this->addTaken(taken);
 }
 
-//------------------------------------------------------------------------------
 /// Add the surfaces of an actor that cast or receive, and note what its shadows leave out.
 void PropFinder::addTaken(const DrawnActor& taken)
 {
@@ -438,7 +422,6 @@ void PropFinder::addTaken(const DrawnActor& taken)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Add what the translucent pass draws of an actor that casts.
 /// @param whyUncut why its texture's alpha does not count; null if it does
 void PropFinder::addTranslucent(
@@ -465,7 +448,6 @@ void PropFinder::addTranslucent(
   this->addPass(taken, prop, cutout.texture);
 }
 
-//------------------------------------------------------------------------------
 DrawnProps PropFinder::take()
 {
   this->notes_.tell(this->drawn_);

@@ -41,7 +41,6 @@ Words wordsOf(PropNotes::Kind kind)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void PropNotes::add(Kind kind, int number, vtkMapper* mapper, const std::string& why)
 {
   constexpr int mostNames = 5;
@@ -57,7 +56,6 @@ void PropNotes::add(Kind kind, int number, vtkMapper* mapper, const std::string&
                                                   : "");
 }
 
-//------------------------------------------------------------------------------
 void PropNotes::tell(DrawnProps& drawn) const
 {
   for (const auto& [key, named] : this->props_)

@@ -54,7 +54,6 @@ bool hasNoSurface(vtkProp* prop)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool haveInputsRun(vtkRenderer* renderer)
 {
   vtkCullerCollection* const cullers = renderer->GetCullers();
@@ -68,7 +67,6 @@ bool haveInputsRun(vtkRenderer* renderer)
   return culler != nullptr;
 }
 
-//------------------------------------------------------------------------------
 bool PropRecords::beginFrame(vtkPropCollection* props, bool inputsHaveRun)
 {
   const auto count = static_cast<std::size_t>(props->GetNumberOfItems());
@@ -107,14 +105,12 @@ bool PropRecords::beginFrame(vtkPropCollection* props, bool inputsHaveRun)
   return areSame;
 }
 
-//------------------------------------------------------------------------------
 const PlainProp* PropRecords::unchanged(std::size_t number) const
 {
   const bool is = number < this->records_.size() && this->records_[number].plain.actor;
   return is ? &this->records_[number].plain : nullptr;
 }
 
-//------------------------------------------------------------------------------
 bool PropRecords::remember(std::size_t number, vtkActor* actor)
 {
   vtkMapper* const mapper = actor->GetMapper();
@@ -137,7 +133,6 @@ bool PropRecords::remember(std::size_t number, vtkActor* actor)
   return data != nullptr;
 }
 
-//------------------------------------------------------------------------------
 std::optional<std::size_t> PropRecords::numberOf(const vtkProp* prop)
 {
   if (this->next_ >= this->records_.size() || this->records_[this->next_].prop != prop)
@@ -152,7 +147,6 @@ std::optional<std::size_t> PropRecords::numberOf(const vtkProp* prop)
   return this->next_++;
 }
 
-//------------------------------------------------------------------------------
 std::size_t PropRecords::stamp(vtkProp* prop, vtkRenderer* renderer)
 {
   const std::optional<std::size_t> number = this->numberOf(prop);
@@ -180,7 +174,6 @@ std::size_t PropRecords::stamp(vtkProp* prop, vtkRenderer* renderer)
   return record.stamp;
 }
 
-//------------------------------------------------------------------------------
 void PropRecords::endFrame(vtkRenderer* renderer)
 {
   for (const auto& [number, prop] : this->due_)
@@ -198,7 +191,6 @@ void PropRecords::endFrame(vtkRenderer* renderer)
   this->due_.clear();
 }
 
-//------------------------------------------------------------------------------
 std::vector<std::string> PropRecords::notes() const
 {
   std::map<std::string, int> counts;
@@ -218,7 +210,6 @@ std::vector<std::string> PropRecords::notes() const
   return notes;
 }
 
-//------------------------------------------------------------------------------
 std::size_t PropRecords::bytes() const
 {
   return bytesOf(this->records_) + bytesOfTable(this->numbers_);

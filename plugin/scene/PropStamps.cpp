@@ -102,7 +102,6 @@ private:
   vtkRenderer* renderer_;
 };
 
-//------------------------------------------------------------------------------
 void Stamper::addViewProp(vtkProp* prop)
 {
   this->addKeys(prop);
@@ -125,7 +124,6 @@ void Stamper::addViewProp(vtkProp* prop)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Add what a prop hands down to its parts. VTK changes the time of the keys in every frame.
 void Stamper::addKeys(vtkProp* prop)
 {
@@ -139,7 +137,6 @@ void Stamper::addKeys(vtkProp* prop)
   }
 }
 
-//------------------------------------------------------------------------------
 /// @param matrix of the leaf's path; null if it has none
 void Stamper::addLeaf(vtkProp* leaf, vtkMatrix4x4* matrix)
 {
@@ -209,7 +206,6 @@ void Stamper::addLeaf(vtkProp* leaf, vtkMatrix4x4* matrix)
   }
 }
 
-//------------------------------------------------------------------------------
 void Stamper::addActor(vtkActor* actor, vtkMatrix4x4* matrix)
 {
   this->add(actor->GetForceOpaque());
@@ -229,7 +225,6 @@ void Stamper::addActor(vtkActor* actor, vtkMatrix4x4* matrix)
   }
 }
 
-//------------------------------------------------------------------------------
 void Stamper::addAnnotation(vtkActor2D* annotation)
 {
   this->addObjects(annotation);
@@ -250,7 +245,6 @@ void Stamper::addAnnotation(vtkActor2D* annotation)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Add the props by which one of unknown kind draws, as far as it tells of them.
 void Stamper::addInnerProps(vtkProp* prop)
 {
@@ -268,7 +262,6 @@ void Stamper::addInnerProps(vtkProp* prop)
   }
 }
 
-//------------------------------------------------------------------------------
 void Stamper::addLook(vtkProperty* property)
 {
   this->addObjects(property);
@@ -281,7 +274,6 @@ void Stamper::addLook(vtkProperty* property)
   }
 }
 
-//------------------------------------------------------------------------------
 void Stamper::addTexture(vtkTexture* texture)
 {
   this->addObjects(texture);
@@ -292,7 +284,6 @@ void Stamper::addTexture(vtkTexture* texture)
   }
 }
 
-//------------------------------------------------------------------------------
 /// Add an actor's mapper.
 void Stamper::addSurfaces(vtkMapper* mapper)
 {
@@ -313,7 +304,6 @@ void Stamper::addSurfaces(vtkMapper* mapper)
   }
 }
 
-//------------------------------------------------------------------------------
 /// @param mapper may be null
 /// @param isStatic true if VTK does not update its input
 void Stamper::addMapper(vtkAbstractMapper* mapper, bool isStatic)
@@ -331,7 +321,6 @@ void Stamper::addMapper(vtkAbstractMapper* mapper, bool isStatic)
   this->addData(mapper, isStatic);
 }
 
-//------------------------------------------------------------------------------
 /// Add the data on all inputs, brought up to date as VTK does when it draws. A composite data set's
 /// time leaves out its blocks'.
 void Stamper::addData(vtkAlgorithm* consumer, bool isStatic)
@@ -363,7 +352,6 @@ void Stamper::addData(vtkAlgorithm* consumer, bool isStatic)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 int keysOf(vtkProp* prop)
 {
   return (vtkGnomonPropKeys::GetCasts(prop) ? 1 : 0) +
@@ -372,7 +360,6 @@ int keysOf(vtkProp* prop)
     (vtkGnomonPropKeys::GetShadowCatcher(prop) ? 8 : 0);
 }
 
-//------------------------------------------------------------------------------
 PropStamp stampOf(vtkProp* prop, vtkRenderer* renderer)
 {
   Stamper stamper(renderer);
@@ -380,7 +367,6 @@ PropStamp stampOf(vtkProp* prop, vtkRenderer* renderer)
   return stamper.stamp;
 }
 
-//------------------------------------------------------------------------------
 void hashTexture(std::size_t& seed, vtkTexture* texture)
 {
   Stamper stamper(nullptr);

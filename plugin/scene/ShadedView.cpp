@@ -10,7 +10,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 ShadedView::ShadedView(vtkRenderer* renderer)
   : renderer_(renderer)
 {
@@ -22,7 +21,6 @@ ShadedView::ShadedView(vtkRenderer* renderer)
   this->angle_ = camera->GetViewAngle();
 }
 
-//------------------------------------------------------------------------------
 bool ShadedView::isShown(bool withAngle) const
 {
   vtkCamera* const camera = this->renderer_->GetActiveCamera();

@@ -77,7 +77,6 @@ std::vector<vtkIdType> cellsOfTriangles(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const char* whyNoSheet(const DrawnActor& drawn, const DrawnProp& prop)
 {
   const MapperKind kind = drawn.kind;
@@ -108,7 +107,6 @@ const char* whyNoSheet(const DrawnActor& drawn, const DrawnProp& prop)
                                : nullptr;
 }
 
-//------------------------------------------------------------------------------
 SheetSource sheetSource(const DrawnProp& prop, const DrawnBlock& block, const Surface& surface)
 {
   if (prop.transmits == vtkGnomonPropKeys::TRANSMITS_NOTHING)
@@ -120,7 +118,6 @@ SheetSource sheetSource(const DrawnProp& prop, const DrawnBlock& block, const Su
     std::max(prop.mapper->GetMTime(), block.data->GetMTime()) };
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const Sheet> readSheet(const DrawnProp& prop, const DrawnBlock& block,
   const Surface& surface, const SurfaceRecord& record)
 {

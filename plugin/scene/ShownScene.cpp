@@ -37,7 +37,6 @@ void hashSurroundings(std::size_t& seed, vtkRenderer* renderer)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::size_t hashOfShownScene(vtkRenderer* renderer)
 {
   std::size_t seed = 0;

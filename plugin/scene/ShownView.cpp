@@ -76,7 +76,6 @@ glm::dmat4 viewFromWorld(const glm::dmat4& vtkView, const glm::dmat4& projection
 
 } // namespace
 
-//------------------------------------------------------------------------------
 glm::ivec2 sizeOf(const vtkRenderState* s, int reductionFactor)
 {
   glm::ivec2 size(0);
@@ -94,7 +93,6 @@ glm::ivec2 sizeOf(const vtkRenderState* s, int reductionFactor)
   return glm::max(size, 1);
 }
 
-//------------------------------------------------------------------------------
 glm::ivec2 originOf(const vtkRenderState* s)
 {
   glm::ivec2 size(0);
@@ -106,7 +104,6 @@ glm::ivec2 originOf(const vtkRenderState* s)
   return origin;
 }
 
-//------------------------------------------------------------------------------
 ShownView shownView(vtkRenderer* renderer, const SceneFrame& frame)
 {
   vtkCamera* const vtk = renderer->GetActiveCamera();
@@ -133,7 +130,6 @@ ShownView shownView(vtkRenderer* renderer, const SceneFrame& frame)
   return shown;
 }
 
-//------------------------------------------------------------------------------
 void hashView(std::size_t& seed, const CameraView& camera, const glm::ivec2& size)
 {
   hashMatrix(seed, camera.viewFromCentred);
@@ -142,7 +138,6 @@ void hashView(std::size_t& seed, const CameraView& camera, const glm::ivec2& siz
   hashCombine(seed, size.y);
 }
 
-//------------------------------------------------------------------------------
 bool ViewCount::areSeveral(vtkRenderer* renderer)
 {
   int tiles[2] = { 1, 1 };

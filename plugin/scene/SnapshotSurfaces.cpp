@@ -39,7 +39,6 @@ struct GlyphCount
 
 } // namespace
 
-//------------------------------------------------------------------------------
 SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted,
   std::vector<std::shared_ptr<const Volume>> volumes, Ranks& ranks)
 {
@@ -107,7 +106,6 @@ SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted,
   return change;
 }
 
-//------------------------------------------------------------------------------
 /// Count the instances that all processes have of each glyph. Read a glyph again if its number
 /// makes another way to hold it cheaper.
 /// @return how many were read again
@@ -156,7 +154,6 @@ int SnapshotSurfaces::countInstances(std::vector<WantedSurface>& wanted, Ranks& 
   return read;
 }
 
-//------------------------------------------------------------------------------
 /// Set the frame to that of the present box; true if it is another one.
 bool SnapshotSurfaces::updateFrame(const std::vector<WantedSurface>& wanted, Ranks& ranks)
 {
@@ -173,7 +170,6 @@ bool SnapshotSurfaces::updateFrame(const std::vector<WantedSurface>& wanted, Ran
   return this->occluders_.frame != old;
 }
 
-//------------------------------------------------------------------------------
 void SnapshotSurfaces::read(WantedSurface& wanted, vtkMTimeType time)
 {
   wanted.fresh = std::make_unique<FreshSurface>(
@@ -182,7 +178,6 @@ void SnapshotSurfaces::read(WantedSurface& wanted, vtkMTimeType time)
   wanted.fresh->record.shapeTime = time;
 }
 
-//------------------------------------------------------------------------------
 SnapshotSurfaces::Outcome SnapshotSurfaces::updateSurface(
   WantedSurface& wanted, bool reframed, SnapshotChange& change)
 {
@@ -211,7 +206,6 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::updateSurface(
   return maybeSame ? this->overwrite(wanted) : Outcome::OtherTriangles;
 }
 
-//------------------------------------------------------------------------------
 /// Compute a surface's positions at its new place. False if this changes which triangles are
 /// dropped: then the surface must be read again.
 bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
@@ -249,7 +243,6 @@ bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
   return true;
 }
 
-//------------------------------------------------------------------------------
 /// Store the new places of a surface's instances. False, without any change, if other instances are
 /// left out or the front side changes. Then the surface counts as another one.
 bool SnapshotSurfaces::moveInstances(std::size_t index, PlacedInstances& placed)
@@ -267,7 +260,6 @@ bool SnapshotSurfaces::moveInstances(std::size_t index, PlacedInstances& placed)
   return true;
 }
 
-//------------------------------------------------------------------------------
 /// Overwrite a surface in place by its fresh copy if the triangles are the same.
 SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
 {
@@ -317,7 +309,6 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
   return moved ? Outcome::Moved : Outcome::Same;
 }
 
-//------------------------------------------------------------------------------
 /// Rebuild the list from fresh surfaces and copies of the unchanged ones.
 void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
 {
@@ -390,7 +381,6 @@ void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
   this->records_ = std::move(records);
 }
 
-//------------------------------------------------------------------------------
 /// Store the props' flags, cut-outs and sheets; true if one changed.
 bool SnapshotSurfaces::updateFlags(const std::vector<WantedSurface>& wanted)
 {
@@ -414,7 +404,6 @@ bool SnapshotSurfaces::updateFlags(const std::vector<WantedSurface>& wanted)
   return changed;
 }
 
-//------------------------------------------------------------------------------
 /// Store a surface's sheet; true if it changed.
 bool SnapshotSurfaces::updateSheet(const WantedSurface& wanted, std::size_t index)
 {
@@ -437,7 +426,6 @@ bool SnapshotSurfaces::updateSheet(const WantedSurface& wanted, std::size_t inde
   return changed;
 }
 
-//------------------------------------------------------------------------------
 /// Compute boxes and counts over all surfaces.
 void SnapshotSurfaces::summarise()
 {
@@ -468,7 +456,6 @@ void SnapshotSurfaces::summarise()
   }
 }
 
-//------------------------------------------------------------------------------
 std::size_t SnapshotSurfaces::bytes() const
 {
   std::size_t bytes = bytesOf(this->occluders_.positionsCentred) +

@@ -41,7 +41,6 @@ bool drawsTubes(vtkProperty* property)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const char* reasonAgainstSolids(
   const std::optional<DrawnSolids>& drawn, vtkMapper* mapper, const glm::dmat4& worldFromModel)
 {
@@ -58,13 +57,11 @@ const char* reasonAgainstSolids(
     : nullptr;
 }
 
-//------------------------------------------------------------------------------
 bool isSizedInPixels(vtkProperty* property)
 {
   return property->GetRenderPointsAsSpheres() || drawsTubes(property);
 }
 
-//------------------------------------------------------------------------------
 PixelSizes pixelSizes(vtkProperty* property, vtkRenderer* renderer)
 {
   vtkCamera* camera = renderer->GetActiveCamera();

@@ -58,7 +58,6 @@ std::vector<vtkIdType> drawnPoints(vtkPolyData* data)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const char* reasonAgainstSplats(vtkPointGaussianMapper* mapper)
 {
   const char* code = mapper->GetSplatShaderCode();
@@ -71,7 +70,6 @@ const char* reasonAgainstSplats(vtkPointGaussianMapper* mapper)
     : nullptr;
 }
 
-//------------------------------------------------------------------------------
 std::vector<vtkPolyData*> splatBlocks(vtkPointGaussianMapper* mapper)
 {
   std::vector<vtkPolyData*> blocks;
@@ -98,7 +96,6 @@ std::vector<vtkPolyData*> splatBlocks(vtkPointGaussianMapper* mapper)
   return blocks;
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType sizesTime(vtkMapper* solids)
 {
   auto* splats = vtkPointGaussianMapper::SafeDownCast(solids);
@@ -106,7 +103,6 @@ vtkMTimeType sizesTime(vtkMapper* solids)
   return std::max(solids->GetMTime(), sizes ? sizes->GetMTime() : 0);
 }
 
-//------------------------------------------------------------------------------
 std::vector<SplatSphere> splatSpheres(vtkPointGaussianMapper* mapper, vtkPolyData* data)
 {
   const char* name = mapper->GetScaleArray();

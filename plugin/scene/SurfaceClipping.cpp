@@ -60,7 +60,6 @@ Polygon clip(const Polygon& polygon, const glm::dvec4& plane)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void clipTriangles(const std::vector<glm::dvec4>& planes, std::vector<glm::vec3>& positions,
   std::vector<glm::vec2>& textureCoordinates, std::vector<glm::uvec3>& triangles,
   std::vector<std::uint32_t>& triangleOfDrawn)

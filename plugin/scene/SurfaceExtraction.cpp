@@ -190,7 +190,6 @@ void compact(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Solid solidOf(SurfaceCells cells)
 {
   switch (cells)
@@ -209,7 +208,6 @@ Solid solidOf(SurfaceCells cells)
   return Solid::None;
 }
 
-//------------------------------------------------------------------------------
 vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells)
 {
   if (!data->GetPoints())
@@ -234,14 +232,12 @@ vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells)
   return array->GetNumberOfCells();
 }
 
-//------------------------------------------------------------------------------
 std::pair<const void*, const void*> identityOf(vtkPolyData* data, SurfaceCells cells)
 {
   const bool areCells = cells != SurfaceCells::Spheres && cells != SurfaceCells::Sticks;
   return { data->GetPoints(), areCells ? cellArray(data, cells) : nullptr };
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells)
 {
   if (cells == SurfaceCells::Spheres || cells == SurfaceCells::Sticks)
@@ -254,7 +250,6 @@ vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells)
     data->GetPoints()->GetData()->GetMTime(), cellArray(data, cells)->GetMTime() });
 }
 
-//------------------------------------------------------------------------------
 DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint, std::vector<std::uint32_t>* cellOfTriangle,
   const glm::dmat4& worldFromModel)
@@ -280,7 +275,6 @@ DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells,
   return drawn;
 }
 
-//------------------------------------------------------------------------------
 void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfVertex,
   std::size_t vertexCount, const glm::dmat4& worldFromModel, const SceneFrame& frame,
   glm::vec3* positionsCentred)
@@ -294,7 +288,6 @@ void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfV
     });
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::vec3> readNormals(
   vtkDataArray* array, const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount)
 {
@@ -317,7 +310,6 @@ std::vector<glm::vec3> readNormals(
   return normals;
 }
 
-//------------------------------------------------------------------------------
 std::vector<glm::vec2> readTextureCoordinates(vtkDataArray* array, const glm::mat4& transform,
   const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount)
 {
@@ -341,7 +333,6 @@ std::vector<glm::vec2> readTextureCoordinates(vtkDataArray* array, const glm::ma
   return coordinates;
 }
 
-//------------------------------------------------------------------------------
 Defect defectOf(const glm::uvec3& triangle, const glm::vec3* positionsCentred)
 {
   if (triangle.x == DrawnTriangles::missingVertex)
@@ -364,7 +355,6 @@ Defect defectOf(const glm::uvec3& triangle, const glm::vec3* positionsCentred)
   return area > rounding * glm::length(ab) * glm::length(ac) ? Defect::None : Defect::ZeroArea;
 }
 
-//------------------------------------------------------------------------------
 void clearNonFinite(glm::vec3* positionsCentred, std::size_t vertexCount)
 {
   for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)

@@ -30,7 +30,6 @@ vtkPolyData* inputOf(vtkProp* prop, const SurfaceKey& key)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<SurfaceName> surfaceNames(
   vtkRenderer* renderer, const std::vector<SurfaceRecord>& records)
 {
@@ -57,7 +56,6 @@ std::vector<SurfaceName> surfaceNames(
   return names;
 }
 
-//------------------------------------------------------------------------------
 std::vector<vtkIdType> cellsOfPrimitives(const SurfaceName& name)
 {
   std::vector<std::uint32_t> vertexOfPoint;

@@ -164,7 +164,6 @@ FreshSurface readSolids(const DrawnBlock& block, SurfaceCells cells)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Bounds transformed(const Bounds& box, const glm::dmat4& matrix)
 {
   Bounds result;
@@ -179,7 +178,6 @@ Bounds transformed(const Bounds& box, const glm::dmat4& matrix)
   return result;
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells)
 {
   vtkMTimeType time = shapeTime(block.data, cells);
@@ -198,21 +196,18 @@ vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceC
   return time;
 }
 
-//------------------------------------------------------------------------------
 bool reachesBeyondWorld(const SurfaceRecord& record, const DrawnProp& prop)
 {
   const Bounds box = transformed(record.boundsModel, prop.worldFromModel);
   return record.hasFar || (!record.boundsModel.empty() && !isWithin(box, largestOfWorld));
 }
 
-//------------------------------------------------------------------------------
 bool isWhere(const SurfaceRecord& record, const DrawnProp& prop, const DrawnBlock& block)
 {
   return record.worldFromModel == prop.worldFromModel &&
     record.radiusFromWorld == radiusFromWorld(block, record.key.cells);
 }
 
-//------------------------------------------------------------------------------
 CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& block)
 {
   vtkDataArray* array = block.textureCoordinates;
@@ -220,7 +215,6 @@ CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& blo
                : CoordinatesSource{};
 }
 
-//------------------------------------------------------------------------------
 NormalsSource normalsSource(const DrawnProp& prop, const DrawnBlock& block)
 {
   // Clipping makes other vertices.
@@ -228,7 +222,6 @@ NormalsSource normalsSource(const DrawnProp& prop, const DrawnBlock& block)
   return array ? NormalsSource{ array, array->GetMTime() } : NormalsSource{};
 }
 
-//------------------------------------------------------------------------------
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint)
 {
@@ -285,7 +278,6 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
   return fresh;
 }
 
-//------------------------------------------------------------------------------
 std::optional<PlacedInstances> placeKeptInstances(
   const SurfaceRecord& record, const DrawnBlock& block, const SceneFrame& frame)
 {
@@ -297,7 +289,6 @@ std::optional<PlacedInstances> placeKeptInstances(
     record.worldFromModel, record.modelFromInstance, record.source, record.boundsSource, frame);
 }
 
-//------------------------------------------------------------------------------
 void recordPlaces(const PlacedInstances& placed, const glm::vec3* positionsSource,
   std::size_t vertexCount, SurfaceRecord& record)
 {
@@ -311,7 +302,6 @@ void recordPlaces(const PlacedInstances& placed, const glm::vec3* positionsSourc
   record.boundsCentred = instancesBounds(positionsSource, vertexCount, placed.centredFromSource);
 }
 
-//------------------------------------------------------------------------------
 void placeInstances(const DrawnBlock& block, const SurfaceRecord& record, std::size_t vertexCount,
   const SceneFrame& frame, glm::vec3* positionsCentred)
 {
@@ -325,7 +315,6 @@ void placeInstances(const DrawnBlock& block, const SurfaceRecord& record, std::s
   }
 }
 
-//------------------------------------------------------------------------------
 void placeSurface(
   FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& block, const SceneFrame& frame)
 {

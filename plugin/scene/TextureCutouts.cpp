@@ -260,13 +260,11 @@ const char* unservedReason(vtkActor* actor, vtkMapper* mapper)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void TextureCutouts::beginFrame()
 {
   forgetUnasked(this->known_);
 }
 
-//------------------------------------------------------------------------------
 /// Return a texture's mask in its present state.
 const TextureCutouts::Known& TextureCutouts::known(vtkTexture* texture)
 {
@@ -304,7 +302,6 @@ const TextureCutouts::Known& TextureCutouts::known(vtkTexture* texture)
   return known;
 }
 
-//------------------------------------------------------------------------------
 TextureCutout TextureCutouts::find(
   vtkActor* actor, vtkMapper* mapper, vtkInformation* keys, bool wantsAlpha, const char*& reason)
 {
@@ -350,7 +347,6 @@ TextureCutout TextureCutouts::find(
   return cutout;
 }
 
-//------------------------------------------------------------------------------
 std::size_t TextureCutouts::bytes() const
 {
   return bytesOfTable(this->known_) +
@@ -362,7 +358,6 @@ std::size_t TextureCutouts::bytes() const
       });
 }
 
-//------------------------------------------------------------------------------
 vtkDataArray* textureCoordinates(vtkMapper* mapper, const std::string& texture, vtkPolyData* data)
 {
   const char* const own = texture == "albedoTex" ? nullptr : coordinatesArray(mapper, texture);

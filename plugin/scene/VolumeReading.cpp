@@ -319,13 +319,11 @@ std::shared_ptr<Volume> readVolume(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void VolumeReading::beginFrame()
 {
   forgetUnasked(this->known_);
 }
 
-//------------------------------------------------------------------------------
 std::vector<std::shared_ptr<const Volume>> VolumeReading::find(
   vtkVolume* volume, vtkMatrix4x4* matrix, const char*& why)
 {
@@ -355,7 +353,6 @@ std::vector<std::shared_ptr<const Volume>> VolumeReading::find(
   return found;
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const Volume> VolumeReading::findBlock(
   vtkVolume* volume, vtkMatrix4x4* matrix, vtkImageData* data, std::size_t block)
 {
@@ -388,7 +385,6 @@ std::shared_ptr<const Volume> VolumeReading::findBlock(
   return read;
 }
 
-//------------------------------------------------------------------------------
 std::size_t VolumeReading::bytes() const
 {
   std::size_t bytes = 0;

@@ -25,7 +25,6 @@ bool isCastOnGpu(vtkAbstractVolumeMapper* mapper)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const char* reasonAgainst(vtkVolume* volume)
 {
   vtkAbstractVolumeMapper* const mapper = volume->GetMapper();

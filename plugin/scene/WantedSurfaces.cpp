@@ -9,7 +9,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 std::vector<WantedSurface> wantedSurfaces(
   const DrawnProps& drawn, const std::vector<SurfaceRecord>& records)
 {

@@ -85,7 +85,6 @@ ActorDrawing quadricDrawing(vtkQuadricLODActor* actor, vtkMatrix4x4* matrix, vtk
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::optional<ActorDrawing> drawingOfLevels(
   vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* renderer)
 {
@@ -107,7 +106,6 @@ std::optional<ActorDrawing> drawingOfLevels(
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 std::optional<ActorDrawing> drawingOfLevels(vtkActor*, vtkMatrix4x4*, vtkRenderer*)
 {
   return std::nullopt;

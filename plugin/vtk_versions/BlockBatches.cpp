@@ -54,26 +54,22 @@ void separateNumbers(vtkOpenGLBatchedPolyDataMapper* batch)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool hasBlockBatches(vtkMapper* mapper)
 {
   return mapper->IsA("vtkCompositePolyDataMapper");
 }
 
-//------------------------------------------------------------------------------
 vtkCompositeDataDisplayAttributes* looksOfBatches(vtkMapper* mapper)
 {
   return static_cast<vtkCompositePolyDataMapper*>(mapper)->GetCompositeDataDisplayAttributes();
 }
 
-//------------------------------------------------------------------------------
 std::vector<vtkPolyData*> blocksOfBatches(vtkActor* actor, vtkMapper* mapper, bool translucent)
 {
   const BlockWalk walk(actor, mapper, looksOfBatches(mapper), true);
   return walk.drawn(translucent);
 }
 
-//------------------------------------------------------------------------------
 std::optional<std::vector<DrawCall>> batchDrawCalls(vtkAbstractMapper* mapper, int primitiveType)
 {
   auto* batch = vtkOpenGLBatchedPolyDataMapper::SafeDownCast(mapper);

@@ -34,26 +34,22 @@ struct HelperAccess : vtkCompositeMapperHelper2
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool hasBlockHelpers(vtkMapper* mapper)
 {
   return mapper->IsA("vtkCompositePolyDataMapper2");
 }
 
-//------------------------------------------------------------------------------
 vtkCompositeDataDisplayAttributes* looksOfHelpers(vtkMapper* mapper)
 {
   return static_cast<vtkCompositePolyDataMapper2*>(mapper)->GetCompositeDataDisplayAttributes();
 }
 
-//------------------------------------------------------------------------------
 std::vector<vtkPolyData*> blocksOfHelpers(vtkActor* actor, vtkMapper* mapper, bool translucent)
 {
   const BlockWalk walk(actor, mapper, looksOfHelpers(mapper), false);
   return walk.drawn(translucent);
 }
 
-//------------------------------------------------------------------------------
 std::optional<std::vector<DrawCall>> helperDrawCalls(vtkAbstractMapper* mapper, int primitiveType)
 {
   auto* helper = vtkCompositeMapperHelper2::SafeDownCast(mapper);

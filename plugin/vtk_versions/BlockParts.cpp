@@ -13,13 +13,11 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 bool hasBlockParts(vtkMapper* mapper)
 {
   return mapper->IsA("vtkCompositePolyDataMapper");
 }
 
-//------------------------------------------------------------------------------
 /// Return the blocks of one pass. Only the colours determine a polydata's pass: its mapper has a
 /// shallow copy of it.
 std::vector<vtkPolyData*> blocksOfParts(vtkMapper* mapper, bool translucent)

@@ -13,7 +13,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 BlockScalars::BlockScalars(vtkMapper* mapper, bool perBlock)
   : shown(mapper->GetScalarVisibility())
   , mode(mapper->GetScalarMode())
@@ -26,7 +25,6 @@ BlockScalars::BlockScalars(vtkMapper* mapper, bool perBlock)
 {
 }
 
-//------------------------------------------------------------------------------
 void BlockScalars::takeFrom(vtkCompositeDataDisplayAttributes* attributes, vtkDataObject* object)
 {
 #if GNOMON_VTK_HAS_BLOCK_BATCHES
@@ -68,7 +66,6 @@ void BlockScalars::takeFrom(vtkCompositeDataDisplayAttributes* attributes, vtkDa
 #endif
 }
 
-//------------------------------------------------------------------------------
 bool BlockScalars::areOpaque(vtkPolyData* data) const
 {
   if (!this->shown || !this->colours)
@@ -88,7 +85,6 @@ bool BlockScalars::areOpaque(vtkPolyData* data) const
 #endif
 }
 
-//------------------------------------------------------------------------------
 BlockWalk::BlockWalk(vtkActor* actor, vtkMapper* mapper,
   vtkCompositeDataDisplayAttributes* attributes, bool scalarsPerBlock)
   : attributes_(attributes)
@@ -100,7 +96,6 @@ BlockWalk::BlockWalk(vtkActor* actor, vtkMapper* mapper,
     BlockScalars(mapper, scalarsPerBlock));
 }
 
-//------------------------------------------------------------------------------
 std::vector<vtkPolyData*> BlockWalk::drawn(bool translucent) const
 {
   std::vector<vtkPolyData*> drawn;
@@ -114,7 +109,6 @@ std::vector<vtkPolyData*> BlockWalk::drawn(bool translucent) const
   return drawn;
 }
 
-//------------------------------------------------------------------------------
 void BlockWalk::walk(
   vtkDataObject* object, bool visible, double opacity, const BlockScalars& scalars)
 {
@@ -138,7 +132,6 @@ void BlockWalk::walk(
   }
 }
 
-//------------------------------------------------------------------------------
 void BlockWalk::add(
   vtkDataObject* object, bool visible, double opacity, const BlockScalars& scalars)
 {

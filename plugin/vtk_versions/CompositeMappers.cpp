@@ -7,7 +7,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 BlockDrawing blockDrawing(vtkMapper* mapper)
 {
 #if GNOMON_VTK_HAS_BLOCK_HELPERS
@@ -23,7 +22,6 @@ BlockDrawing blockDrawing(vtkMapper* mapper)
 #endif
 }
 
-//------------------------------------------------------------------------------
 std::vector<vtkPolyData*> drawnBlocks(vtkActor* actor, vtkMapper* mapper, bool translucent)
 {
 #if GNOMON_VTK_HAS_BLOCK_HELPERS
@@ -39,7 +37,6 @@ std::vector<vtkPolyData*> drawnBlocks(vtkActor* actor, vtkMapper* mapper, bool t
 #endif
 }
 
-//------------------------------------------------------------------------------
 bool mayBlocksDiffer(vtkMapper* mapper)
 {
   const auto differ = [](vtkCompositeDataDisplayAttributes* looks)
@@ -57,7 +54,6 @@ bool mayBlocksDiffer(vtkMapper* mapper)
 #endif
 }
 
-//------------------------------------------------------------------------------
 std::optional<std::vector<DrawCall>> blockDrawCalls(vtkAbstractMapper* mapper, int primitiveType)
 {
   std::optional<std::vector<DrawCall>> calls;

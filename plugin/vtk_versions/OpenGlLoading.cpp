@@ -9,14 +9,12 @@ namespace gnomon
 
 #if GNOMON_VTK_HAS_GLAD
 
-//------------------------------------------------------------------------------
 std::string loadOpenGl(vtkOpenGLRenderWindow* /*window*/, void (*(*find)(const char* name))())
 {
   // glad's own search uses libGL, which knows no function until GLX has made a context.
   return gladLoadGL(find) > 0 ? "" : "the context names none";
 }
 
-//------------------------------------------------------------------------------
 void noteLoaded(vtkOpenGLRenderWindow* /*window*/) {}
 
 #else
@@ -34,7 +32,6 @@ struct WindowAccess : vtkOpenGLRenderWindow
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string loadOpenGl(vtkOpenGLRenderWindow* window, void (*(* /*find*/)(const char* name))())
 {
   // GLEW built for GLX loads the functions, then reports that there is no X display.
@@ -44,7 +41,6 @@ std::string loadOpenGl(vtkOpenGLRenderWindow* window, void (*(* /*find*/)(const 
   return loaded ? "" : reinterpret_cast<const char*>(glewGetErrorString(result));
 }
 
-//------------------------------------------------------------------------------
 void noteLoaded(vtkOpenGLRenderWindow* window)
 {
   WindowAccess::isLoaded(window) = true;

@@ -49,7 +49,6 @@ struct RendererAccess : vtkRenderer
 
 } // namespace
 
-//------------------------------------------------------------------------------
 AroundOpaque::AroundOpaque(const vtkRenderState* s, const std::function<bool(vtkProp*)>& isAmong,
   std::function<void()> before, std::function<void()> afterwards)
   : renderer_(s->GetRenderer())
@@ -74,7 +73,6 @@ AroundOpaque::AroundOpaque(const vtkRenderState* s, const std::function<bool(vtk
   RendererAccess::count(this->renderer_) = count;
 }
 
-//------------------------------------------------------------------------------
 AroundOpaque::~AroundOpaque()
 {
   RendererAccess::props(this->renderer_) = this->propsBefore_;
@@ -85,7 +83,6 @@ AroundOpaque::~AroundOpaque()
   }
 }
 
-//------------------------------------------------------------------------------
 /// Call a function unless it was called, or an earlier one has failed. Its errors are caught, since
 /// VTK's code around it must not see exceptions.
 void AroundOpaque::call(std::size_t which)
@@ -105,7 +102,6 @@ void AroundOpaque::call(std::size_t which)
   }
 }
 
-//------------------------------------------------------------------------------
 void AroundOpaque::end() const
 {
   if (this->error_)

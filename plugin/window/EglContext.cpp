@@ -185,7 +185,6 @@ EGLContext createContext(EGLDisplay display, EGLConfig config, int majorVersion,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 struct EglContext::Handles
 {
   explicit Handles(EGLDisplay eglDisplay)
@@ -258,7 +257,6 @@ struct EglContext::Handles
   EGLSurface surface = EGL_NO_SURFACE;
 };
 
-//------------------------------------------------------------------------------
 EglContext::EglContext(const EglRequest& request)
 {
   std::string reasons;
@@ -280,7 +278,6 @@ EglContext::EglContext(const EglRequest& request)
   throw std::runtime_error(reasons);
 }
 
-//------------------------------------------------------------------------------
 EglContext::~EglContext()
 {
   if (!this->isOfThisProcess())
@@ -289,7 +286,6 @@ EglContext::~EglContext()
   }
 }
 
-//------------------------------------------------------------------------------
 bool EglContext::makeCurrent() const
 {
   if (this->isCurrent())
@@ -301,43 +297,36 @@ bool EglContext::makeCurrent() const
     this->handles_->surface, this->handles_->context);
 }
 
-//------------------------------------------------------------------------------
 bool EglContext::isCurrent() const
 {
   return this->isOfThisProcess() && eglGetCurrentContext() == this->handles_->context;
 }
 
-//------------------------------------------------------------------------------
 void EglContext::release() const
 {
   eglMakeCurrent(this->handles_->display.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
-//------------------------------------------------------------------------------
 bool EglContext::isOfThisProcess() const
 {
   return this->handles_->process == processNumber();
 }
 
-//------------------------------------------------------------------------------
 void* EglContext::display() const
 {
   return this->handles_->display.get();
 }
 
-//------------------------------------------------------------------------------
 void* EglContext::context() const
 {
   return this->handles_->context;
 }
 
-//------------------------------------------------------------------------------
 int EglContext::numberOfDevices()
 {
   return static_cast<int>(listDevices().size());
 }
 
-//------------------------------------------------------------------------------
 std::string EglContext::lastError()
 {
   static const std::map<EGLint, const char*> names = {
@@ -359,13 +348,11 @@ std::string EglContext::lastError()
   return name != names.end() ? name->second : "EGL error " + std::to_string(error);
 }
 
-//------------------------------------------------------------------------------
 void (*EglContext::findFunction(const char* name))()
 {
   return eglGetProcAddress(name);
 }
 
-//------------------------------------------------------------------------------
 CurrentContext::CurrentContext()
   : display_(eglGetCurrentDisplay())
   , draw_(eglGetCurrentSurface(EGL_DRAW))
@@ -374,7 +361,6 @@ CurrentContext::CurrentContext()
 {
 }
 
-//------------------------------------------------------------------------------
 CurrentContext::~CurrentContext()
 {
   const EGLContext current = eglGetCurrentContext();

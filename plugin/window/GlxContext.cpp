@@ -56,13 +56,11 @@ struct Glx
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool GlxContext::isCurrent()
 {
   return Glx::ofThread() != nullptr;
 }
 
-//------------------------------------------------------------------------------
 void GlxContext::release()
 {
   if (const Glx* const glx = Glx::ofThread())
@@ -71,7 +69,6 @@ void GlxContext::release()
   }
 }
 
-//------------------------------------------------------------------------------
 GlxContext::GlxContext()
 {
   if (const Glx* const glx = Glx::ofThread())
@@ -84,7 +81,6 @@ GlxContext::GlxContext()
   }
 }
 
-//------------------------------------------------------------------------------
 GlxContext::~GlxContext()
 {
   if (this->makeCurrent_)

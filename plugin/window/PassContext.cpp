@@ -8,7 +8,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
 std::string PassContext::enter(
   vtkRenderPass* pass, vtkRenderer* renderer, std::pair<int, int> least)
 {
@@ -35,7 +34,6 @@ std::string PassContext::enter(
   return this->whyNot_;
 }
 
-//------------------------------------------------------------------------------
 void PassContext::leave(const std::function<void(vtkOpenGLRenderWindow*)>& release)
 {
   if (this->window_)

@@ -36,7 +36,6 @@ TextureBinding bindingOf(vtkTextureObject* texture)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 int samplesOfBoundFramebuffer()
 {
   GLint samples = 0;
@@ -44,7 +43,6 @@ int samplesOfBoundFramebuffer()
   return samples;
 }
 
-//------------------------------------------------------------------------------
 void PictureTarget::resize(vtkOpenGLRenderWindow* window, const glm::ivec2& size)
 {
   const int samples = samplesOfBoundFramebuffer();
@@ -75,7 +73,6 @@ void PictureTarget::resize(vtkOpenGLRenderWindow* window, const glm::ivec2& size
   this->samples_ = samples;
 }
 
-//------------------------------------------------------------------------------
 void PictureTarget::draw(vtkRenderPass* pass, const vtkRenderState* s, const glm::ivec2& origin)
 {
   vtkRenderer* renderer = s->GetRenderer();
@@ -106,7 +103,6 @@ void PictureTarget::draw(vtkRenderPass* pass, const vtkRenderState* s, const glm
   state->PopFramebufferBindings();
 }
 
-//------------------------------------------------------------------------------
 DrawnPicture PictureTarget::picture() const
 {
   return { bindingOf(this->framebuffer_->GetColorAttachmentAsTextureObject(0)),

@@ -22,7 +22,6 @@ struct ShadowsAccess : vtkRenderer
 
 } // namespace
 
-//------------------------------------------------------------------------------
 ReducedPicture::ReducedPicture(vtkRenderer* renderer, int factor)
   : renderer_(renderer)
 {
@@ -47,13 +46,11 @@ ReducedPicture::ReducedPicture(vtkRenderer* renderer, int factor)
   renderer->SetViewport(viewport);
 }
 
-//------------------------------------------------------------------------------
 ReducedPicture::~ReducedPicture()
 {
   this->renderer_->SetViewport(this->before_); // which tells observers of changes alone
 }
 
-//------------------------------------------------------------------------------
 WithoutVtkShadows::WithoutVtkShadows(vtkRenderer* renderer)
   : useShadows_(ShadowsAccess::useShadows(renderer))
   , before_(this->useShadows_)

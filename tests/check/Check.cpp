@@ -367,7 +367,6 @@ double share(std::size_t part, std::size_t whole)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<std::string> Result::failures(int width) const
 {
   std::vector<std::string> sentences;
@@ -413,7 +412,6 @@ std::vector<std::string> Result::failures(int width) const
   return sentences;
 }
 
-//------------------------------------------------------------------------------
 Result compare(const Scene& scene, const VisibilityFile& file)
 {
   const Comparison comparison(scene, file);
@@ -438,7 +436,6 @@ Result compare(const Scene& scene, const VisibilityFile& file)
   return result;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<float>& VisibilityFile::channel(const std::string& name) const
 {
   const auto place = this->channels.find(name);
@@ -449,14 +446,12 @@ const std::vector<float>& VisibilityFile::channel(const std::string& name) const
   return place->second;
 }
 
-//------------------------------------------------------------------------------
 Vec3 VisibilityFile::vector(const std::string& name, std::size_t pixel) const
 {
   return { this->channel(name + ".X")[pixel], this->channel(name + ".Y")[pixel],
     this->channel(name + ".Z")[pixel] };
 }
 
-//------------------------------------------------------------------------------
 VisibilityFile readVisibilityFile(const std::string& path)
 {
   Imf::InputFile input(path.c_str());

@@ -202,7 +202,6 @@ Surface readSurface(const Json& value, const std::filesystem::path& folder)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addSurface(Mesh& mesh, vtkPolyData* data, vtkMatrix4x4* worldFromData)
 {
   vtkDataArray* const coordinates = data->GetPointData()->GetTCoords();
@@ -246,7 +245,6 @@ void addSurface(Mesh& mesh, vtkPolyData* data, vtkMatrix4x4* worldFromData)
   }
 }
 
-//------------------------------------------------------------------------------
 Mesh readModel(const std::string& path)
 {
   if (!std::filesystem::is_regular_file(path))
@@ -265,7 +263,6 @@ Mesh readModel(const std::string& path)
   return mesh;
 }
 
-//------------------------------------------------------------------------------
 Holes readHoles(const std::string& path)
 {
   vtkNew<vtkPNGReader> reader;
@@ -291,7 +288,6 @@ Holes readHoles(const std::string& path)
   return holes;
 }
 
-//------------------------------------------------------------------------------
 bool Holes::isDrawn(const Vec2& coordinates) const
 {
   const auto texel = [](double coordinate, int size)
@@ -305,7 +301,6 @@ bool Holes::isDrawn(const Vec2& coordinates) const
     static_cast<std::size_t>(column)];
 }
 
-//------------------------------------------------------------------------------
 bool isDrawn(const Surface& surface, std::size_t triangle, const Vec3& point)
 {
   if (!surface.holes)
@@ -322,7 +317,6 @@ bool isDrawn(const Surface& surface, std::size_t triangle, const Vec3& point)
   return surface.holes->isDrawn((inA * ta + inB * tb + inC * tc) / (inA + inB + inC));
 }
 
-//------------------------------------------------------------------------------
 Scene readScene(const std::string& path)
 {
   std::ifstream file(path);

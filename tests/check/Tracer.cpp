@@ -66,7 +66,6 @@ Vec3 nearestPointOfEdge(const Vec3& point, const Vec3& a, const Vec3& b)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::optional<double> intersect(const Ray& ray, const Triangle& triangle)
 {
   const Vec3 a = triangle[0] - ray.origin;
@@ -90,7 +89,6 @@ std::optional<double> intersect(const Ray& ray, const Triangle& triangle)
   return distance > 0.0 && distance < ray.length ? std::optional(distance) : std::nullopt;
 }
 
-//------------------------------------------------------------------------------
 Vec3 nearestPoint(const Vec3& point, const Triangle& triangle)
 {
   const auto& [a, b, c] = triangle;
@@ -112,7 +110,6 @@ Vec3 nearestPoint(const Vec3& point, const Triangle& triangle)
   return nearest;
 }
 
-//------------------------------------------------------------------------------
 struct Tracer::Impl
 {
   const Scene& scene;
@@ -192,7 +189,6 @@ struct Tracer::Impl
   }
 };
 
-//------------------------------------------------------------------------------
 Tracer::Tracer(const Scene& scene)
   : impl_(std::make_unique<Impl>(scene))
 {
@@ -200,7 +196,6 @@ Tracer::Tracer(const Scene& scene)
 
 Tracer::~Tracer() = default;
 
-//------------------------------------------------------------------------------
 std::optional<Hit> Tracer::nearest(const Ray& ray) const
 {
   std::optional<Hit> found;
@@ -219,7 +214,6 @@ std::optional<Hit> Tracer::nearest(const Ray& ray) const
   return found;
 }
 
-//------------------------------------------------------------------------------
 bool Tracer::blocked(const Ray& ray) const
 {
   return this->impl_->visit([&](const Extent& box) { return box.meets(ray, ray.length); },
@@ -232,7 +226,6 @@ bool Tracer::blocked(const Ray& ray) const
     });
 }
 
-//------------------------------------------------------------------------------
 std::optional<Hit> Tracer::nearestTo(
   const Vec3& point, double distance, const std::function<bool(const Triangle&)>& accepts) const
 {

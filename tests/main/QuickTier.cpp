@@ -44,7 +44,6 @@ bool matches(const std::string& name, const std::string& patterns)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string filterOfTier(
   const std::string& tier, const std::string& slow, const std::string& filter)
 {

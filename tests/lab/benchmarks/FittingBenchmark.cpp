@@ -139,7 +139,6 @@ void run(int side, int frames)
 } // namespace
 } // namespace gnomon::test
 
-//------------------------------------------------------------------------------
 int main(int argc, char** argv)
 {
   const auto window = gnomon::makeOffScreenWindow();

@@ -97,7 +97,6 @@ struct Axis
   std::vector<Case> cases;
 };
 
-//------------------------------------------------------------------------------
 // Scenes
 
 double hillHeight(double x, double z, double time)
@@ -181,7 +180,6 @@ void moveAllVertices(const Scene& scene, const Variants& /*variants*/, int step)
   points->Modified();
 }
 
-//------------------------------------------------------------------------------
 // Cases
 
 /// Return a number with separators: "1,000,000".
@@ -265,7 +263,6 @@ std::vector<Axis> makeAxes(const Options& options)
   return axes;
 }
 
-//------------------------------------------------------------------------------
 // Measuring
 
 /// Return why the last frame is broken or lacks shadows; empty if it is fine.
@@ -466,7 +463,6 @@ std::string measure(const Axis& axis, const std::vector<VariantSpec>& contenders
   return lines;
 }
 
-//------------------------------------------------------------------------------
 // The program
 
 int run(int argc, char** argv)

@@ -67,7 +67,6 @@ struct Options
   std::string table;
 };
 
-//------------------------------------------------------------------------------
 // Rays
 
 /// A ray as the tracers get it, centred.
@@ -210,7 +209,6 @@ RayList raysAtEdges(const Occluders& occluders, std::size_t count, Random& rando
   return rays;
 }
 
-//------------------------------------------------------------------------------
 // Margins
 
 /// How far a ray is from the other answer, in roundings.
@@ -285,7 +283,6 @@ RayMargin marginOf(
   return most;
 }
 
-//------------------------------------------------------------------------------
 // Splits
 
 /// A scene, or a part of one, with its tracer.
@@ -363,7 +360,6 @@ std::vector<int> splitTriangles(const Occluders& whole, SplitWay way, int parts,
   return partOf;
 }
 
-//------------------------------------------------------------------------------
 // The comparison
 
 /// Rays of one kind, and those that the whole and its parts answer differently.
@@ -522,7 +518,6 @@ private:
   std::mutex mutex_; ///< guards the comparisons
 };
 
-//------------------------------------------------------------------------------
 // The program
 
 int run(int argc, char** argv)

@@ -246,7 +246,6 @@ tool::Outcome readAlone(const tool::TestFolder& folder, const std::string& entry
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void runFile(Random random, std::string& description)
 {
   const tool::TestFolder folder;

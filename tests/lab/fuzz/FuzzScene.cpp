@@ -101,7 +101,6 @@ vtkSmartPointer<vtkImageData> drawLightTexture(Random& random)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 FuzzScene::FuzzScene(Random random, Purpose purpose)
   : purpose_(purpose)
 {
@@ -135,7 +134,6 @@ FuzzScene::FuzzScene(Random random, Purpose purpose)
   this->choosePass(random);
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::sizeWindow(Random& random)
 {
   const auto side = [&] { return 1 + static_cast<int>(random() % (chance(random, 0.1) ? 8 : 96)); };
@@ -143,7 +141,6 @@ void FuzzScene::sizeWindow(Random& random)
   this->window_->SetSize(width, side());
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::placeWorld(Random& random)
 {
   this->unit_ = chance(random, 0.3) ? std::pow(10.0, uniform(random, -4.0, 4.0)) : 1.0;
@@ -158,7 +155,6 @@ void FuzzScene::placeWorld(Random& random)
     "unit " + std::to_string(this->unit_) + ", away by " + std::to_string(away) + " units\n";
 }
 
-//------------------------------------------------------------------------------
 glm::dvec3 FuzzScene::inWorld(const glm::dvec3& point) const
 {
   return this->unit_ * point +
@@ -166,7 +162,6 @@ glm::dvec3 FuzzScene::inWorld(const glm::dvec3& point) const
       this->world_->GetElement(2, 3));
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::addProps(Random& random)
 {
   std::string kinds;
@@ -204,7 +199,6 @@ void FuzzScene::addProps(Random& random)
   this->description_ += "props: " + kinds + "\n";
 }
 
-//------------------------------------------------------------------------------
 /// Add props that hide others and mostly have no surface that casts or receives.
 void FuzzScene::addChangingProps(Random& random)
 {
@@ -226,7 +220,6 @@ void FuzzScene::addChangingProps(Random& random)
   }
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::addLight(Random& random)
 {
   const bool isArea = chance(random, 0.3);
@@ -253,7 +246,6 @@ void FuzzScene::addLight(Random& random)
   }
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::placeLight(vtkLight* light, Random& random)
 {
   glm::dvec3 target = somewhere(random, 1.5);
@@ -278,7 +270,6 @@ void FuzzScene::placeLight(vtkLight* light, Random& random)
   }
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::shapeLight(vtkLight* light, Random& random)
 {
   light->SetPositional(random() % 2 == 0);
@@ -312,7 +303,6 @@ void FuzzScene::shapeLight(vtkLight* light, Random& random)
   this->description_ += "\n";
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::setLight(std::size_t light, const std::string& name, const std::string& value)
 {
   this->settingsOfLights_[light].emplace_back(name, this->allowed(value));
@@ -321,7 +311,6 @@ void FuzzScene::setLight(std::size_t light, const std::string& name, const std::
     "light " + std::to_string(light) + ": " + name + "=" + this->allowed(value) + "\n";
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::placeCamera(vtkRenderer* renderer, Random& random)
 {
   vtkCamera* const camera = renderer->GetActiveCamera();
@@ -342,7 +331,6 @@ void FuzzScene::placeCamera(vtkRenderer* renderer, Random& random)
     std::to_string(camera->GetViewAngle()) + "\n";
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::choosePass(Random& random)
 {
   this->set(drawSettings(random));
@@ -359,21 +347,18 @@ void FuzzScene::choosePass(Random& random)
     std::to_string(this->pass_->GetSmoothTerminators()) + "\n";
 }
 
-//------------------------------------------------------------------------------
 std::string FuzzScene::allowed(const std::string& value) const
 {
   const bool isOfItsFrame = value == "once"; // a value of the setting `fit`
   return this->purpose_ == Purpose::Changes && isOfItsFrame ? "frame" : value;
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::set(const std::string& name, const std::string& value)
 {
   this->settings_.emplace_back(name, this->allowed(value));
   this->pass_->SetSetting(name.c_str(), this->allowed(value).c_str());
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::set(const NamedSettings& settings)
 {
   for (const auto& [name, value] : settings)
@@ -382,7 +367,6 @@ void FuzzScene::set(const NamedSettings& settings)
   }
 }
 
-//------------------------------------------------------------------------------
 test::Picture FuzzScene::render()
 {
   constexpr int mostFrames = 100;
@@ -405,7 +389,6 @@ test::Picture FuzzScene::render()
   throw Find("not complete after " + std::to_string(mostFrames) + " frames");
 }
 
-//------------------------------------------------------------------------------
 /// True if a light has an area.
 bool FuzzScene::isWide(std::size_t light) const
 {
@@ -430,7 +413,6 @@ bool FuzzScene::isWide(std::size_t light) const
   return size > 0.0;
 }
 
-//------------------------------------------------------------------------------
 const EstimatorEntry& FuzzScene::estimatorOfLight(std::size_t light) const
 {
   ShadowSettings asked;
@@ -444,7 +426,6 @@ const EstimatorEntry& FuzzScene::estimatorOfLight(std::size_t light) const
   return estimatorOf(asked);
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::traceInstead(const std::set<int>& hard)
 {
   const TechniqueInfo& rays = findTechnique("raytraced")->estimator->info;
@@ -478,13 +459,11 @@ void FuzzScene::traceInstead(const std::set<int>& hard)
   this->replacePass(kept);
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::renewPass()
 {
   this->replacePass(this->settings_);
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::replacePass(const NamedSettings& settings)
 {
   auto fresh = vtkSmartPointer<vtkGnomonShadowPass>::New();
@@ -506,7 +485,6 @@ void FuzzScene::replacePass(const NamedSettings& settings)
   this->pass_ = fresh;
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::removePass()
 {
   for (vtkRenderer* renderer : this->renderers_)
@@ -515,7 +493,6 @@ void FuzzScene::removePass()
   }
 }
 
-//------------------------------------------------------------------------------
 bool FuzzScene::showsTranslucent() const
 {
   return std::any_of(this->props_.begin(), this->props_.end(),

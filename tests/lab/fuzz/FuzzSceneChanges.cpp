@@ -32,7 +32,6 @@ struct FuzzScene::Kind
   void (*apply)(FuzzScene& scene, Random& random);
 };
 
-//------------------------------------------------------------------------------
 const std::vector<FuzzScene::Kind>& FuzzScene::kinds()
 {
   static const std::vector<Kind> all = {
@@ -329,14 +328,12 @@ const std::vector<FuzzScene::Kind>& FuzzScene::kinds()
   return all;
 }
 
-//------------------------------------------------------------------------------
 Change drawChange(Random& random)
 {
   const std::size_t kind = random() % FuzzScene::kinds().size();
   return { kind, static_cast<unsigned>(random()) };
 }
 
-//------------------------------------------------------------------------------
 void FuzzScene::apply(const Change& change)
 {
   const Kind& kind = kinds().at(change.kind);
@@ -345,13 +342,11 @@ void FuzzScene::apply(const Change& change)
   kind.apply(*this, random);
 }
 
-//------------------------------------------------------------------------------
 vtkProp3D* FuzzScene::someProp(Random& random) const
 {
   return this->props_.empty() ? nullptr : pick(this->props_, random).Get();
 }
 
-//------------------------------------------------------------------------------
 vtkActor* FuzzScene::someActor(Random& random) const
 {
   return vtkActor::SafeDownCast(this->someProp(random));

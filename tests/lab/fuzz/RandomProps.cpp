@@ -187,7 +187,6 @@ Props drawLeftovers(Random& random)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> drawSurface(Random& random)
 {
   const std::vector<test::Prop> props =
@@ -195,7 +194,6 @@ vtkSmartPointer<vtkPolyData> drawSurface(Random& random)
   return surfaceOf(props.back(), random() % 2 == 0);
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> drawImage(Random& random, int width, int height, int components)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -206,7 +204,6 @@ vtkSmartPointer<vtkImageData> drawImage(Random& random, int width, int height, i
   return image;
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkTexture> drawHoles(Random& random)
 {
   const int side = 1 + static_cast<int>(random() % 8);
@@ -221,7 +218,6 @@ vtkSmartPointer<vtkTexture> drawHoles(Random& random)
   return texture;
 }
 
-//------------------------------------------------------------------------------
 RandomProps drawProps(Random& random)
 {
   static const std::vector<std::pair<std::string, Props (*)(Random&)>> kinds = {

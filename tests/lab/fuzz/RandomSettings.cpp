@@ -83,7 +83,6 @@ std::vector<const SettingsTable*> tablesOf(const TechniqueInfo& info)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 NamedSettings drawSettings(Random& random)
 {
   const TechniqueEntry& technique = drawTechnique(random);
@@ -115,7 +114,6 @@ NamedSettings drawSettings(Random& random)
   return settings;
 }
 
-//------------------------------------------------------------------------------
 std::pair<std::string, std::string> drawSetting(const std::string& technique, Random& random)
 {
   const SettingsTable& table = *pick(tablesOf(findTechnique(technique)->estimator->info), random);
@@ -123,7 +121,6 @@ std::pair<std::string, std::string> drawSetting(const std::string& technique, Ra
   return { setting.name, drawValue(setting, random) };
 }
 
-//------------------------------------------------------------------------------
 std::string textOf(const NamedSettings& settings)
 {
   std::string text;

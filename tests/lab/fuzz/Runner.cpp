@@ -154,7 +154,6 @@ private:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 unsigned run(const CaseKind& kind, const Run& run)
 {
   const double end = run.seconds > 0.0 ? secondsNow() + run.seconds : 0.0;
@@ -194,7 +193,6 @@ unsigned run(const CaseKind& kind, const Run& run)
   return finds;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<CaseKind>& caseKinds()
 {
   static const std::vector<CaseKind> kinds = {
@@ -206,7 +204,6 @@ const std::vector<CaseKind>& caseKinds()
   return kinds;
 }
 
-//------------------------------------------------------------------------------
 std::string whatIsWrong(const CaseKind& kind, const Place& place)
 {
   std::seed_seq seeds{ place.seed, place.index };

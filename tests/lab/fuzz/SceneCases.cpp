@@ -190,7 +190,6 @@ bool vtkRemembers(const Random& start, const std::vector<Change>& changes)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void runScene(Random random, std::string& description)
 {
   const Random start(random());
@@ -210,7 +209,6 @@ void runScene(Random random, std::string& description)
   }
 }
 
-//------------------------------------------------------------------------------
 void runSequence(Random random, std::string& description)
 {
   const Random start(random());

@@ -87,7 +87,6 @@ std::size_t countEdges(const std::vector<float>& truth, std::size_t width)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Frames drawMovement(tool::VariantSpec spec, const tool::Scene& scene, int width, int height,
   Movement movement, int steps)
 {
@@ -108,7 +107,6 @@ Frames drawMovement(tool::VariantSpec spec, const tool::Scene& scene, int width,
   return frames;
 }
 
-//------------------------------------------------------------------------------
 double flicker(const Frames& frames, const Frames& truth, int width)
 {
   const auto isWrong = [&](std::size_t frame, std::size_t pixel)

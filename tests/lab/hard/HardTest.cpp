@@ -41,7 +41,6 @@ Receiver onFloor(double z)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST(Judge, findsEdgesWithinADistanceAndNoOthers)
 {
   const Judge judge(tool::loadScene("hard-sun-straight-down"));
@@ -55,7 +54,6 @@ TEST(Judge, findsEdgesWithinADistanceAndNoOthers)
   EXPECT_FALSE(judge.isOnFloor({ { -1.0, 2.0, 0.0 }, { 0.0, 1.0, 0.0 } }));
 }
 
-//------------------------------------------------------------------------------
 TEST(Judge, findsWhatIsThinOrSmallForTheDistance)
 {
   const Judge posts(tool::loadScene("hard-thin-posts"));
@@ -66,7 +64,6 @@ TEST(Judge, findsWhatIsThinOrSmallForTheDistance)
   EXPECT_TRUE(small.isNearEdge({ { 1.0, 0.0, 0.3 }, { 0.0, 1.0, 0.0 } }, 0, 300.0));
 }
 
-//------------------------------------------------------------------------------
 TEST(Matrix, areBrokenByWhatIsWrong)
 {
   const std::string row = "hard-stacked-plates";
@@ -79,7 +76,6 @@ TEST(Matrix, areBrokenByWhatIsWrong)
   EXPECT_EQ(outcomeOf("hard-wide-cone", columnOf("lispsm")), Outcome::Refused);
 }
 
-//------------------------------------------------------------------------------
 TEST(Matrix, surpriseWhereTheyAreNotAsTheTableSays)
 {
   const tool::TestFolder folder;

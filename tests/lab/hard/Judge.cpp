@@ -153,7 +153,6 @@ const std::vector<std::array<double, 2>>& discPoints()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Receiver receiverAt(const VisibilityImages& images, std::size_t pixel)
 {
   const Vec3 origin(images.origin[0], images.origin[1], images.origin[2]);
@@ -161,7 +160,6 @@ Receiver receiverAt(const VisibilityImages& images, std::size_t pixel)
     Vec3(images.normalX[pixel], images.normalY[pixel], images.normalZ[pixel]).normalized() };
 }
 
-//------------------------------------------------------------------------------
 Judge::Judge(const tool::Scene& scene)
   : scene_(checkSceneOf(scene))
   , tracer_(this->scene_)
@@ -184,7 +182,6 @@ Judge::Judge(const tool::Scene& scene)
   }
 }
 
-//------------------------------------------------------------------------------
 Vec3 Judge::towards(const Receiver& receiver, std::size_t light) const
 {
   const check::Light& of = this->scene_.lights[light];
@@ -192,13 +189,11 @@ Vec3 Judge::towards(const Receiver& receiver, std::size_t light) const
                                                     : of.position - receiver.positionWorld;
 }
 
-//------------------------------------------------------------------------------
 double Judge::cosineAt(const Receiver& receiver, std::size_t light) const
 {
   return receiver.normal.dot(this->towards(receiver, light).normalized());
 }
 
-//------------------------------------------------------------------------------
 double Judge::texelAt(const Receiver& receiver, std::size_t light, int mapSizeTexels) const
 {
   const check::Light& of = this->scene_.lights[light];
@@ -215,7 +210,6 @@ double Judge::texelAt(const Receiver& receiver, std::size_t light, int mapSizeTe
   return 2.0 * tangent * this->towards(receiver, light).length() / mapSizeTexels;
 }
 
-//------------------------------------------------------------------------------
 double Judge::pixelAt(const Receiver& receiver, int height) const
 {
   const check::Camera& camera = this->scene_.camera;
@@ -223,7 +217,6 @@ double Judge::pixelAt(const Receiver& receiver, int height) const
   return 2.0 * tangent * (receiver.positionWorld - camera.position).length() / height;
 }
 
-//------------------------------------------------------------------------------
 bool Judge::isLit(const Receiver& receiver, std::size_t light, double offset) const
 {
   const Receiver off{ receiver.positionWorld + offset * receiver.normal, receiver.normal };
@@ -236,7 +229,6 @@ bool Judge::isLit(const Receiver& receiver, std::size_t light, double offset) co
   return !this->tracer_.blocked(ray);
 }
 
-//------------------------------------------------------------------------------
 bool Judge::isNearEdge(const Receiver& receiver, std::size_t light, double distance) const
 {
   const Vec3 direction = this->towards(receiver, light).normalized();
@@ -258,13 +250,11 @@ bool Judge::isNearEdge(const Receiver& receiver, std::size_t light, double dista
     { return isLitAt(at) != isLit && this->surfaceAt(placeAt(at), distance); });
 }
 
-//------------------------------------------------------------------------------
 std::optional<check::Hit> Judge::surfaceAt(const Vec3& position, double distance) const
 {
   return this->tracer_.nearestTo(position, distance, [](const check::Triangle&) { return true; });
 }
 
-//------------------------------------------------------------------------------
 double Judge::offsetOf(const Receiver& receiver, const Vec3& origin, int height) const
 {
   const std::optional<check::Hit> hit = this->surfaceAt(receiver.positionWorld, 1e-4 * this->size_);
@@ -293,7 +283,6 @@ double Judge::offsetOf(const Receiver& receiver, const Vec3& origin, int height)
     planeNoise(normal, largest, extent, static_cast<float>(doubleArea)), footprint));
 }
 
-//------------------------------------------------------------------------------
 bool Judge::isOnFloor(const Receiver& receiver) const
 {
   const std::optional<check::Hit> hit = this->surfaceAt(receiver.positionWorld, 1e-4 * this->size_);

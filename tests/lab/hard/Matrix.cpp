@@ -531,7 +531,6 @@ std::string findingOf(const Cell& cell)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::vector<Column>& columns()
 {
   static const std::vector<Column> all = []
@@ -556,7 +555,6 @@ const std::vector<Column>& columns()
   return all;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<Row>& rows()
 {
   static const std::vector<Row> all = []
@@ -574,7 +572,6 @@ const std::vector<Row>& rows()
   return all;
 }
 
-//------------------------------------------------------------------------------
 std::vector<Cell> drawRow(const Row& row, const std::vector<const Column*>& columns)
 {
   return columns.empty() ? std::vector<Cell>()
@@ -582,7 +579,6 @@ std::vector<Cell> drawRow(const Row& row, const std::vector<const Column*>& colu
                          : drawAll(SceneRow(row, tool::loadScene(row.name)), columns);
 }
 
-//------------------------------------------------------------------------------
 double easyError(const Column& column)
 {
   double sum = 0.0;
@@ -594,20 +590,17 @@ double easyError(const Column& column)
   return sum / static_cast<double>(easyScenes.size());
 }
 
-//------------------------------------------------------------------------------
 std::string csvHeading()
 {
   return "case,technique,outcome,counted,wrong,beyond,error,bound,message\r\n";
 }
 
-//------------------------------------------------------------------------------
 std::string csvLine(const Cell& cell)
 {
   return tool::csvLine({ cell.row->name, cell.column->name, nameOf(cell.outcome), cell.counted,
     cell.wrong, cell.beyond, cell.error, cell.bound, tool::oneLine(cell.message) });
 }
 
-//------------------------------------------------------------------------------
 KnownCells readKnownCells(const std::string& path)
 {
   KnownCells known;
@@ -633,7 +626,6 @@ KnownCells readKnownCells(const std::string& path)
   return known;
 }
 
-//------------------------------------------------------------------------------
 std::vector<std::string> surprisesIn(const std::vector<Cell>& cells, const KnownCells& known)
 {
   std::vector<std::string> surprises;
@@ -648,7 +640,6 @@ std::vector<std::string> surprisesIn(const std::vector<Cell>& cells, const Known
   return surprises;
 }
 
-//------------------------------------------------------------------------------
 void writeTable(const std::string& folder, const std::vector<Cell>& cells)
 {
   std::string csv = csvHeading();

@@ -28,19 +28,16 @@ std::string chunkOf(const std::string& type, std::string content, char filler)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string sampleFile(const std::string& name)
 {
   return readBytes(GNOMON_SOURCE_DIR "/tests/tool/scenes/samples/" + name);
 }
 
-//------------------------------------------------------------------------------
 nlohmann::json sampleGltfWithBuffer()
 {
   return nlohmann::json::parse(sampleFile("model.gltf"));
 }
 
-//------------------------------------------------------------------------------
 nlohmann::json sampleGltf()
 {
   nlohmann::json document = sampleGltfWithBuffer();
@@ -48,7 +45,6 @@ nlohmann::json sampleGltf()
   return document;
 }
 
-//------------------------------------------------------------------------------
 std::string makeGlb(const nlohmann::json& document, const std::string& buffer)
 {
   const std::string chunks =
@@ -56,7 +52,6 @@ std::string makeGlb(const nlohmann::json& document, const std::string& buffer)
   return "glTF" + bytesOf(2) + bytesOf(chunks.size() + 12) + chunks;
 }
 
-//------------------------------------------------------------------------------
 std::map<std::string, std::string> sampleModels()
 {
   std::map<std::string, std::string> models;
@@ -70,7 +65,6 @@ std::map<std::string, std::string> sampleModels()
   return models;
 }
 
-//------------------------------------------------------------------------------
 nlohmann::json sampleScene()
 {
   return nlohmann::json::parse(sampleFile("scene.json"));

@@ -11,7 +11,6 @@
 namespace gnomon::test
 {
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> polyData(const Mesh& mesh, const glm::dvec3& by)
 {
   vtkNew<vtkPoints> points;
@@ -31,7 +30,6 @@ vtkSmartPointer<vtkPolyData> polyData(const Mesh& mesh, const glm::dvec3& by)
   return data;
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> quad(
   const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d)
 {
@@ -42,7 +40,6 @@ vtkSmartPointer<vtkPolyData> quad(
   return data;
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> floorOf(const glm::dvec2& lower, const glm::dvec2& upper, int cells)
 {
   Mesh mesh;
@@ -65,7 +62,6 @@ vtkSmartPointer<vtkPolyData> floorOf(const glm::dvec2& lower, const glm::dvec2& 
   return data;
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> together(const std::vector<vtkSmartPointer<vtkPolyData>>& parts)
 {
   vtkNew<vtkPoints> points;
@@ -95,7 +91,6 @@ vtkSmartPointer<vtkPolyData> together(const std::vector<vtkSmartPointer<vtkPolyD
   return data;
 }
 
-//------------------------------------------------------------------------------
 std::vector<double> shownArrayOf(vtkGnomonVisibilityFilter* filter, const char* name)
 {
   vtkPolyData* const output = filter->GetOutput();
@@ -116,7 +111,6 @@ std::vector<double> shownArrayOf(vtkGnomonVisibilityFilter* filter, const char* 
   return values;
 }
 
-//------------------------------------------------------------------------------
 std::vector<double> arrayOf(vtkGnomonVisibilityFilter* filter, const char* name)
 {
   filter->Update();

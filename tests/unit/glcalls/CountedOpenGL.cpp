@@ -83,7 +83,6 @@ extern "C" void* eglGetProcAddress(const char* name)
   return find(name, "eglGetProcAddress");
 }
 
-//------------------------------------------------------------------------------
 unsigned long gnomonCountOfGlCalls()
 {
   return gnomonGlCalls;

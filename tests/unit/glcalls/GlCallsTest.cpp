@@ -91,7 +91,6 @@ double callsOfAProp(const Drawing& drawing)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 // A uniform is set only where its value differs from the last prop's, and OpenGL's state is not
 // queried. Numbered triangles take one more uniform, the surface's number.
 TEST(GlCalls, ofAPropAreFewMoreThanPlainVtks)

@@ -384,7 +384,6 @@ vtkLookupTable* tableOf(const ChangingProp& prop)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::vector<PropKind>& changingProps()
 {
   static const std::vector<PropKind> kinds = { { "wireframe", makeShown<VTK_WIREFRAME> },
@@ -404,7 +403,6 @@ const std::vector<PropKind>& changingProps()
   return kinds;
 }
 
-//------------------------------------------------------------------------------
 const std::vector<PropChange>& propChanges()
 {
   const auto any = [](const ChangingProp&) { return true; };

@@ -77,20 +77,17 @@ tool::Scene withSurfaces(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::ostream& operator<<(std::ostream& stream, const Distribution& distribution)
 {
   return stream << distribution.name;
 }
 
-//------------------------------------------------------------------------------
 const Distribution& blocks()
 {
   static const Distribution value{ "blocks", blockOf };
   return value;
 }
 
-//------------------------------------------------------------------------------
 const Distribution& roundRobin()
 {
   static const Distribution value{ "round_robin",
@@ -98,7 +95,6 @@ const Distribution& roundRobin()
   return value;
 }
 
-//------------------------------------------------------------------------------
 const Distribution& random()
 {
   static const Distribution value{ "random",
@@ -110,14 +106,12 @@ const Distribution& random()
   return value;
 }
 
-//------------------------------------------------------------------------------
 const Distribution& blocksWithGhosts()
 {
   static const Distribution value{ "ghosts", blockOf, true };
   return value;
 }
 
-//------------------------------------------------------------------------------
 const Distribution& wholes()
 {
   static const Distribution value{ "wholes", [](vtkIdType, vtkIdType triangles, int ranks) {
@@ -126,7 +120,6 @@ const Distribution& wholes()
   return value;
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> partOf(
   vtkPolyData* surface, const Distribution& distribution, int rank, int ranks)
 {
@@ -171,7 +164,6 @@ vtkSmartPointer<vtkPolyData> partOf(
   return part;
 }
 
-//------------------------------------------------------------------------------
 RankView::RankView(const tool::Scene& scene, int width, int height)
   : renderer(tool::makeRenderer(scene, static_cast<double>(width) / height))
 {
@@ -196,14 +188,12 @@ RankView::RankView(const tool::Scene& scene, int width, int height)
   this->renderer->SetPass(this->pass);
 }
 
-//------------------------------------------------------------------------------
 const VisibilityImages& RankView::draw()
 {
   this->window->Render();
   return this->pass->GetVisibility();
 }
 
-//------------------------------------------------------------------------------
 SplitScene::SplitScene(tool::Scene scene, const Distribution& distribution, int width, int height)
 {
   const int ranks = controller()->GetNumberOfProcesses();
@@ -227,28 +217,24 @@ SplitScene::SplitScene(tool::Scene scene, const Distribution& distribution, int 
     this->alone_->renderer->GetActiveCamera()->GetClippingRange());
 }
 
-//------------------------------------------------------------------------------
 void SplitScene::change(const std::function<void(vtkRenderer*)>& of)
 {
   of(this->shared_->renderer);
   of(this->alone_->renderer);
 }
 
-//------------------------------------------------------------------------------
 void SplitScene::smooth(const char* edgeSamples)
 {
   this->shared_->pass->SetSetting("edge_samples", edgeSamples);
   this->alone_->pass->SetSetting("edge_samples", edgeSamples);
 }
 
-//------------------------------------------------------------------------------
 void SplitScene::smoothTerminators(bool smooth)
 {
   this->shared_->pass->SetSmoothTerminators(smooth);
   this->alone_->pass->SetSmoothTerminators(smooth);
 }
 
-//------------------------------------------------------------------------------
 std::size_t SplitScene::mixedPixels() const
 {
   std::size_t mixed = 0;
@@ -260,7 +246,6 @@ std::size_t SplitScene::mixedPixels() const
   return mixed;
 }
 
-//------------------------------------------------------------------------------
 std::size_t SplitScene::expectSame()
 {
   const VisibilityImages& shared = this->shared_->draw();
@@ -305,7 +290,6 @@ std::size_t SplitScene::expectSame()
   return dark;
 }
 
-//------------------------------------------------------------------------------
 vtkMultiProcessController* controller()
 {
   return vtkMultiProcessController::GetGlobalController();

@@ -10,7 +10,6 @@
 namespace gnomon::test
 {
 
-//------------------------------------------------------------------------------
 void fillTexture(GlTexture& texture, GLenum format, const glm::ivec3& size, const void* texels)
 {
   const GLenum target = size.z > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
@@ -28,14 +27,12 @@ void fillTexture(GlTexture& texture, GLenum format, const glm::ivec3& size, cons
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-//------------------------------------------------------------------------------
 LightViews sunViews(const ShadowLight& light)
 {
   return fitLightViews(
     light, { glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, {}, { mapSize, 1 }, {} });
 }
 
-//------------------------------------------------------------------------------
 std::string computeGlsl(const std::string& declarations, const std::string& in,
   const std::string& out, const std::string& body)
 {
@@ -48,7 +45,6 @@ std::string computeGlsl(const std::string& declarations, const std::string& in,
     numberedForLight(body, 0) + "  }\n}\n";
 }
 
-//------------------------------------------------------------------------------
 void runCompute(ShaderLibrary& library, const std::string& glsl, std::size_t count,
   const void* given, std::size_t givenBytes, void* result, std::size_t resultBytes,
   const std::vector<Uniform>& uniforms, const std::vector<std::string>& defines)
@@ -72,7 +68,6 @@ void runCompute(ShaderLibrary& library, const std::string& glsl, std::size_t cou
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
-//------------------------------------------------------------------------------
 std::vector<float> visibilityAt(const PointwiseTechnique& technique, const ShadowLight& light,
   ShaderLibrary& library, std::vector<glm::vec4> pointsView, const glm::vec3& normalView,
   std::vector<Uniform> uniforms)
@@ -84,7 +79,6 @@ std::vector<float> visibilityAt(const PointwiseTechnique& technique, const Shado
     pointsView, uniforms);
 }
 
-//------------------------------------------------------------------------------
 std::vector<float> runGlsl(const PointwiseTechnique& technique, const ShadowLight& light,
   const LightViews& views, const Map& map, const std::vector<glm::dvec2>& places)
 {

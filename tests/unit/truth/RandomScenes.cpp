@@ -15,7 +15,6 @@
 namespace gnomon::test
 {
 
-//------------------------------------------------------------------------------
 Mesh makeCup(int rings, int segments)
 {
   Mesh mesh = makeSphere(rings, segments);
@@ -118,7 +117,6 @@ std::vector<Mesh> dealtOut(const Mesh& mesh, std::size_t count, Random& random)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::vector<const char*>& randomSceneNames()
 {
   static const std::vector<const char*> names = { "one triangle", "spheres", "soup", "needles",
@@ -127,7 +125,6 @@ const std::vector<const char*>& randomSceneNames()
   return names;
 }
 
-//------------------------------------------------------------------------------
 std::string lettersOf(std::string name)
 {
   const auto isSeparator = [](unsigned char letter) { return !std::isalpha(letter); };
@@ -135,7 +132,6 @@ std::string lettersOf(std::string name)
   return name;
 }
 
-//------------------------------------------------------------------------------
 std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
 {
   // Each scene has four such bodies, of this scale.
@@ -231,7 +227,6 @@ std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
   return props;
 }
 
-//------------------------------------------------------------------------------
 ShadowLight makeRandomLight(Random& random)
 {
   const glm::dvec3 direction = unitVector(random) * glm::dvec3(1.0, 1.0, -1.0);
@@ -254,7 +249,6 @@ ShadowLight makeRandomLight(Random& random)
   }
 }
 
-//------------------------------------------------------------------------------
 RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, const glm::dmat4& world)
 {
   // The seed includes the name. Otherwise kinds that draw as many numbers for their scenes would
@@ -323,14 +317,12 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
   return picture;
 }
 
-//------------------------------------------------------------------------------
 LightViews viewsOf(const ShadowLight& light, const Occluders& occluders)
 {
   return fitLightViews(light,
     { occluders.frame.centre, occluders.castersCentred, {}, { light.mapSizeTexels, 1 }, {} });
 }
 
-//------------------------------------------------------------------------------
 LightRay rayAt(const LightView& view, int sizeTexels, const glm::dvec2& texels)
 {
   const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
@@ -340,7 +332,6 @@ LightRay rayAt(const LightView& view, int sizeTexels, const glm::dvec2& texels)
   return { glm::dvec3(centredFromView * from), glm::dvec3(centredFromView * along) };
 }
 
-//------------------------------------------------------------------------------
 unsigned int exactRuns(unsigned int few)
 {
   const char* const asked = std::getenv("GNOMON_EXACT_RUNS");

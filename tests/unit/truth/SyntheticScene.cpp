@@ -14,7 +14,6 @@
 namespace gnomon::test
 {
 
-//------------------------------------------------------------------------------
 Mesh makePlane(double side, int cells)
 {
   Mesh mesh;
@@ -38,7 +37,6 @@ Mesh makePlane(double side, int cells)
   return mesh;
 }
 
-//------------------------------------------------------------------------------
 Prop makePerforatedPlane(double side, int cells, const glm::dmat4& worldFromMesh)
 {
   Prop prop{ makePlane(side, cells), worldFromMesh };
@@ -55,7 +53,6 @@ Prop makePerforatedPlane(double side, int cells, const glm::dmat4& worldFromMesh
   return prop;
 }
 
-//------------------------------------------------------------------------------
 Mesh makeTerrain(double side, int cells, double height)
 {
   Mesh mesh = makePlane(side, cells);
@@ -70,7 +67,6 @@ Mesh makeTerrain(double side, int cells, double height)
   return mesh;
 }
 
-//------------------------------------------------------------------------------
 Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper)
 {
   Mesh mesh;
@@ -89,7 +85,6 @@ Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper)
   return mesh;
 }
 
-//------------------------------------------------------------------------------
 Mesh makeSphere(int rings, int segments, double bumps)
 {
   Mesh mesh;
@@ -129,7 +124,6 @@ Mesh makeSphere(int rings, int segments, double bumps)
   return mesh;
 }
 
-//------------------------------------------------------------------------------
 Mesh makeTriangleSoup(int count, unsigned int seed)
 {
   Random random(seed);
@@ -146,7 +140,6 @@ Mesh makeTriangleSoup(int count, unsigned int seed)
   return mesh;
 }
 
-//------------------------------------------------------------------------------
 void addTriangle(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
   const auto first = static_cast<unsigned int>(mesh.points.size());
@@ -154,7 +147,6 @@ void addTriangle(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm
   mesh.triangles.emplace_back(first, first + 1, first + 2);
 }
 
-//------------------------------------------------------------------------------
 Mesh apart(const Mesh& mesh)
 {
   Mesh result;
@@ -180,7 +172,6 @@ Bounds boundsOf(const Occluders& occluders, const Surface& surface)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Occluders makeOccluders(const std::vector<Prop>& props, const std::optional<glm::dvec3>& centre)
 {
   static std::uint64_t version = 0;
@@ -232,7 +223,6 @@ Occluders makeOccluders(const std::vector<Prop>& props, const std::optional<glm:
   return occluders;
 }
 
-//------------------------------------------------------------------------------
 void moveSurface(Occluders& occluders, std::size_t index, const glm::dvec3& by)
 {
   Surface& surface = occluders.surfaces[index];
@@ -261,7 +251,6 @@ double jitter(std::uint32_t seed)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 View makeView(const Occluders& occluders, const Camera& camera)
 {
   View view;
@@ -318,7 +307,6 @@ View makeView(const Occluders& occluders, const Camera& camera)
   return view;
 }
 
-//------------------------------------------------------------------------------
 ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera)
 {
   const View view = makeView(occluders, camera);
@@ -327,7 +315,6 @@ ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera)
   return receivers;
 }
 
-//------------------------------------------------------------------------------
 ReceiverPixels rowOf(const std::vector<PlacedReceiver>& receivers, std::uint32_t surface)
 {
   ReceiverPixels pixels;
@@ -340,7 +327,6 @@ ReceiverPixels rowOf(const std::vector<PlacedReceiver>& receivers, std::uint32_t
   return pixels;
 }
 
-//------------------------------------------------------------------------------
 ShadowLight directionalLight(const glm::dvec3& direction)
 {
   ShadowLight light;
@@ -348,7 +334,6 @@ ShadowLight directionalLight(const glm::dvec3& direction)
   return light;
 }
 
-//------------------------------------------------------------------------------
 ShadowLight spotLight(const glm::dvec3& position, const glm::dvec3& target, double coneAngleDegrees)
 {
   ShadowLight light;
@@ -359,7 +344,6 @@ ShadowLight spotLight(const glm::dvec3& position, const glm::dvec3& target, doub
   return light;
 }
 
-//------------------------------------------------------------------------------
 ShadowLight pointLight(const glm::dvec3& position)
 {
   ShadowLight light;
@@ -368,7 +352,6 @@ ShadowLight pointLight(const glm::dvec3& position)
   return light;
 }
 
-//------------------------------------------------------------------------------
 ShadowLight boxLight(
   const glm::dvec3& direction, const glm::dvec3& position, const glm::dvec3& size)
 {
@@ -378,14 +361,12 @@ ShadowLight boxLight(
   return light;
 }
 
-//------------------------------------------------------------------------------
 ShadowLight withMap(ShadowLight light, int sizeTexels)
 {
   light.mapSizeTexels = sizeTexels;
   return light;
 }
 
-//------------------------------------------------------------------------------
 ShadowLight withArea(ShadowLight light, const LightArea& area, int samples)
 {
   light.area = area;
@@ -393,7 +374,6 @@ ShadowLight withArea(ShadowLight light, const LightArea& area, int samples)
   return light;
 }
 
-//------------------------------------------------------------------------------
 std::vector<CastingTriangle> castingTriangles(const Occluders& occluders)
 {
   std::vector<CastingTriangle> result;
@@ -413,7 +393,6 @@ std::vector<CastingTriangle> castingTriangles(const Occluders& occluders)
   return result;
 }
 
-//------------------------------------------------------------------------------
 std::optional<LineHit> meet(
   const CastingTriangle& triangle, const glm::dvec3& origin, const glm::dvec3& direction)
 {
@@ -431,7 +410,6 @@ std::optional<LineHit> meet(
   return LineHit{ glm::dot(a - origin, normal) / cosine, cosine, volumes / sum };
 }
 
-//------------------------------------------------------------------------------
 std::vector<float> trace(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
@@ -442,13 +420,11 @@ std::vector<float> trace(
   return visibility;
 }
 
-//------------------------------------------------------------------------------
 glm::dmat4 at(const glm::dvec3& position, double scale)
 {
   return glm::scale(glm::translate(glm::dmat4(1.0), position), glm::dvec3(scale));
 }
 
-//------------------------------------------------------------------------------
 std::size_t countDifferent(const std::vector<float>& a, const std::vector<float>& b)
 {
   std::size_t different = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
@@ -459,7 +435,6 @@ std::size_t countDifferent(const std::vector<float>& a, const std::vector<float>
   return different;
 }
 
-//------------------------------------------------------------------------------
 std::size_t countCovered(const ReceiverPixels& receivers)
 {
   return receivers.size() -
@@ -467,7 +442,6 @@ std::size_t countCovered(const ReceiverPixels& receivers)
       std::count(receivers.surface.begin(), receivers.surface.end(), ReceiverPixels::notCovered));
 }
 
-//------------------------------------------------------------------------------
 glm::dmat4 turned(Random& random, double spread)
 {
   const glm::dmat4 turn =
@@ -475,7 +449,6 @@ glm::dmat4 turned(Random& random, double spread)
   return glm::scale(turn, glm::pow(glm::dvec3(10.0), inCube(random, spread)));
 }
 
-//------------------------------------------------------------------------------
 void makeInstanced(Occluders& occluders, std::size_t surface,
   const std::vector<glm::dmat4>& centredFromSource, bool mirrored)
 {
@@ -486,7 +459,6 @@ void makeInstanced(Occluders& occluders, std::size_t surface,
   occluders.surfaces[surface].mirrored = mirrored;
 }
 
-//------------------------------------------------------------------------------
 Occluders expanded(const Occluders& instanced)
 {
   Occluders result = instanced;
@@ -529,7 +501,6 @@ Occluders expanded(const Occluders& instanced)
   return result;
 }
 
-//------------------------------------------------------------------------------
 Occluders cupsOverFloor(bool mirrored, bool oneSided)
 {
   Mesh cup = makeSphere(8, 12);
@@ -553,7 +524,6 @@ Occluders cupsOverFloor(bool mirrored, bool oneSided)
   return occluders;
 }
 
-//------------------------------------------------------------------------------
 void perforate(Occluders& occluders)
 {
   Surface& cups = occluders.surfaces[1];
