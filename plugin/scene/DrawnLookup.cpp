@@ -84,11 +84,11 @@ std::size_t DrawnLookup::QuestionHash::operator()(const Question& question) cons
   return seed;
 }
 
-void DrawnLookup::clear()
+void DrawnLookup::clear(std::size_t props)
 {
   this->held_.clear();
   this->heldAt_.clear();
-  this->plain_.clear();
+  this->plain_.assign(props, {});
   this->answers_.clear();
   this->taken_.clear();
 }
@@ -105,7 +105,6 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
   }
   if (plainNumber && held.size() == 1)
   {
-    this->plain_.resize(std::max(this->plain_.size(), *plainNumber + 1));
     PlainDrawing& plain = this->plain_[*plainNumber];
     plain.mapper = mapper;
     plain.held = number;

@@ -61,7 +61,8 @@ public:
   };
 
   /// Remove all surfaces.
-  void clear();
+  /// @param props the number of the renderer's props whose surfaces are added
+  void clear(std::size_t props);
   /// Add the opaque surfaces, at least one, that a prop draws with a mapper at a place. Glyphs are
   /// in the order in which VTK draws them.
   /// @param plainNumber PropRecords::numberOf() a PlainProp; none for others

@@ -53,7 +53,8 @@ SnapshotChange OccluderCollector::collect(
 /// Index the snapshot's surfaces by prop and matrix.
 void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
 {
-  this->lookup_.clear();
+  this->lookup_.clear(
+    wanted.empty() ? 0 : static_cast<std::size_t>(wanted.back().prop->number) + 1);
   for (std::size_t i = 0; i < wanted.size();)
   {
     const DrawnProp& prop = *wanted[i].prop;

@@ -99,8 +99,6 @@ bool PropRecords::beginFrame(vtkPropCollection* props, bool inputsHaveRun)
   {
     ++this->numberings_;
     this->numbers_.clear();
-    std::for_each(this->records_.begin(), this->records_.end(),
-      [this](const Record& record) { this->numbers_.emplace(record.prop, this->numbers_.size()); });
   }
   return areSame;
 }
@@ -135,8 +133,13 @@ bool PropRecords::remember(std::size_t number, vtkActor* actor)
 
 std::optional<std::size_t> PropRecords::numberOf(const vtkProp* prop)
 {
-  if (this->next_ >= this->records_.size() || this->records_[this->next_].prop != prop)
+  this->next_ = this->next_ < this->records_.size() ? this->next_ : 0;
+  if (this->records_.empty() || this->records_[this->next_].prop != prop)
   {
+    for (std::size_t i = this->numbers_.size(); i < this->records_.size(); ++i)
+    {
+      this->numbers_.emplace(this->records_[i].prop, i);
+    }
     const auto known = this->numbers_.find(prop);
     if (known == this->numbers_.end())
     {

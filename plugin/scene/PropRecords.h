@@ -103,8 +103,8 @@ private:
     bool mayChangeInDrawing = true; ///< new, or changed by the last drawing
     bool wasDrawn = false;          ///< since it is new, or last changed
   };
-  std::vector<Record> records_; ///< in the renderer's order
-  std::unordered_map<const vtkProp*, std::size_t> numbers_;
+  std::vector<Record> records_;                             ///< in the renderer's order
+  std::unordered_map<const vtkProp*, std::size_t> numbers_; ///< once they are asked for
   std::size_t numberings_ = 0;
   std::size_t next_ = 0; ///< number of the next prop, if VTK asks for them in this order
   /// Records whose props are to be looked at after drawing.
