@@ -67,8 +67,8 @@ struct Surface
 
   /// For the n-th triangle that VTK draws of this surface, the triangle in the snapshot, counted
   /// from firstTriangle; `noTriangle` if it was dropped. Empty if the n-th drawn triangle is the
-  /// n-th of the surface. A triangle that a clipping plane cuts maps to its first piece, which lies
-  /// in its plane.
+  /// n-th of the surface. A triangle that a clipping plane cuts maps to its first piece, which the
+  /// others follow.
   std::vector<std::uint32_t> triangleOfDrawn;
 
   static constexpr std::uint32_t noTriangle = 0xffffffffu;

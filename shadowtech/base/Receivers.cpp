@@ -154,8 +154,14 @@ void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache
       } while (column < lastColumn && isSame(fragments[column], fragment));
       const PixelSpan span{ static_cast<double>(firstColumn), static_cast<double>(y),
         column - firstColumn, first + row * perRow + firstColumn - tile.firstColumn };
-      const SeenTriangle& seen = cache.find(drawn, fragment);
-      seen.finite ? spans.make(seen, span) : leaveUncovered(span, receivers);
+      const bool isCut = cache.find(drawn, fragment).found.pieces > 1;
+      const std::size_t step = isCut ? 1 : span.count;
+      for (std::size_t place = 0; place < span.count; place += step)
+      {
+        const PixelSpan part = partOf(span, place, step);
+        const SeenTriangle& seen = cache.findAt(drawn, fragment, part.x, part.y);
+        seen.finite ? spans.make(seen, part) : leaveUncovered(part, receivers);
+      }
     }
   }
 }

@@ -23,6 +23,27 @@ bool isFinite(const glm::dvec3& vector)
   return std::isfinite(vector.x + vector.y + vector.z);
 }
 
+/// Return the number of pieces in which clipping planes left a drawn triangle that is not dropped.
+std::uint32_t piecesOf(const Surface& surface, std::uint32_t drawn)
+{
+  const auto here = surface.triangleOfDrawn.begin() + drawn;
+  const auto next = std::find_if(here + 1, surface.triangleOfDrawn.end(),
+    [](std::uint32_t triangle) { return triangle != Surface::noTriangle; });
+  return (next == surface.triangleOfDrawn.end() ? surface.triangleCount : *next) - *here;
+}
+
+/// Return how far a place lies inside the nearest of a triangle's edges, in pixels; negative:
+/// outside.
+double depthInside(const SeenTriangle& seen, double x, double y)
+{
+  double depth = std::numeric_limits<double>::infinity();
+  for (const AffineOverPixels& edge : seen.insideEdge)
+  {
+    depth = std::min(depth, edge.row(y).at(x) / std::hypot(edge.perColumn, edge.perRow));
+  }
+  return depth;
+}
+
 } // namespace
 
 bool isFinite(const PixelRays& rays)
@@ -80,7 +101,8 @@ TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   {
     return {};
   }
-  return { block.surface, surface.firstTriangle + triangle, instance, drawn };
+  return { block.surface, surface.firstTriangle + triangle, instance, drawn,
+    surface.triangleOfDrawn.empty() ? 1 : piecesOf(surface, drawn) };
 }
 
 void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen)
@@ -149,7 +171,7 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
     }
   }
   // Deciders know flat triangles only: the light may reach a curve above one that is turned away.
-  if (drawn.decider && !surface.isInstanced() && !seen.smoothNormals)
+  if (drawn.decider && found.pieces == 1 && !surface.isInstanced() && !seen.smoothNormals)
   {
     seen.known = drawn.decider->ofTriangle(
       { found.triangle, side > 0.0, seen.corners, drawn.footprints.largest(seen.corners) });
@@ -227,25 +249,47 @@ glm::dvec3 inwards(
   return length > 2.0 * step ? edge + step / length * toMiddle : edge + 0.5 * toMiddle;
 }
 
-const SeenTriangle& SeenTriangles::find(const Drawn& drawn, const glm::vec2& fragment)
+const SeenTriangle& SeenTriangles::find(
+  const Drawn& drawn, const glm::vec2& fragment, std::uint32_t piece)
 {
   const float primitive = std::abs(fragment.y);
   const std::size_t slot =
-    (primitive < primitiveLimit ? static_cast<std::size_t>(primitive) : 0) % size;
+    ((primitive < primitiveLimit ? static_cast<std::size_t>(primitive) : 0) + piece) % size;
   SeenTriangle& seen = this->seen_[slot];
-  if (!this->filled_[slot] || this->fragments_[slot] != fragment)
+  if (!this->filled_[slot] || this->fragments_[slot] != fragment || this->pieces_[slot] != piece)
   {
     this->filled_[slot] = true;
     this->fragments_[slot] = fragment;
+    this->pieces_[slot] = piece;
     seen.finite = false;
-    const TriangleOfFragment found =
+    seen.found =
       findTriangle(std::abs(fragment.x), fragment.y, drawn.drawnSurfaces, drawn.occluders);
-    if (found.triangle != notFound)
+    if (seen.found.triangle != notFound)
     {
+      TriangleOfFragment found = seen.found;
+      found.triangle += piece;
       see(drawn, found, seen);
     }
   }
   return seen;
+}
+
+const SeenTriangle& SeenTriangles::findAt(
+  const Drawn& drawn, const glm::vec2& fragment, double x, double y)
+{
+  const std::uint32_t pieces = this->find(drawn, fragment).found.pieces;
+  std::uint32_t nearest = 0;
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (std::uint32_t piece = 0; pieces > 1 && piece < pieces; ++piece)
+  {
+    const double depth = depthInside(this->find(drawn, fragment, piece), x, y);
+    if (depth > deepest)
+    {
+      deepest = depth;
+      nearest = piece;
+    }
+  }
+  return this->find(drawn, fragment, nearest);
 }
 
 } // namespace gnomon

@@ -25,6 +25,7 @@ struct TriangleOfFragment
   std::uint32_t triangle = notFound;
   std::uint32_t instance = 0;
   std::uint32_t primitive = 0; ///< VTK's number, counted from the surface's or instance's first
+  std::uint32_t pieces = 1;    ///< in which clipping planes left it, from `triangle` on
 
   bool operator==(const TriangleOfFragment& other) const
   {
@@ -149,17 +150,24 @@ struct Drawn
 void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen);
 
 /// A cache of prepared triangles by the fragments that name them. An entry's slot is the
-/// primitive's number modulo the size.
+/// primitive's number, plus the piece's, modulo the size.
 class SeenTriangles
 {
 public:
   /// @return valid until the next call; not finite if the snapshot has no such triangle
-  const SeenTriangle& find(const Drawn& drawn, const glm::vec2& fragment);
+  /// @param piece of a triangle that clipping planes cut
+  const SeenTriangle& find(const Drawn& drawn, const glm::vec2& fragment, std::uint32_t piece = 0);
+
+  /// Return the piece that is seen at a place in the picture.
+  /// @param x, y in pixels, from the centre of pixel (0, 0)
+  /// @return as find()
+  const SeenTriangle& findAt(const Drawn& drawn, const glm::vec2& fragment, double x, double y);
 
 private:
   static constexpr std::size_t size = 256;
   std::array<bool, size> filled_{};
   std::array<glm::vec2, size> fragments_;
+  std::array<std::uint32_t, size> pieces_{};
   std::array<SeenTriangle, size> seen_;
 };
 

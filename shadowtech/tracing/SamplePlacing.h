@@ -152,7 +152,7 @@ private:
       std::ldexp(glm::length(shown.position), -23);
     const SeenTriangle& own = this->cache_.find(this->drawn_, this->drawn_.images.fragments[pixel]);
     this->isSolid_ = own.finite && own.solid;
-    this->fill(own, 0.0f);
+    this->fillFrom(pixel, 0.0f);
     this->fillFromNeighbours(pixel);
   }
 
@@ -170,7 +170,7 @@ private:
     {
       const PixelSpan span{ static_cast<double>(at.x), static_cast<double>(at.y), 1, 0 };
       const SeenTriangle& seen =
-        this->cache_.find(this->drawn_, this->drawn_.images.fragments[pixel]);
+        this->cache_.findAt(this->drawn_, this->drawn_.images.fragments[pixel], span.x, span.y);
       const PixelRays& rays = this->drawn_.images.rays;
       !seen.finite   ? leaveUncovered(span, this->centre_)
         : seen.solid ? projectSolid(seen, rays, span, this->centre_)
@@ -223,8 +223,7 @@ private:
           !this->showSame(pixel, own) && !this->showSame(pixel, before))
         {
           before = pixel;
-          this->fill(this->cache_.find(this->drawn_, this->drawn_.images.fragments[pixel]),
-            static_cast<float>(order));
+          this->fillFrom(pixel, static_cast<float>(order));
         }
       });
   }
@@ -255,6 +254,17 @@ private:
     constexpr double leastCosine = 0.70710678; // 45 degrees
     return glm::dot(normal, this->shown_.normal) >= leastCosine &&
       std::abs(glm::dot(position - this->shown_.position, this->shown_.normal)) <= this->mostApart_;
+  }
+
+  /// Add receivers for the missing samples that lie on what a pixel shows.
+  void fillFrom(std::size_t pixel, float order)
+  {
+    const glm::vec2& fragment = this->drawn_.images.fragments[pixel];
+    const std::uint32_t pieces = this->cache_.find(this->drawn_, fragment).found.pieces;
+    for (std::uint32_t piece = 0; piece < pieces; ++piece)
+    {
+      this->fill(this->cache_.find(this->drawn_, fragment, piece), order);
+    }
   }
 
   /// Add receivers for the missing samples that lie on a triangle or solid.

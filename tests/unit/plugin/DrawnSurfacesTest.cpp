@@ -165,9 +165,9 @@ struct DrawnSurfaces : PassTest
 
   /// Draw the scene, and compare each pixel's receiver with what VTK draws.
   /// @param surfaces the snapshot's new ones; negative: any number
-  /// @param isCut true if receivers may lie elsewhere on the same plane: on the first piece of a
-  /// clipped triangle, or on one that VTK grows to draw its edges
-  void expectRight(int surfaces, bool isCut = false, std::size_t leastCovered = 900)
+  /// @param isGrown true if receivers may lie elsewhere on the same plane: on a triangle that VTK
+  /// grows to draw its edges
+  void expectRight(int surfaces, bool isGrown = false, std::size_t leastCovered = 900)
   {
     const VisibilityImages kept = drawKept(this->scene);
     EXPECT_TRUE(surfaces < 0 || this->scene.report().surfacesExtracted == surfaces)
@@ -200,7 +200,7 @@ struct DrawnSurfaces : PassTest
         const glm::dvec3 place = glm::make_vec3(world) / world[3];
         const glm::dvec3 off = place - positionOf(kept, i);
         const double distance =
-          isCut ? std::abs(glm::dot(off, normalOf(kept, i))) : glm::length(off);
+          isGrown ? std::abs(glm::dot(off, normalOf(kept, i))) : glm::length(off);
         wrong += distance > 1e-3 * camera->GetDistance() ? 1 : 0;
         return true;
       });
@@ -218,7 +218,7 @@ struct DrawnCase
   const char* name;
   int surfaces;
   void (*build)(PassScene& scene);
-  bool isCut = false;
+  bool isGrown = false;
 };
 
 void addClippingPlane(vtkActor* actor, const glm::dvec3& normal)
@@ -270,7 +270,7 @@ vtkSmartPointer<vtkImageData> makeGrid()
   return grid;
 }
 
-constexpr bool isCut = true;
+constexpr bool isGrown = true;
 const DrawnCase drawnCases[] = {
   { "concave", 1,
     [](PassScene& scene)
@@ -296,7 +296,7 @@ const DrawnCase drawnCases[] = {
       look->VertexVisibilityOn();
       look->SetPointSize(1.0);
     },
-    isCut },
+    isGrown },
   { "flat", 2,
     [](PassScene& scene)
     {
@@ -334,16 +334,14 @@ const DrawnCase drawnCases[] = {
       actor->RotateZ(10.0);
       addClippingPlane(actor, { 1.0, 0.3, 0.1 });
       addClippingPlane(actor, { -0.2, -1.0, 0.0 });
-    },
-    isCut },
+    } },
   { "of a grid", 1, [](PassScene& scene) { scene.add(dataSetMapperOf(makeGrid())); } },
   { "of mixed data", 2, [](PassScene& scene) { scene.add(dataSetMapperOf(makeMixed())); } },
   { "of parts", 4, [](PassScene& scene) { scene.add(partsMapperOf(makeParts())); } },
   { "of parts, clipped", 4,
     [](PassScene& scene) {
       addClippingPlane(scene.add(partsMapperOf(makeParts())), { 1.0, 0.3, 0.1 });
-    },
-    isCut },
+    } },
   { "of a whole", 1, [](PassScene& scene) { scene.add(partsMapperOf(makeBumps(4, 8))); } },
   // Mirrored matrices swap the sides.
   { "of a mapper that actors share", 6,
@@ -370,7 +368,7 @@ TEST_F(DrawnSurfaces, areWhereVtkDrawsThem)
     this->scene.renderer->RemoveAllViewProps();
     of.build(this->scene);
     this->lookAtScene();
-    this->expectRight(of.surfaces, of.isCut);
+    this->expectRight(of.surfaces, of.isGrown);
   }
 }
 
@@ -465,12 +463,12 @@ TEST_F(DrawnSurfaces, ofGlyphsAreScaledTurnedMaskedAndClipped)
   actor->RotateZ(10.0);
   actor->SetScale(1.0, 1.3, 0.8);
   const auto expectRightBy =
-    [&](const char* what, const std::function<void()>& change, bool isChangeCut = false)
+    [&](const char* what, const std::function<void()>& change, bool isGrownByChange = false)
   {
     SCOPED_TRACE(what);
     change();
     this->lookAtScene();
-    this->expectRight(-1, isChangeCut, 400);
+    this->expectRight(-1, isGrownByChange, 400);
   };
   expectRightBy("plain", [] {});
   constexpr int byMagnitude = vtkGlyph3DMapper::SCALE_BY_MAGNITUDE;
@@ -495,7 +493,7 @@ TEST_F(DrawnSurfaces, ofGlyphsAreScaledTurnedMaskedAndClipped)
   expectRightBy("clamped", [&] { mapper->ClampingOn(); });
   expectRightBy("unscaled", [&] { mapper->ScalingOff(); });
   expectRightBy(
-    "with edges", [&] { actor->GetProperty()->EdgeVisibilityOn(); }, isCut);
+    "with edges", [&] { actor->GetProperty()->EdgeVisibilityOn(); }, isGrown);
   expectRightBy("several sources",
     [&]
     {
@@ -509,12 +507,7 @@ TEST_F(DrawnSurfaces, ofGlyphsAreScaledTurnedMaskedAndClipped)
       mapper->MaskingOn();
       mapper->SetMaskArray("mask");
     });
-  expectRightBy(
-    "clipped",
-    [&] {
-      addClippingPlane(actor, { 1.0, 0.3, 0.1 });
-    },
-    isCut);
+  expectRightBy("clipped", [&] { addClippingPlane(actor, { 1.0, 0.3, 0.1 }); });
   mapper->RemoveAllClippingPlanes();
   expectRightBy("on blocks",
     [&]
