@@ -53,7 +53,7 @@ public:
     const double miss = missPixels + this->truth_.vertexNoise / side;
     const std::vector<float>& depths = this->truth_.windowDepths;
     return !(side > 0.0) ||
-      (isInside(seen, x, y, miss) &&
+      (depthInside(seen, x, y) >= -miss &&
         (depths.empty() || this->isAt(seen, x, y, t, miss, depths[pixel])));
   }
 
@@ -73,16 +73,6 @@ private:
     return point.isMet ||
       glm::distance(glm::dvec2(this->windowOf(point.position)), glm::dvec2(x, y)) <=
       solidMissPixels;
-  }
-
-  static bool isInside(const SeenTriangle& seen, double x, double y, double missedPixels)
-  {
-    return std::all_of(seen.insideEdge.begin(), seen.insideEdge.end(),
-      [&](const AffineOverPixels& edge)
-      {
-        const double perPixel = std::hypot(edge.perColumn, edge.perRow);
-        return edge.first + x * edge.perColumn + y * edge.perRow >= -missedPixels * perPixel;
-      });
   }
 
   /// The window depth of the triangle's plane.

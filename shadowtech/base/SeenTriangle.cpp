@@ -32,18 +32,6 @@ std::uint32_t piecesOf(const Surface& surface, std::uint32_t drawn)
   return (next == surface.triangleOfDrawn.end() ? surface.triangleCount : *next) - *here;
 }
 
-/// Return how far a place lies inside the nearest of a triangle's edges, in pixels; negative:
-/// outside.
-double depthInside(const SeenTriangle& seen, double x, double y)
-{
-  double depth = std::numeric_limits<double>::infinity();
-  for (const AffineOverPixels& edge : seen.insideEdge)
-  {
-    depth = std::min(depth, edge.row(y).at(x) / std::hypot(edge.perColumn, edge.perRow));
-  }
-  return depth;
-}
-
 } // namespace
 
 bool isFinite(const PixelRays& rays)
@@ -247,6 +235,16 @@ glm::dvec3 inwards(
   const double length = glm::length(toMiddle);
   const double step = footprint / 256.0;
   return length > 2.0 * step ? edge + step / length * toMiddle : edge + 0.5 * toMiddle;
+}
+
+double depthInside(const SeenTriangle& seen, double x, double y)
+{
+  double depth = std::numeric_limits<double>::infinity();
+  for (const AffineOverPixels& edge : seen.insideEdge)
+  {
+    depth = std::min(depth, edge.row(y).at(x) / std::hypot(edge.perColumn, edge.perRow));
+  }
+  return depth;
 }
 
 const SeenTriangle& SeenTriangles::find(

@@ -149,13 +149,18 @@ struct Drawn
 /// @param seen overwritten
 void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen);
 
+/// Return how far a place lies inside the nearest of a triangle's edges, in pixels; negative:
+/// outside.
+/// @param x, y in pixels, from the centre of pixel (0, 0)
+double depthInside(const SeenTriangle& seen, double x, double y);
+
 /// A cache of prepared triangles by the fragments that name them. An entry's slot is the
 /// primitive's number, plus the piece's, modulo the size.
 class SeenTriangles
 {
 public:
-  /// @return valid until the next call; not finite if the snapshot has no such triangle
   /// @param piece of a triangle that clipping planes cut
+  /// @return valid until the next call; not finite if the snapshot has no such triangle
   const SeenTriangle& find(const Drawn& drawn, const glm::vec2& fragment, std::uint32_t piece = 0);
 
   /// Return the piece that is seen at a place in the picture.
