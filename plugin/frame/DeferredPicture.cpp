@@ -62,14 +62,19 @@ std::string DeferredPicture::whyUnsupported()
   return "";
 }
 
-void DeferredPicture::attach(bool withFragments)
+void DeferredPicture::attach(bool withFragments, const std::optional<glm::vec4>& cleared)
 {
   GLint viewport[4];
   glGetIntegerv(GL_VIEWPORT, viewport);
   this->origin_ = { viewport[0], viewport[1] };
   this->size_ = { viewport[2], viewport[3] };
   this->allocate(this->origin_ + this->size_, isEightBit());
-  this->copyPicture();
+  // Fragments may blend with the picture so far. A copy waits for software OpenGL.
+  const bool clears = cleared && this->eightBit_;
+  if (!clears)
+  {
+    this->copyPicture();
+  }
 
   attachTo(GL_DRAW_FRAMEBUFFER, outputs[1], withFragments ? this->fragments_.name() : 0);
   attachTo(GL_DRAW_FRAMEBUFFER, outputs[2], this->inShadow_.name());
@@ -78,13 +83,17 @@ void DeferredPicture::attach(bool withFragments)
   glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
   this->blending_ = glIsEnabledi(GL_BLEND, 1) == GL_TRUE;
   glDisablei(GL_BLEND, 1); // numbers, not colours
+  const GlStateGuard guard;
+  glDisable(GL_SCISSOR_TEST);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   if (withFragments)
   {
-    const GlStateGuard guard;
-    glDisable(GL_SCISSOR_TEST);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
     glClearBufferfv(GL_COLOR, 1, nothing);
+  }
+  if (clears)
+  {
+    glClearBufferfv(GL_COLOR, 2, &cleared->x);
   }
 }
 
@@ -112,7 +121,7 @@ void DeferredPicture::allocate(const glm::ivec2& extent, bool eightBit)
   this->eightBit_ = eightBit;
 }
 
-/// Copy the picture so far into the colours in shadow, because fragments may blend with it.
+/// Copy the picture so far into the colours in shadow.
 void DeferredPicture::copyPicture() const
 {
   const glm::ivec2& from = this->origin_;

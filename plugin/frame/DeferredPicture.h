@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,9 @@ public:
   /// - 1: to the fragments, xy as in ReceiverImages, if they are wanted;
   /// - 2: to the colours in shadow, blended like the picture's.
   /// @param withFragments false: reuse the fragments of the last picture
+  /// @param cleared the colour of all of the picture so far, if it has just one
   /// @throws TextureMemoryError before anything is attached
-  void attach(bool withFragments);
+  void attach(bool withFragments, const std::optional<glm::vec4>& cleared);
 
   /// Restore the framebuffer.
   void detach();

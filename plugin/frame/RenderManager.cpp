@@ -5,6 +5,7 @@
 #include "plugin/scene/ShownView.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/window/PictureTarget.h"
+#include "plugin/window/RendererScopes.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/GlState.h"
 
@@ -288,7 +289,8 @@ void RenderManager::beginOpaque(const vtkRenderState* s)
 {
   this->makeRoomForLayers();
   this->receivers_.begin(s);
-  this->frame_.view->receivers.deferred.attach(this->receivers_.areDue());
+  this->frame_.view->receivers.deferred.attach(
+    this->receivers_.areDue(), clearedColour(s->GetRenderer()));
 }
 
 void RenderManager::endOpaque(const vtkRenderState* s)

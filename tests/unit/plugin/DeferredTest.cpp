@@ -226,8 +226,6 @@ TEST_F(Deferred, PropsThatPassesDoNotReachAreAsVtkDrawsThem)
 /// shadow.
 TEST_F(Deferred, OpaquePropsThatBlendAreOverBoth)
 {
-  this->scene.renderer->GradientBackgroundOn();
-  this->scene.renderer->SetBackground2(0.2, 0.4, 0.9);
   const auto texture =
     textureOf(makeVeil(4, 4, [](int x, int y) { return 60 + 12 * (x + 4 * y); }));
   vtkActor* veil = this->scene.addFloor(2.5, 0.6);
@@ -236,5 +234,18 @@ TEST_F(Deferred, OpaquePropsThatBlendAreOverBoth)
   veil->GetProperty()->SetAmbient(0.2);
   this->scene.floor()->VisibilityOff(); // the background is then behind the shadow
   this->scene.window->SetSize(200, 200);
-  this->expectTheSame("a veil");
+  this->scene.renderer->SetBackground(0.7, 0.1, 0.3);
+  this->scene.renderer->SetBackgroundAlpha(0.4);
+  this->expectTheSame("over one colour");
+  this->scene.renderer->GradientBackgroundOn();
+  this->scene.renderer->SetBackground2(0.2, 0.4, 0.9);
+  this->expectTheSame("over a gradient");
+  vtkNew<vtkRenderer> below;
+  below->GradientBackgroundOn();
+  below->SetBackground2(0.2, 0.4, 0.9);
+  this->scene.renderer->GradientBackgroundOff();
+  this->scene.window->AddRenderer(below);
+  this->scene.window->SetNumberOfLayers(2);
+  this->scene.renderer->SetLayer(1);
+  this->expectTheSame("over another renderer's picture");
 }
