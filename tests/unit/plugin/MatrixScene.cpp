@@ -16,6 +16,8 @@
 #include <vtkTextureMapToSphere.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <locale>
+
 namespace gnomon::test
 {
 namespace
@@ -144,6 +146,7 @@ void shadePhysically(vtkActor* actor)
 void lightByImage(vtkRenderer* renderer)
 {
   auto* openGl = vtkOpenGLRenderer::SafeDownCast(renderer);
+  std::locale::global(std::locale::classic()); // which VTK's shaders of this light follow
   openGl->UseImageBasedLightingOn();
   openGl->SetEnvironmentTexture(makeTexture());
   openGl->GetEnvMapLookupTable()->SetLUTSize(16);
