@@ -554,31 +554,16 @@ int run(int argc, char** argv)
     "gnomon_benchmark_auto" };
   Options options;
   app.add_option("SCENES", options.scenes, "Scenes: built-in names or scene files")->required();
-  app.add_option("--places", options.places, "Places of the camera in each scene")
-    ->check(CLI::Range(1, 100000))
-    ->capture_default_str();
-  app
-    .add_option("--compared", options.compared,
-      "At how many of them all techniques are timed; elsewhere auto's error alone is measured")
-    ->check(CLI::Range(0, 100000))
-    ->capture_default_str();
+  addNumber(app, "--places", options.places, 1, 100000, "Places of the camera in each scene");
+  addNumber(app, "--compared", options.compared, 0, 100000,
+    "At how many of them all techniques are timed; elsewhere auto's error alone is measured");
   app.add_option("--seed", options.seed, "Of the places")->capture_default_str();
-  app.add_option("--size", options.sidePixels, "Side of the window in pixels")
-    ->check(CLI::Range(1, 16384))
-    ->capture_default_str();
-  app.add_option("--error", options.error, "The share of wrong pixels that is allowed")
-    ->check(CLI::Range(0.0, 1.0))
-    ->capture_default_str();
-  app
-    .add_option("--soft-error", options.softError,
-      "The root mean square error that is allowed in scenes with area lights")
-    ->check(CLI::Range(0.0, 1.0))
-    ->capture_default_str();
-  app
-    .add_option("--budget", options.budget,
-      "Fly around each scene instead, with this multiple of plain VTK's time as a budget")
-    ->check(CLI::Range(0.0, 1e6))
-    ->capture_default_str();
+  addNumber(app, "--size", options.sidePixels, 1, 16384, "Side of the window in pixels");
+  addNumber(app, "--error", options.error, 0.0, 1.0, "The share of wrong pixels that is allowed");
+  addNumber(app, "--soft-error", options.softError, 0.0, 1.0,
+    "The root mean square error that is allowed in scenes with area lights");
+  addNumber(app, "--budget", options.budget, 0.0, 1e6,
+    "Fly around each scene instead, with this multiple of plain VTK's time as a budget");
   CLI11_PARSE(app, argc, argv);
 
   const VtkMessages messages;

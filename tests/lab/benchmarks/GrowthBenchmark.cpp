@@ -471,27 +471,16 @@ int run(int argc, char** argv)
     "gnomon_benchmark_growth" };
   Options options;
   app.add_option("-o,--output", options.folder, "Folder for growth.csv")->required();
-  app.add_option("--axes", options.axes, "What to vary, separated by commas")
-    ->delimiter(',')
-    ->check(CLI::IsMember(axisKeys))
-    ->capture_default_str();
-  app.add_option("--techniques", options.techniques, "As of gnomon compare")
-    ->delimiter(',')
-    ->capture_default_str();
-  app
-    .add_option(
-      "--frames", options.frames, "Timed frames of each contender and case; fewer of slow cases")
-    ->check(CLI::Range(1, 1000))
-    ->capture_default_str();
-  app.add_option("--most-triangles", options.mostTriangles, "Triangles of the largest scene")
-    ->check(CLI::Range(2, 100000000))
-    ->capture_default_str();
-  app.add_option("--most-props", options.mostProps, "Props and programs of the largest scenes")
-    ->check(CLI::Range(10, 10000))
-    ->capture_default_str();
-  app.add_option("--size", options.sidePixels, "Side of the base picture in pixels")
-    ->check(CLI::Range(16, 4096))
-    ->capture_default_str();
+  addTexts(app, "--axes", options.axes, "What to vary, separated by commas")
+    ->check(CLI::IsMember(axisKeys));
+  addTexts(app, "--techniques", options.techniques, "As of gnomon compare");
+  addNumber(app, "--frames", options.frames, 1, 1000,
+    "Timed frames of each contender and case; fewer of slow cases");
+  addNumber(
+    app, "--most-triangles", options.mostTriangles, 2, 100000000, "Triangles of the largest scene");
+  addNumber(
+    app, "--most-props", options.mostProps, 10, 10000, "Props and programs of the largest scenes");
+  addNumber(app, "--size", options.sidePixels, 16, 4096, "Side of the base picture in pixels");
   CLI11_PARSE(app, argc, argv);
 
   const VtkMessages messages;

@@ -158,17 +158,11 @@ int run(int argc, char** argv)
   CLI::App app{ "Prints fingerprints of pictures and choices, to be compared between two states",
     "gnomon_guards" };
   Options options;
-  app.add_option("--scenes", options.scenes, "Scenes of visibility; all but city if none is named")
-    ->delimiter(',');
-  app.add_option("--techniques", options.techniques, "Their techniques; all if none is named")
-    ->delimiter(',');
-  app.add_option("--flights", options.flights, "Scenes of flights")->delimiter(',');
-  app.add_option("--size", options.sidePixels, "Side of the windows in pixels")
-    ->check(CLI::Range(1, 4096))
-    ->capture_default_str();
-  app.add_option("--frames", options.frames, "Frames of a flight")
-    ->check(CLI::Range(0, 10000))
-    ->capture_default_str();
+  addTexts(app, "--scenes", options.scenes, "Scenes of visibility; all but city if none is named");
+  addTexts(app, "--techniques", options.techniques, "Their techniques; all if none is named");
+  addTexts(app, "--flights", options.flights, "Scenes of flights");
+  addNumber(app, "--size", options.sidePixels, 1, 4096, "Side of the windows in pixels");
+  addNumber(app, "--frames", options.frames, 0, 10000, "Frames of a flight");
   CLI11_PARSE(app, argc, argv);
 
   if (options.scenes.empty())

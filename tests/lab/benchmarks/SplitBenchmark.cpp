@@ -525,12 +525,9 @@ int run(int argc, char** argv)
   CLI::App app{ "Compares the shadow rays that a scene blocks with those that its parts block",
     "gnomon_benchmark_split" };
   Options options;
-  app.add_option("--rays", options.rays, "Shadow rays in all scenes together")
-    ->check(CLI::Range(std::uint64_t(1), std::uint64_t(1) << 40))
-    ->capture_default_str();
-  app.add_option("--scenes", options.scenes, "Scenes, separated by commas")
-    ->delimiter(',')
-    ->capture_default_str();
+  tool::addNumber(app, "--rays", options.rays, std::uint64_t(1), std::uint64_t(1) << 40,
+    "Shadow rays in all scenes together");
+  tool::addTexts(app, "--scenes", options.scenes, "Scenes, separated by commas");
   app.add_option("--seed", options.seed, "Of splits and rays")->capture_default_str();
   app.add_option("-o,--output", options.table, "A table to write");
   CLI11_PARSE(app, argc, argv);

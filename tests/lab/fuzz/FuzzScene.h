@@ -91,7 +91,6 @@ private:
   const EstimatorEntry& estimatorOfLight(std::size_t light) const;
   std::string allowed(const std::string& value) const;
   vtkProp3D* someProp(Random& random) const;
-  vtkActor* someActor(Random& random) const; ///< null if the prop is none
   glm::dvec3 inWorld(const glm::dvec3& point) const;
 
   Purpose purpose_;

@@ -18,6 +18,8 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <array>
+#include <functional>
+#include <initializer_list>
 
 namespace gnomon::fuzz
 {
@@ -29,31 +31,54 @@ using test::unitVector;
 struct FuzzScene::Kind
 {
   const char* name;
-  void (*apply)(FuzzScene& scene, Random& random);
+  std::function<void(FuzzScene& scene, Random& random)> apply;
 };
+
+namespace
+{
+
+/// Do one of several things.
+void doOne(Random& random, std::initializer_list<std::function<void()>> things)
+{
+  things.begin()[random() % things.size()]();
+}
+
+} // namespace
 
 const std::vector<FuzzScene::Kind>& FuzzScene::kinds()
 {
+  // Changes of a random prop or actor, if there is one.
+  const auto ofProp = [](void (*apply)(FuzzScene&, Random&, vtkProp3D*))
+  {
+    return [apply](FuzzScene& scene, Random& random)
+    {
+      if (vtkProp3D* const prop = scene.someProp(random))
+      {
+        apply(scene, random, prop);
+      }
+    };
+  };
+  const auto ofActor = [](void (*apply)(Random&, vtkActor*, vtkPolyDataMapper * ofPolyData))
+  {
+    return [apply](FuzzScene& scene, Random& random)
+    {
+      if (vtkActor* const actor = vtkActor::SafeDownCast(scene.someProp(random)))
+      {
+        apply(random, actor, vtkPolyDataMapper::SafeDownCast(actor->GetMapper()));
+      }
+    };
+  };
   static const std::vector<Kind> all = {
     { "camera",
       [](FuzzScene& scene, Random& random)
       {
         vtkRenderer* const renderer = pick(scene.renderers_, random);
         vtkCamera* const camera = renderer->GetActiveCamera();
-        switch (random() % 4)
-        {
-          case 0:
-            camera->Azimuth(uniform(random, -30.0, 30.0));
-            break;
-          case 1:
-            camera->Dolly(uniform(random, 0.8, 1.2));
-            break;
-          case 2:
-            camera->SetParallelProjection(!camera->GetParallelProjection());
-            break;
-          default:
-            scene.placeCamera(renderer, random);
-        }
+        doOne(random,
+          { [&] { camera->Azimuth(uniform(random, -30.0, 30.0)); },
+            [&] { camera->Dolly(uniform(random, 0.8, 1.2)); },
+            [&] { camera->SetParallelProjection(!camera->GetParallelProjection()); },
+            [&] { scene.placeCamera(renderer, random); } });
       } },
     { "light's place",
       [](FuzzScene& scene, Random& random)
@@ -73,144 +98,111 @@ const std::vector<FuzzScene::Kind>& FuzzScene::kinds()
         }
         const std::size_t number = random() % scene.lights_.size();
         vtkLight* const light = scene.lights_[number];
-        switch (random() % 6)
-        {
-          case 0:
-            light->SetSwitch(!light->GetSwitch());
-            break;
-          case 1:
-            light->SetDiffuseColor(1.0, uniform(random, 0.0, 1.0), 0.5);
-            break;
-          case 2:
-            vtkGnomonLightKeys::SetCasts(light, random() % 2 == 0);
-            break;
-          case 3:
-          {
-            const NamedSettings drawn = drawSettings(random);
-            scene.setLight(number, drawn.front().first, drawn.front().second);
-            break;
-          }
-          case 4:
-            light->SetShadowAttenuation(static_cast<float>(uniform(random, 0.0, 1.0)));
-            break;
-          default:
-            scene.shapeLight(light, random);
-        }
+        doOne(random,
+          { [&] { light->SetSwitch(!light->GetSwitch()); },
+            [&] { light->SetDiffuseColor(1.0, uniform(random, 0.0, 1.0), 0.5); },
+            [&] { vtkGnomonLightKeys::SetCasts(light, random() % 2 == 0); },
+            [&]
+            {
+              const auto [name, value] = drawSettings(random).front();
+              scene.setLight(number, name, value);
+            },
+            [&] { light->SetShadowAttenuation(static_cast<float>(uniform(random, 0.0, 1.0))); },
+            [&] { scene.shapeLight(light, random); } });
       } },
     { "prop's place",
-      [](FuzzScene& scene, Random& random)
-      {
-        vtkProp3D* const prop = scene.someProp(random);
-        if (!prop)
+      ofProp(
+        [](FuzzScene& scene, Random& random, vtkProp3D* prop)
         {
-          return;
-        }
-        switch (random() % 4)
-        {
-          case 0:
-            prop->AddPosition(uniform(random, -0.3, 0.3), uniform(random, -0.3, 0.3), 0.0);
-            break;
-          case 1:
-            prop->RotateZ(uniform(random, 0.0, 90.0));
-            break;
-          case 2:
-            prop->SetScale(chance(random, 0.5) ? -1.0 : 1.0, 1.0, uniform(random, 0.2, 1.5));
-            break;
-          default:
-            prop->GetUserMatrix()->SetElement(
-              2, 3, prop->GetUserMatrix()->GetElement(2, 3) + 0.2 * scene.unit_);
-        }
-      } },
+          vtkMatrix4x4* const matrix = prop->GetUserMatrix();
+          doOne(random,
+            { [&]
+              { prop->AddPosition(uniform(random, -0.3, 0.3), uniform(random, -0.3, 0.3), 0.0); },
+              [&] { prop->RotateZ(uniform(random, 0.0, 90.0)); },
+              [&]
+              { prop->SetScale(chance(random, 0.5) ? -1.0 : 1.0, 1.0, uniform(random, 0.2, 1.5)); },
+              [&] { matrix->SetElement(2, 3, matrix->GetElement(2, 3) + 0.2 * scene.unit_); } });
+        }) },
     { "points",
-      [](FuzzScene& scene, Random& random)
-      {
-        vtkActor* const actor = scene.someActor(random);
-        auto* const mapper = actor ? vtkPolyDataMapper::SafeDownCast(actor->GetMapper()) : nullptr;
-        vtkPoints* const points = mapper ? mapper->GetInput()->GetPoints() : nullptr;
-        if (!points || points->GetNumberOfPoints() == 0)
+      ofActor(
+        [](Random& random, vtkActor*, vtkPolyDataMapper* mapper)
         {
-          return;
-        }
-        const vtkIdType point = random() % points->GetNumberOfPoints();
-        glm::dvec3 position;
-        points->GetPoint(point, glm::value_ptr(position));
-        position += 0.3 * unitVector(random);
-        points->SetPoint(point, glm::value_ptr(position));
-        points->Modified();
-      } },
+          vtkPoints* const points = mapper ? mapper->GetInput()->GetPoints() : nullptr;
+          if (points && points->GetNumberOfPoints() > 0)
+          {
+            const vtkIdType point = random() % points->GetNumberOfPoints();
+            glm::dvec3 position;
+            points->GetPoint(point, glm::value_ptr(position));
+            position += 0.3 * unitVector(random);
+            points->SetPoint(point, glm::value_ptr(position));
+            points->Modified();
+          }
+        }) },
     { "data",
-      [](FuzzScene& scene, Random& random)
-      {
-        vtkActor* const actor = scene.someActor(random);
-        if (auto* const mapper =
-              actor ? vtkPolyDataMapper::SafeDownCast(actor->GetMapper()) : nullptr)
+      ofActor(
+        [](Random& random, vtkActor* actor, vtkPolyDataMapper* mapper)
         {
-          actor->SetTexture(nullptr);
-          mapper->SetInputData(drawSurface(random));
-        }
-        else if (auto* const glyphs =
-                   actor ? vtkGlyph3DMapper::SafeDownCast(actor->GetMapper()) : nullptr)
-        {
-          glyphs->SetScaleFactor(uniform(random, 0.1, 1.0));
-        }
-      } },
+          if (mapper)
+          {
+            actor->SetTexture(nullptr);
+            mapper->SetInputData(drawSurface(random));
+          }
+          else if (auto* const glyphs = vtkGlyph3DMapper::SafeDownCast(actor->GetMapper()))
+          {
+            glyphs->SetScaleFactor(uniform(random, 0.1, 1.0));
+          }
+        }) },
     { "clipping planes",
-      [](FuzzScene& scene, Random& random)
-      {
-        vtkActor* const actor = scene.someActor(random);
-        if (!actor)
+      ofActor(
+        [](Random& random, vtkActor* actor, vtkPolyDataMapper*)
         {
-          return;
-        }
-        vtkMapper* const mapper = actor->GetMapper();
-        vtkPlaneCollection* const planes = mapper->GetClippingPlanes();
-        if (planes && planes->GetNumberOfItems() > 0 && random() % 3 == 0)
-        {
-          mapper->RemoveAllClippingPlanes();
-          return;
-        }
-        if (planes && planes->GetNumberOfItems() > 1)
-        {
-          planes->GetItem(0)->SetNormal(glm::value_ptr(unitVector(random)));
-          return;
-        }
-        const double* const bounds = actor->GetBounds();
-        vtkNew<vtkPlane> plane;
-        plane->SetNormal(glm::value_ptr(unitVector(random)));
-        plane->SetOrigin(0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
-          0.5 * (bounds[4] + bounds[5]));
-        mapper->AddClippingPlane(plane);
-      } },
+          vtkMapper* const mapper = actor->GetMapper();
+          vtkPlaneCollection* const planes = mapper->GetClippingPlanes();
+          const int count = planes ? planes->GetNumberOfItems() : 0;
+          if (count > 0 && random() % 3 == 0)
+          {
+            mapper->RemoveAllClippingPlanes();
+          }
+          else if (count > 1)
+          {
+            planes->GetItem(0)->SetNormal(glm::value_ptr(unitVector(random)));
+          }
+          else
+          {
+            vtkNew<vtkPlane> plane;
+            plane->SetNormal(glm::value_ptr(unitVector(random)));
+            plane->SetOrigin(actor->GetCenter());
+            mapper->AddClippingPlane(plane);
+          }
+        }) },
     { "texture",
-      [](FuzzScene& scene, Random& random)
-      {
-        vtkActor* const actor = scene.someActor(random);
-        auto* const mapper = actor ? vtkPolyDataMapper::SafeDownCast(actor->GetMapper()) : nullptr;
-        if (!mapper || !mapper->GetInput()->GetPointData()->GetTCoords())
+      ofActor(
+        [](Random& random, vtkActor* actor, vtkPolyDataMapper* mapper)
         {
-          return;
-        }
-        vtkTexture* const texture = actor->GetTexture();
-        switch (texture ? random() % 3 : 0)
-        {
-          case 0:
-            actor->SetTexture(texture ? nullptr : drawHoles(random).Get());
-            actor->ForceOpaqueOn();
-            // VTK 9.1 keeps drawing with the shader that samples the texture.
-            mapper->Modified();
-            break;
-          case 1:
-            texture->SetInterpolate(!texture->GetInterpolate());
-            break;
-          default:
-            texture->GetInput()->SetScalarComponentFromDouble(0, 0, 0, 3, random() % 2 * 255.0);
-            texture->GetInput()->Modified();
-        }
-      } },
+          if (!mapper || !mapper->GetInput()->GetPointData()->GetTCoords())
+          {
+            return;
+          }
+          vtkTexture* const texture = actor->GetTexture();
+          switch (texture ? random() % 3 : 0)
+          {
+            case 0:
+              actor->SetTexture(texture ? nullptr : drawHoles(random).Get());
+              actor->ForceOpaqueOn();
+              // VTK 9.1 keeps drawing with the shader that samples the texture.
+              mapper->Modified();
+              break;
+            case 1:
+              texture->SetInterpolate(!texture->GetInterpolate());
+              break;
+            default:
+              texture->GetInput()->SetScalarComponentFromDouble(0, 0, 0, 3, random() % 2 * 255.0);
+              texture->GetInput()->Modified();
+          }
+        }) },
     { "look",
-      [](FuzzScene& scene, Random& random)
-      {
-        if (vtkActor* const actor = scene.someActor(random))
+      ofActor(
+        [](Random& random, vtkActor* actor, vtkPolyDataMapper*)
         {
           vtkProperty* const look = actor->GetProperty();
           look->SetColor(uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0), 0.5);
@@ -219,36 +211,30 @@ const std::vector<FuzzScene::Kind>& FuzzScene::kinds()
           look->SetRepresentation(
             chance(random, 0.9) ? VTK_SURFACE : static_cast<int>(random() % 3));
           look->SetBackfaceCulling(chance(random, 0.2));
-        }
-      } },
+        }) },
     { "prop comes or goes",
-      [](FuzzScene& scene, Random& random)
-      {
-        if (vtkProp3D* const prop = scene.someProp(random))
+      ofProp(
+        [](FuzzScene& scene, Random&, vtkProp3D* prop)
         {
           for (vtkRenderer* renderer : scene.renderers_)
           {
             renderer->HasViewProp(prop) ? renderer->RemoveViewProp(prop)
                                         : renderer->AddViewProp(prop);
           }
-        }
-      } },
+        }) },
     { "visibility",
-      [](FuzzScene& scene, Random& random)
-      {
-        if (vtkProp3D* const prop = scene.someProp(random))
-        {
-          prop->SetVisibility(!prop->GetVisibility());
-        }
-      } },
+      ofProp([](FuzzScene&, Random&, vtkProp3D* prop)
+        { prop->SetVisibility(!prop->GetVisibility()); }) },
     { "level of detail",
-      [](FuzzScene& scene, Random& random)
-      {
-        if (auto* const levels = vtkLODProp3D::SafeDownCast(scene.someProp(random)))
+      ofProp(
+        [](FuzzScene&, Random& random, vtkProp3D* prop)
         {
-          levels->SetSelectedLODID(levels->GetCurrentIndex() - 1 - static_cast<int>(random() % 2));
-        }
-      } },
+          if (auto* const levels = vtkLODProp3D::SafeDownCast(prop))
+          {
+            levels->SetSelectedLODID(
+              levels->GetCurrentIndex() - 1 - static_cast<int>(random() % 2));
+          }
+        }) },
     { "window's size", [](FuzzScene& scene, Random& random) { scene.sizeWindow(random); } },
     { "stereo eye",
       [](FuzzScene& scene, Random& random)
@@ -284,36 +270,23 @@ const std::vector<FuzzScene::Kind>& FuzzScene::kinds()
         scene.set(name, value);
       } },
     { "prop key",
-      [](FuzzScene& scene, Random& random)
-      {
-        vtkProp3D* const prop = scene.someProp(random);
-        const bool on = random() % 2 == 0;
-        if (!prop)
+      ofProp(
+        [](FuzzScene&, Random& random, vtkProp3D* prop)
         {
-          return;
-        }
-        switch (random() % 3)
-        {
-          case 0:
-            vtkGnomonPropKeys::SetCasts(prop, on);
-            break;
-          case 1:
-            vtkGnomonPropKeys::SetReceives(prop, on);
-            break;
-          default:
-            vtkGnomonPropKeys::SetOneSided(prop, on);
-        }
-      } },
+          const bool on = random() % 2 == 0;
+          doOne(random,
+            { [&] { vtkGnomonPropKeys::SetCasts(prop, on); },
+              [&] { vtkGnomonPropKeys::SetReceives(prop, on); },
+              [&] { vtkGnomonPropKeys::SetOneSided(prop, on); } });
+        }) },
     { "far prop",
-      [](FuzzScene& scene, Random& random)
-      {
-        if (vtkProp3D* const prop = scene.someProp(random))
+      ofProp(
+        [](FuzzScene&, Random& random, vtkProp3D* prop)
         {
           const double distance = pick<double>({ 0.0, 12.0, 350.0, 1e5 }, random);
           glm::dvec3 place = distance * unitVector(random);
           prop->SetPosition(glm::value_ptr(place));
-        }
-      } },
+        }) },
     { "changing prop",
       [](FuzzScene& scene, Random& random)
       {
@@ -345,11 +318,6 @@ void FuzzScene::apply(const Change& change)
 vtkProp3D* FuzzScene::someProp(Random& random) const
 {
   return this->props_.empty() ? nullptr : pick(this->props_, random).Get();
-}
-
-vtkActor* FuzzScene::someActor(Random& random) const
-{
-  return vtkActor::SafeDownCast(this->someProp(random));
 }
 
 } // namespace gnomon::fuzz
