@@ -76,13 +76,8 @@ void checkFrame(vtkGnomonShadowPass* pass, const tool::VtkMessages& messages)
   }
 }
 
-} // namespace
-
 using test::uniform;
 using test::unitVector;
-
-namespace
-{
 
 glm::dvec3 somewhere(Random& random, double reach)
 {

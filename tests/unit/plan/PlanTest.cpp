@@ -152,8 +152,6 @@ struct LightCase
   const char* said; ///< part of a misfit, a note, a reason; empty: nothing is said
 };
 
-} // namespace
-
 TEST(Plan, givesLightsTheirTechniques)
 {
   const auto nothing = [](Scene&, FrameWishes&) {};
@@ -246,22 +244,6 @@ TEST(Plan, tracesMapsBehindGlassAndNotBehindVolumes)
   EXPECT_THAT(techniques(), testing::ElementsAre("raytraced", "raytraced that marches"));
 }
 
-TEST(Plan, tracesLightsWithoutRoomForAMap)
-{
-  Scene scene = sceneOf({ "nsm", "nsm" });
-  scene.lights.set.lights[1].intensity = 2.0;
-  FrameWishes wishes;
-  wishes.memoryBudget = 4.1 * mebibyte + 8.0 * 1024 * 1024; // a map, and the image of bits
-  const LightPlans plans = planLights(scene, wishes);
-  ASSERT_EQ(plans.lights.size(), 2u);
-  EXPECT_EQ(plans.lights[0].light.technique, "nsm") << "a coarser map serves";
-  EXPECT_LE(plans.lights[0].light.mapSizeTexels, 1024);
-  EXPECT_EQ(plans.lights[1].light.mapSizeTexels, 1024) << "the brighter light keeps its map";
-}
-
-namespace
-{
-
 struct PictureCase
 {
   const char* name;
@@ -271,8 +253,6 @@ struct PictureCase
   const char* reason; ///< part of it
   bool isAsTold = true;
 };
-
-} // namespace
 
 TEST(Plan, choosesTheRoute)
 {
@@ -388,9 +368,6 @@ TEST(Plan, letsTranslucentSurfacesReceive)
   EXPECT_FALSE(planPicture(one, wishes, scene).shadesPoints());
 }
 
-namespace
-{
-
 struct FitCase
 {
   const char* name;
@@ -399,8 +376,6 @@ struct FitCase
   FitTarget target;
   const char* reason; ///< part of it
 };
-
-} // namespace
 
 TEST(Plan, fitsViews)
 {
@@ -483,17 +458,6 @@ TEST(FramePlans, leaveOpaqueSurfacesTheirTechniquesWhereTranslucentOnesReceive)
     EXPECT_EQ(with.lights[0].estimator, without.lights[0].estimator) << technique;
     EXPECT_EQ(with.picture.route.route, without.picture.route.route) << technique;
   }
-}
-
-TEST(FramePlans, askForTheWalkOverPropsOnlyIfItDecides)
-{
-  Scene scene = sceneOf({ "nsm" });
-  EXPECT_FALSE(planFrame(scene, {}, {}, {}).needsDeferredFacts);
-  scene = sceneOf({ "raytraced" });
-  EXPECT_TRUE(planFrame(scene, {}, {}, {}).needsDeferredFacts);
-  scene.deferred = DeferredFacts{};
-  const FramePlan plan = planFrame(scene, {}, {}, {});
-  EXPECT_EQ(plan.picture.route.route, Route::Deferred);
 }
 
 TEST(FramePlans, placeVisibility)
@@ -822,18 +786,6 @@ TEST(FramePlans, takeMapsOfAnyErrorToKeepTheWindowsRate)
   EXPECT_EQ(planFrame(scene, wishes, history, {}).lights.at(0).estimator, &rays());
 }
 
-TEST(MotionTimes, reserveWhatTheSkyTakes)
-{
-  FrameWishes wishes;
-  wishes.windowTime = 100.0;
-  MotionTimes times;
-  times.restByRays = 30.0;
-  times.sample[0] = 1.0;
-  EXPECT_EQ(samplesInTime(wishes, times, 0, 1, 1000), 60);
-  times.reserved = 20.0;
-  EXPECT_EQ(samplesInTime(wishes, times, 0, 1, 1000), 40);
-}
-
 TEST(MotionTimes, forgetRaysThatAreNotTaken)
 {
   FrameWishes wishes;
@@ -887,4 +839,5 @@ TEST(FramePlans, storeReceiversForManyImages)
   EXPECT_TRUE(storesReceivers({ 1, 1, 2 }));
 }
 
+} // namespace
 } // namespace gnomon

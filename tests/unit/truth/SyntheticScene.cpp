@@ -160,6 +160,17 @@ Mesh apart(const Mesh& mesh)
 namespace
 {
 
+/// Return a pseudo-random number in [-1, 1] for a pixel.
+double jitter(std::uint32_t seed)
+{
+  seed = (seed ^ 61u) ^ (seed >> 16);
+  seed *= 9u;
+  seed ^= seed >> 4;
+  seed *= 0x27d4eb2du;
+  seed ^= seed >> 15;
+  return seed / 2147483648.0 - 1.0;
+}
+
 Bounds boundsOf(const Occluders& occluders, const Surface& surface)
 {
   Bounds bounds;
@@ -234,22 +245,6 @@ void moveSurface(Occluders& occluders, std::size_t index, const glm::dvec3& by)
   surface.boundsCentred = boundsOf(occluders, surface);
   surface.positionsVersion = occluders.positionsVersion += 1000000;
 }
-
-namespace
-{
-
-/// Return a pseudo-random number in [-1, 1] for a pixel.
-double jitter(std::uint32_t seed)
-{
-  seed = (seed ^ 61u) ^ (seed >> 16);
-  seed *= 9u;
-  seed ^= seed >> 4;
-  seed *= 0x27d4eb2du;
-  seed ^= seed >> 15;
-  return seed / 2147483648.0 - 1.0;
-}
-
-} // namespace
 
 View makeView(const Occluders& occluders, const Camera& camera)
 {
