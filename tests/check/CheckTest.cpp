@@ -168,36 +168,6 @@ Pixels pixels(const std::vector<std::array<int, 2>>& places)
   return result;
 }
 
-/// Return the pixels that the first light lights in the file.
-std::size_t countLit(TrueFile& image)
-{
-  const std::vector<float>& plane = image.file.channels.at("visibility.0");
-  return static_cast<std::size_t>(std::count(plane.begin(), plane.end(), 1.0f));
-}
-
-/// Light the covered points that a light reaches and no shadow hides.
-/// @return the number of points that it reaches
-template <typename Reaches, typename Hides>
-std::size_t shine(TrueFile& image, const Reaches& reaches, const Hides& hides)
-{
-  std::size_t reached = 0;
-  for (int i = 0; i < sidePixels * sidePixels; ++i)
-  {
-    const int x = i % sidePixels, y = i / sidePixels;
-    const Vec3 p = image.position(x, y);
-    const bool isReached = image.at("coverage", x, y) > 0.0f && reaches(p);
-    image.at("visibility.0", x, y) = isReached && !(p.y < 1.0 && hides(p)) ? 1.0f : 0.0f;
-    reached += isReached ? 1 : 0;
-  }
-  return reached;
-}
-
-/// True in the plate's shadow of a light at (3, 10, 0).
-bool isBesideLight(const Vec3& p)
-{
-  return p.x > -2.0 && p.x < 0.5 && std::abs(p.z) < 1.25;
-}
-
 } // namespace
 
 TEST(Check, FindsNothingInATrueFile)
@@ -325,46 +295,6 @@ TEST(Check, TheOtherFaceAtAnEdgeHasItsOwnLight)
   EXPECT_EQ(compareWith(1.0 / 16.0, 1.0f)[0], false);
 }
 
-TEST(Check, FindsAPictureThatIsUpsideDown)
-{
-  nlohmann::json scene = makeScene();
-  scene["models"][1]["matrix"][11] = 3.0; // moves the plate off the middle
-  const Result result = check(scene, TrueFile().file);
-  EXPECT_FALSE(result.failures().empty());
-  EXPECT_FALSE(result.position.empty());
-}
-
-TEST(Check, NeitherShadowNorCasterWhereTheSceneSaysSo)
-{
-  TrueFile image;
-  const std::size_t shadowed = 8100 - countLit(image);
-  ASSERT_GT(shadowed, 0u);
-  const auto falseShadow = [&](int model, const char* key, bool value)
-  {
-    nlohmann::json scene = makeScene();
-    scene["models"][model][key] = value;
-    const Result result = check(scene, image.file);
-    EXPECT_EQ(result.lights[0].falseLight, Pixels());
-    return result.lights[0].falseShadow.size();
-  };
-  EXPECT_EQ(falseShadow(1, "casts", false), shadowed);
-  EXPECT_EQ(falseShadow(0, "casts", false), 0u);
-  EXPECT_EQ(falseShadow(0, "receives", false), shadowed);
-  EXPECT_EQ(falseShadow(1, "receives", false), 0u);
-  EXPECT_EQ(falseShadow(1, "one_sided", true), 0u); // its front is towards the light
-}
-
-TEST(Check, OneSidedTrianglesCastWithTheirFront)
-{
-  TrueFile image;
-  nlohmann::json scene = makeScene();
-  // Half a turn around x: the front looks down.
-  scene["models"][1]["matrix"] = { 1, 0, 0, 0, 0, -1, 0, plateHeight, 0, 0, -1, 0, 0, 0, 0, 1 };
-  EXPECT_EQ(check(scene, image.file).failures(), std::vector<std::string>());
-  scene["models"][1]["one_sided"] = true;
-  EXPECT_EQ(check(scene, image.file).lights[0].falseShadow.size(), 8100 - countLit(image));
-}
-
 TEST(Check, HolesAreNeitherSeenNorCast)
 {
   TrueFile image;
@@ -392,80 +322,6 @@ TEST(Check, HolesAreNeitherSeenNorCast)
   EXPECT_EQ(result.position, seen);
   EXPECT_EQ(result.lights[0].falseShadow, cast);
   EXPECT_EQ(result.lights[0].falseLight, Pixels());
-}
-
-TEST(Check, SpotLightsShineInTheirConeOnly)
-{
-  // Beside the camera at (3, 10, 0), straight down, 45 degrees: the cone is a circle of radius 10
-  // on the ground.
-  nlohmann::json scene = makeScene();
-  scene["lights"] = { { { "type", "spot" }, { "position", { 3, 10, 0 } }, { "target", { 3, 0, 0 } },
-    { "cone_angle", 45 } } };
-  TrueFile image;
-  const std::size_t inCone = shine(
-    image, [](const Vec3& p) { return std::hypot(p.x - 3.0, p.z) < cameraHeight - p.y; },
-    isBesideLight);
-  Result result = check(scene, image.file);
-  EXPECT_EQ(result.failures(), std::vector<std::string>());
-  EXPECT_EQ(result.lights[0].counted, inCone);
-
-  image.at("visibility.0", 8, 8) = 1.0f; // outside the cone
-  result = check(scene, image.file);
-  EXPECT_EQ(result.lights[0].unlit, pixels({ { 8, 8 } }));
-}
-
-TEST(Check, PointLightsShineEverywhere)
-{
-  // Beside the camera, so the light sees the same part of the plate as the spot light's cone.
-  nlohmann::json scene = makeScene();
-  scene["lights"] = { { { "type", "point" }, { "position", { 3, 10, 0 } } } };
-  TrueFile image;
-  shine(
-    image, [](const Vec3&) { return true; }, isBesideLight);
-  const Result result = check(scene, image.file);
-  EXPECT_EQ(result.failures(), std::vector<std::string>());
-  EXPECT_EQ(result.lights[0].counted, 8100u);
-
-  for (const double height : { 2.5, 1.9 }) // just above the plate, and just below it
-  {
-    scene["lights"][0]["position"] = { 0, height, 0 };
-    const bool above = height > plateHeight;
-    shine(
-      image, [&](const Vec3& p) { return above || p.y < 1.0; },
-      [&](const Vec3& p) { return above && std::abs(p.x) < 5.0 && std::abs(p.z) < 5.0; });
-    EXPECT_EQ(check(scene, image.file).failures(), std::vector<std::string>()) << height;
-  }
-  scene["lights"][0]["position"] = { 3, -10, 0 }; // below the ground
-  EXPECT_EQ(check(scene, image.file).lights[0].counted, 0u);
-}
-
-TEST(Check, ABoxEndsTheLightAndBeginsIt)
-{
-  // Straight down from 5, over x in [-3, 5] and z in [-2, 4].
-  nlohmann::json scene = makeScene();
-  const auto boxFrom = [&](double y)
-  {
-    return nlohmann::json({ { "position", { 1, y, 1 } }, { "up", { 0, 0, 1 } }, { "width", 8 },
-      { "height", 6 }, { "depth", 7 } });
-  };
-  scene["lights"] = { { { "type", "directional" }, { "direction", { 0, -1, 0 } },
-    { "box", boxFrom(5.0) } } };
-  TrueFile image;
-  const std::size_t inBox = shine(
-    image, [](const Vec3& p) { return std::abs(p.x - 1.0) <= 4.0 && std::abs(p.z - 1.0) <= 3.0; },
-    [](const Vec3& p) { return std::abs(p.x) < 1.0 && std::abs(p.z) < 1.0; });
-  Result result = check(scene, image.file);
-  EXPECT_EQ(result.failures(), std::vector<std::string>());
-  EXPECT_EQ(result.lights[0].counted, inBox);
-
-  // The box starts below the plate, which then neither casts nor receives light.
-  scene["lights"][0]["box"] = boxFrom(1.5);
-  result = check(scene, image.file);
-  EXPECT_LT(result.lights[0].counted, inBox);
-  EXPECT_GT(result.lights[0].unlit.size(), 0u);
-
-  scene["lights"][0]["box"]["depth"] = 1.0; // ends above the ground
-  EXPECT_EQ(check(scene, image.file).lights[0].counted, 0u);
 }
 
 TEST(Check, RefusesFilesThatLackSomething)
