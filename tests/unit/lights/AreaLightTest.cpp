@@ -15,7 +15,6 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
-#include <vtkInformationKeyLookup.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>

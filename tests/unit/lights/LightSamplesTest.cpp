@@ -188,31 +188,6 @@ TEST(LightSamples, ofOneNumberLieInTheSamePartForAllPixels)
   }
 }
 
-/// Samples are even over neighbouring pixels, too: over 2 x 2 and 4 x 4.
-TEST(LightSamples, ofBlocksOfPixelsAreAsEvenAsThoseOfOne)
-{
-  constexpr int bits = 4;
-  const LightSamples samples = squareSamples(1 << bits, 3);
-  for (const int blockBits : { 1, 2 })
-  {
-    const std::uint32_t side = 1u << blockBits;
-    for (const glm::uvec2& block : { glm::uvec2(0u), glm::uvec2(17u, 4u), glm::uvec2(160u, 99u) })
-    {
-      std::vector<glm::vec2> places;
-      for (std::uint32_t pixel = 0; pixel < side * side; ++pixel)
-      {
-        const SamplePixel of =
-          samples.pixel(block.x * side + pixel % side, block.y * side + pixel / side);
-        for (int i = 0; i < samples.count(); ++i)
-        {
-          places.push_back(placeOf(samples.offset(i, of)));
-        }
-      }
-      expectOneInEachPart(places, bits + 2 * blockBits);
-    }
-  }
-}
-
 /// Return the RMS error of the share of a square that lies on one side of a slanted line. The line
 /// moves from pixel to pixel.
 /// @param side errors are averaged over side x side pixels
@@ -314,19 +289,6 @@ TEST(LightSamples, atRandomHaveCoordinatesThatDoNotDependOnEachOther)
     EXPECT_LT(dependenceOf(xy), 5.0) << key;
     EXPECT_LT(dependenceOf(xz), 5.0) << key;
     EXPECT_LT(dependenceOf(yz), 5.0) << key;
-  }
-}
-
-TEST(LightSamples, inTheCellsOfAGridStayInThem)
-{
-  const LightSamples samples = squareSamples(9, 5, LightSampling::Jittered);
-  for (std::uint32_t pixel = 0; pixel < 2000; ++pixel)
-  {
-    for (int i = 0; i < samples.count(); ++i)
-    {
-      const glm::vec2 place = placeOf(samples.offset(i, samples.pixel(pixel % 50u, pixel / 50u)));
-      EXPECT_EQ(glm::ivec2(glm::floor(place * 3.0f)), glm::ivec2(i % 3, i / 3));
-    }
   }
 }
 

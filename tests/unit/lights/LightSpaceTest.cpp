@@ -207,36 +207,7 @@ double offLine(const glm::dvec3& from, const glm::dvec3& direction, const glm::d
   return glm::length(glm::cross(glm::normalize(direction), way)) / glm::length(way);
 }
 
-// Row 1 of the survey: the ground y = 0, by similar triangles.
-TEST(PlanarProjection, ontoTheGroundIsThatOfSimilarTriangles)
-{
-  const glm::dvec4 ground(0.0, 1.0, 0.0, 0.0);
-  Random random(1);
-  for (int i = 0; i < 1000; ++i)
-  {
-    const glm::dvec3 l(
-      uniform(random, -9.0, 9.0), uniform(random, 3.0, 9.0), uniform(random, -9.0, 9.0));
-    const glm::dvec3 v(
-      uniform(random, -9.0, 9.0), uniform(random, -1.0, 2.9), uniform(random, -9.0, 9.0));
-    const glm::dmat4 matrix = planarProjection(ground, glm::dvec4(l, 1.0));
-    // Rows (l_y, -l_x, 0, 0), (0, 0, 0, 0), (0, -l_z, l_y, 0), (0, -1, 0, l_y).
-    const glm::dmat4 rows = glm::transpose(matrix);
-    EXPECT_EQ(rows[0], glm::dvec4(l.y, -l.x, 0.0, 0.0));
-    EXPECT_EQ(rows[1], glm::dvec4(0.0));
-    EXPECT_EQ(rows[2], glm::dvec4(0.0, -l.z, l.y, 0.0));
-    EXPECT_EQ(rows[3], glm::dvec4(0.0, -1.0, 0.0, l.y));
-
-    const glm::dvec3 p = project(ground, glm::dvec4(l, 1.0), v);
-    EXPECT_EQ(p.y, 0.0);
-    const double x = (l.y * v.x - l.x * v.y) / (l.y - v.y);
-    const double z = (l.y * v.z - l.z * v.y) / (l.y - v.y);
-    EXPECT_NEAR(p.x, x, 1e-5 * std::abs(x));
-    EXPECT_NEAR(p.z, z, 1e-5 * std::abs(z));
-    EXPECT_LT(offLine(l, v - l, p), 1e-5);
-  }
-}
-
-// Survey, row 2: any plane, and parallel rays.
+// Survey, rows 1 and 2: any plane, lamps and parallel rays.
 TEST(PlanarProjection, liesOnThePlaneAndOnTheRay)
 {
   Random random(1);

@@ -117,15 +117,6 @@ TEST(MapFit, IsThePublishedScaleAndOffsetClampedToWhatIsToBeCovered)
   EXPECT_EQ(clamped->offset, glm::dvec2(0.0, -3.0));
 }
 
-TEST(MapFit, IsNothingWhereNothingIsVisible)
-{
-  EXPECT_FALSE(fitTo(Rectangle(), { 64, 0 }));
-  EXPECT_FALSE(fitTo(Rectangle{ { 1.5, 0.0 }, { 2.0, 1.0 } }, { 64, 0 }));
-  EXPECT_FALSE(fitTo(Rectangle{ { 0.0, -3.0 }, { 1.0, -1.5 } }, { 64, 0 }));
-  EXPECT_FALSE(fitSnappedTo(Rectangle(), { 64, 0 }));
-  EXPECT_FALSE(fitTo(Rectangle{ { std::nan(""), 0.0 }, { 1.0, 1.0 } }, { 64, 0 }));
-}
-
 TEST(MapFit, WidensWhatHasNoExtent)
 {
   for (const double at : { -1.0, 0.3, 1.0 })
@@ -237,16 +228,6 @@ TEST(Splits, StayFiniteWithoutAPositiveDistance)
       }
     }
   }
-}
-
-Bounds boundsOf(const Points& points)
-{
-  Bounds result;
-  for (const glm::dvec3& point : points)
-  {
-    result.add(point);
-  }
-  return result;
 }
 
 TEST(CameraView, KnowsItsEyeItsDirectionAndItsPlanes)
@@ -397,27 +378,6 @@ TEST(VisibleBody, OfAConeLiesLittleBeyondIt)
   }
   EXPECT_GE(farthest, 0.5);
   EXPECT_LE(farthest, 0.5 / std::cos(glm::radians(22.5)) + 1e-12);
-}
-
-TEST(VisibleBody, SlicedAtDistancesIsAllOfItInParts)
-{
-  const Setting setting = terrain(directionalRays({ 0.3, 0.2, -1.0 }));
-  const ConvexBody body = setting.body();
-  const DistanceRange all = distancesOf(body.vertices(), setting.camera, setting.rays);
-  EXPECT_NEAR(all.lower, 1.0, 1e-9);
-  const double middle = 0.3 * all.lower + 0.7 * all.upper;
-  Bounds together;
-  for (const auto& [from, to] : { std::pair(all.lower, middle), std::pair(middle, all.upper) })
-  {
-    const Points slice = sliced(body, setting.camera, setting.rays, from, to).vertices();
-    const DistanceRange range = distancesOf(slice, setting.camera, setting.rays);
-    EXPECT_NEAR(range.lower, from, 1e-9);
-    EXPECT_NEAR(range.upper, to, 1e-9);
-    together.add(boundsOf(slice));
-  }
-  EXPECT_LT(glm::length(together.lower - boundsOf(body.vertices()).lower), 1e-9);
-  EXPECT_LT(glm::length(together.upper - boundsOf(body.vertices()).upper), 1e-9);
-  EXPECT_TRUE(sliced(body, setting.camera, setting.rays, 1e4, 2e4).empty());
 }
 
 } // namespace
