@@ -2,7 +2,6 @@
 
 #include "RandomSettings.h"
 
-#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>

@@ -5,9 +5,7 @@
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/Gl.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <glm/gtc/type_ptr.hpp>
 #include <vtkCamera.h>

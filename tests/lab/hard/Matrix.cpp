@@ -26,7 +26,6 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <stdexcept>
 
 namespace gnomon::hard
 {

@@ -13,7 +13,6 @@
 #include <glm/glm.hpp>
 
 #include <functional>
-#include <utility>
 #include <vector>
 
 namespace gnomon::test

@@ -4,7 +4,6 @@
 
 #include "TestData.h"
 
-#include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtk_versions/SharedBlocksMapper.h"
 
 #include "vtkCompositeDataDisplayAttributes.h"

@@ -12,7 +12,6 @@
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
-#include <vtkNew.h>
 
 #include <functional>
 #include <random>

@@ -19,7 +19,6 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <string>
 #include <vector>
 
 namespace gnomon::test

@@ -4,12 +4,8 @@
 
 #include "lights/SettingsTable.h"
 #include "lights/ShadowLight.h"
-#include "lights/vtkGnomonLightKeys.h"
 
 #include <gtest/gtest.h>
-#include <vtkLight.h>
-#include <vtkNew.h>
-#include <vtkObject.h>
 
 #include <string>
 #include <utility>

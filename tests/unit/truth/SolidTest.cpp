@@ -279,24 +279,6 @@ TEST_P(SolidPairs, halvesOfABondDoNotShadowEachOther)
   EXPECT_EQ(dark, 0);
 }
 
-/// Parts of a bent line overlap.
-TEST(SolidBends, raysFromInsideATubeAreNotInItsShadow)
-{
-  Random random(7);
-  int begun = 0;
-  for (int i = 0; i < 20000; ++i)
-  {
-    const PlacedSolid tube = placedSolid(Solid::Tube, anySolid(random, Solid::Tube, 10.0));
-    const glm::dvec3 start = tube.centre + (tube.radius + tube.halfLength) * inCube(random);
-    if (depthIn(tube, start) > 1e-9)
-    {
-      ++begun;
-      EXPECT_FALSE(blocks(tube, false, start, unitVector(random), INFINITY));
-    }
-  }
-  EXPECT_GT(begun, 1000);
-}
-
 TEST_P(Solids, meshesAreClosedAndInscribed)
 {
   if (GetParam() == Solid::Tube)
