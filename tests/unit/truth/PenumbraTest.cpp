@@ -176,31 +176,6 @@ TEST(Penumbra, isThatOfAllRaysAlongEdges)
   }
 }
 
-/// Rays that start on a triangle other than the receiver's own are traced, too.
-TEST(Penumbra, isThatOfAllRaysFromTriangles)
-{
-  Random random(2);
-  for (unsigned int scene = 0; scene < 10; ++scene)
-  {
-    const Occluders occluders = makeSoupOverFloor(scene);
-    const ReceiverPixels receivers = startingAt(
-      [&](bool)
-      {
-        const std::array<glm::dvec3, 3> triangle = anyTriangle(occluders, random);
-        const double a = uniform(random, 0.0, 1.0), b = uniform(random, 0.0, 1.0 - a);
-        const double off = std::pow(10.0, uniform(random, -9.0, -5.0));
-        return Start{ (1.0 - a - b) * triangle[0] + a * triangle[1] + b * triangle[2] +
-            off * unitVector(random),
-          upwards, 1e-7 };
-      });
-    for (const double size : { 1e-3, 0.1, 1.0 })
-    {
-      expectThatOfAllRays(withArea(pointLight({ 0.3, 0.2, 5.0 }), diskArea(-upwards, size)),
-        occluders, receivers, std::to_string(size));
-    }
-  }
-}
-
 /// Rays that end on a triangle, or near one, are traced, too.
 TEST(Penumbra, isThatOfAllRaysToTriangles)
 {

@@ -32,10 +32,11 @@ namespace
 
 constexpr float endless = std::numeric_limits<float>::infinity();
 
-Sheet sheetOf(double opacity, const glm::vec3& colour = glm::vec3(0.0f))
+Sheet sheetOf(double opacity, const glm::vec3& colour = glm::vec3(0.0f), bool isColoured = false)
 {
   Sheet sheet;
   sheet.colour = glm::vec4(colour, static_cast<float>(opacity));
+  sheet.isColoured = isColoured;
   return sheet;
 }
 
@@ -48,13 +49,13 @@ void setSheet(Occluders& occluders, std::size_t surface, Sheet sheet)
   occluders.surfaces[surface].sheet = std::make_shared<const Sheet>(std::move(sheet));
 }
 
-/// Return a snapshot whose surfaces are sheets of one opacity.
-Occluders makeSheets(const std::vector<Prop>& props, double opacity = 0.5)
+/// Return a snapshot whose surfaces are alike sheets.
+Occluders makeSheets(const std::vector<Prop>& props, const Sheet& sheet = sheetOf(0.5))
 {
   Occluders occluders = makeOccluders(props);
   for (std::size_t i = 0; i < props.size(); ++i)
   {
-    setSheet(occluders, i, sheetOf(opacity));
+    setSheet(occluders, i, sheet);
   }
   return occluders;
 }
@@ -325,11 +326,8 @@ TEST(Sheets, ColouredPanesMultiplyByChannel)
 {
   Occluders occluders =
     makeOccluders({ { makePlane(4.0) }, { makePlane(4.0), at({ 0.0, 0.0, 1.0 }) } });
-  Sheet red = sheetOf(0.75, { 1.0f, 0.5f, 0.0f });
-  Sheet blue = sheetOf(0.5, { 0.0f, 0.25f, 1.0f });
-  red.isColoured = blue.isColoured = true;
-  setSheet(occluders, 0, red);
-  setSheet(occluders, 1, blue);
+  setSheet(occluders, 0, sheetOf(0.75, { 1.0f, 0.5f, 0.0f }, true));
+  setSheet(occluders, 1, sheetOf(0.5, { 0.0f, 0.25f, 1.0f }, true));
   SheetsOf sheets(occluders);
   const glm::dvec3 found =
     sheets.transmittanceOf({ 0.1f, 0.2f, -3.0f }, { 0.0f, 0.0f, 1.0f }, endless);
@@ -463,22 +461,6 @@ TEST(Sheets, RandomScenesTransmitAsEveryTriangleInDouble)
 
 // The map of sheets that shaders read at points, against rays through the same sheets.
 
-/// Sheets of one opacity, that a light may lie among.
-Occluders makeStained(const std::vector<Prop>& props, double opacity, bool isColoured)
-{
-  Occluders occluders = makeOccluders(props);
-  for (std::size_t i = 0; i < props.size(); ++i)
-  {
-    Sheet sheet;
-    sheet.colour = glm::vec4(0.25f, 0.5f, 1.0f, static_cast<float>(opacity));
-    sheet.prop = static_cast<std::uint32_t>(i);
-    sheet.isColoured = isColoured;
-    occluders.surfaces[i].casts = false;
-    occluders.surfaces[i].sheet = std::make_shared<const Sheet>(sheet);
-  }
-  return occluders;
-}
-
 Bounds boxOf(const Occluders& occluders)
 {
   Bounds bounds;
@@ -604,8 +586,8 @@ TEST_P(SheetMaps, HoldWhatRaysFindBeforeEachSheet)
 {
   const auto [sheets, opacity, lightNumber, areShells] = GetParam();
   const ShadowLight& light = sheetLights[lightNumber].light;
-  const Occluders occluders =
-    makeStained(makeNestedSheets(areShells, sheets), opacity, sheets == 2);
+  const Occluders occluders = makeSheets(
+    makeNestedSheets(areShells, sheets), sheetOf(opacity, { 0.25f, 0.5f, 1.0f }, sheets == 2));
   const SheetErrors errors = compareAtPoints(occluders, light, 512);
   // A texel's last crossing stands for more of five shells' ten.
   const bool merges = areShells && sheets == 5;
@@ -618,7 +600,7 @@ TEST_P(SheetMaps, HoldWhatRaysFindBeforeEachSheet)
 
 TEST_F(GlslTest, SheetMapsOfMoreTexelsAreCloserToRays)
 {
-  const Occluders occluders = makeStained(makeNestedSheets(true, 2), 0.5, false);
+  const Occluders occluders = makeSheets(makeNestedSheets(true, 2));
   for (const SheetLight& of : { sheetLights[0], sheetLights[1] })
   {
     double last = 1.0;
