@@ -109,7 +109,7 @@ public:
     {
       return false;
     }
-    const EdgeKind kind = this->kindOf(placement, edge.index);
+    const EdgeKind kind = this->kindOf(placement, found);
     result.part = this->partOf(placement, found.triangles[0]);
     return kind != EdgeKind::Inner &&
       segmentOf(this->scene_, this->placements_.surfaceOf(placement), placement.instance, found,
@@ -172,27 +172,10 @@ private:
       : this->facing_[this->placements_.numberOf(placement, triangle)];
   }
 
-  EdgeKind kindWithinSurface(const Placement& placement, const CasterEdge& edge) const
+  EdgeKind kindOf(const Placement& placement, const CasterEdge& edge) const
   {
     return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
       this->facingOf(placement, edge.triangles[1]));
-  }
-
-  /// Return the kind of an edge by its number. The surface may continue there as another one.
-  EdgeKind kindOf(const Placement& placement, std::uint32_t number) const
-  {
-    CasterEdge edge = this->edges_.of(placement.surface).edges[number];
-    const Seam* const seam = edge.triangles[1] == CasterEdge::none
-      ? this->edges_.seams().at(placement.surface, number)
-      : nullptr;
-    if (!seam)
-    {
-      return this->kindWithinSurface(placement, edge);
-    }
-    edge.sameDirection = seam->sameDirection;
-    edge.sharp = seam->sharp;
-    return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
-      this->facingOf(this->placements_.placementOf(seam->otherSurface), seam->otherTriangle));
   }
 
   CasterPart partOf(const Placement& placement, std::uint32_t triangle) const
@@ -206,7 +189,7 @@ private:
   std::uint32_t across(
     const Placement& placement, const CasterEdge& edge, std::uint32_t triangle) const
   {
-    const EdgeKind kind = this->kindWithinSurface(placement, edge);
+    const EdgeKind kind = this->kindOf(placement, edge);
     return kind == EdgeKind::Inner || kind == EdgeKind::Sharp ? edge.other(triangle)
                                                               : CasterEdge::none;
   }

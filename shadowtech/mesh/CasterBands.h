@@ -38,7 +38,6 @@ public:
     for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
     {
       const Surface& surface = occluders.surfaces[i];
-      this->firstOfSurface_.push_back(static_cast<std::uint32_t>(this->placements_.size()));
       const std::size_t instances = surface.isInstanced() ? surface.centredFromSource.size() : 1;
       for (std::size_t instance = 0; surface.casts && instance < instances; ++instance)
       {
@@ -68,12 +67,6 @@ public:
     return placement.firstTriangle + (triangle - this->surfaceOf(placement).firstTriangle);
   }
 
-  /// Return the only placement of a casting surface without instances.
-  const Placement& placementOf(std::uint32_t surface) const
-  {
-    return this->placements_[this->firstOfSurface_[surface]];
-  }
-
   /// Visit items of all placements on all cores.
   /// @param countOf returns how many items a placement has
   /// @param visit called with the placement's number and the item's number, from several threads
@@ -100,8 +93,6 @@ public:
 private:
   const Occluders& occluders_;
   std::vector<Placement> placements_;
-  /// Number of a surface's first placement, if it has any.
-  std::vector<std::uint32_t> firstOfSurface_;
   std::size_t triangleCount_ = 0;
 };
 

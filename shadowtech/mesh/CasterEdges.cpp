@@ -95,8 +95,9 @@ std::vector<glm::dvec3> normalsOf(const Occluders& occluders, const Surface& sur
   return normals;
 }
 
-/// Return the cone of the normals around each vertex, indexed by welded vertex.
-std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& surface,
+/// Return, by welded vertex, the least cosine between a normal around it and the normals' axis. The
+/// sign of either does not matter.
+std::vector<float> leastCosines(const Occluders& occluders, const Surface& surface,
   const std::vector<std::uint32_t>& welded, const std::vector<glm::dvec3>& normals)
 {
   const auto visit = [&](auto&& visitCorner)
@@ -115,23 +116,23 @@ std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& s
   std::vector<glm::dvec3> axes(surface.vertexCount, glm::dvec3(0.0));
   visit([&](std::uint32_t vertex, const glm::dvec3& normal)
     { axes[vertex] += glm::dot(normal, axes[vertex]) < 0.0 ? -normal : normal; });
-  std::vector<NormalCone> cones(surface.vertexCount);
-  for (std::size_t i = 0; i < cones.size(); ++i)
+  std::vector<float> cosines(surface.vertexCount, -1.0f);
+  for (std::size_t i = 0; i < cosines.size(); ++i)
   {
     const double length = glm::length(axes[i]);
     if (length > 0.0)
     {
       axes[i] /= length;
-      cones[i] = { axes[i], 1.0f };
+      cosines[i] = 1.0f;
     }
   }
   visit(
     [&](std::uint32_t vertex, const glm::dvec3& normal)
     {
-      float& least = cones[vertex].leastCosine;
+      float& least = cosines[vertex];
       least = std::min(least, static_cast<float>(std::abs(glm::dot(normal, axes[vertex]))));
     });
-  return cones;
+  return cosines;
 }
 
 /// Join triangles at the edges they share: sides with the same ends.
@@ -169,10 +170,6 @@ SurfaceEdges joinTriangles(
     }
     else
     {
-      if (last - first == 1)
-      {
-        found.rims.push_back({ static_cast<std::uint32_t>(edges.size()), {} });
-      }
       for (std::size_t i = first; i < last; ++i)
       {
         edge.triangles[0] = sides[i].triangle;
@@ -183,7 +180,6 @@ SurfaceEdges joinTriangles(
     first = last;
   }
   edges.shrink_to_fit();
-  found.rims.shrink_to_fit();
   return found;
 }
 
@@ -208,16 +204,14 @@ void renumber(const Surface& surface, SurfaceEdges& found)
   }
 }
 
-/// Classify edges as sharp or not, and fill in the normal cones of the rims' corners.
+/// Classify edges as sharp or not.
 void findSharp(const Occluders& occluders, const Surface& surface, SurfaceEdges& found)
 {
   const std::vector<glm::dvec3> normals = normalsOf(occluders, surface);
-  const std::vector<NormalCone> cones = normalCones(occluders, surface, found.welded, normals);
-  const auto coneOf = [&](std::uint32_t vertex) -> const NormalCone&
-  { return cones[vertex - surface.firstVertex]; };
+  const std::vector<float> cosines = leastCosines(occluders, surface, found.welded, normals);
   // NaN must count as sharp.
   const auto isSharp = [&](std::uint32_t vertex)
-  { return !(coneOf(vertex).leastCosine > sharpCosineToMean); };
+  { return !(cosines[vertex - surface.firstVertex] > sharpCosineToMean); };
   const auto normalOf = [&](std::uint32_t triangle) -> const glm::dvec3&
   { return normals[triangle - surface.firstTriangle]; };
   tbb::parallel_for(std::size_t(0), found.edges.size(),
@@ -234,11 +228,6 @@ void findSharp(const Occluders& occluders, const Surface& surface, SurfaceEdges&
         glm::dot(normalOf(edge.triangles[0]), normalOf(edge.triangles[1]));
       edge.sharp = !(cosine > sharpCosine) || isSharp(edge.from) || isSharp(edge.to);
     });
-  for (Rim& rim : found.rims)
-  {
-    const CasterEdge& edge = found.edges[rim.edge];
-    rim.corners = { { coneOf(edge.from), coneOf(edge.to) } };
-  }
 }
 
 } // namespace
@@ -261,8 +250,7 @@ void updateCasterEdges(const Occluders& occluders, const Surface& surface, Surfa
 
 std::size_t SurfaceEdges::bytes() const
 {
-  return bytesOf(this->edges) + bytesOf(this->ofTriangle) + bytesOf(this->rims) +
-    bytesOf(this->welded);
+  return bytesOf(this->edges) + bytesOf(this->ofTriangle) + bytesOf(this->welded);
 }
 
 void CasterEdges::update(const Occluders& occluders)
@@ -272,12 +260,6 @@ void CasterEdges::update(const Occluders& occluders)
     return;
   }
   this->kept_.update(occluders, updateCasterEdges);
-  std::vector<const SurfaceEdges*> edges(occluders.surfaces.size(), nullptr);
-  for (std::size_t i = 0; i < edges.size(); ++i)
-  {
-    edges[i] = occluders.surfaces[i].casts ? &this->of(i) : nullptr;
-  }
-  this->seams_.update(occluders, edges);
   this->joinParts(occluders);
   this->versions_ = occluders.versions();
 }
@@ -314,10 +296,6 @@ void CasterEdges::joinParts(const Occluders& occluders)
         join(edge.triangles[0], edge.triangles[1]);
       }
     }
-    for (const Seam& seam : this->seams_.of(i))
-    {
-      join(this->of(i).edges[seam.edge].triangles[0], seam.otherTriangle);
-    }
   }
   for (std::uint32_t& part : this->parts_)
   {
@@ -327,7 +305,7 @@ void CasterEdges::joinParts(const Occluders& occluders)
 
 std::size_t CasterEdges::bytes() const
 {
-  return this->seams_.bytes() + bytesOf(this->parts_) + this->kept_.bytes();
+  return bytesOf(this->parts_) + this->kept_.bytes();
 }
 
 } // namespace gnomon

@@ -2,7 +2,6 @@
 
 #include "lights/ShadowSettings.h"
 #include "shadowtech/base/Occluders.h"
-#include "shadowtech/mesh/CasterSeams.h"
 #include "shadowtech/mesh/KeptOfCasters.h"
 
 #include <glm/glm.hpp>
@@ -44,27 +43,11 @@ struct CasterEdge
   }
 };
 
-/// A cone that holds the normals of all triangles around a vertex.
-struct NormalCone
-{
-  glm::vec3 axis{ 0.0f };    ///< of unit length, with either sign
-  float leastCosine = -1.0f; ///< between a normal, or its opposite, and the axis
-};
-
-/// An edge with one triangle, at which a surface ends. Another surface may continue there
-/// (CasterSeams.h).
-struct Rim
-{
-  std::uint32_t edge;                ///< number in the surface
-  std::array<NormalCone, 2> corners; ///< cones around its `from` and `to`
-};
-
 struct SurfaceEdges
 {
   std::vector<CasterEdge> edges;
   /// For each triangle of the surface, the edges from each corner to the next.
   std::vector<std::array<std::uint32_t, 3>> ofTriangle;
-  std::vector<Rim> rims; ///< edges with one triangle that no other triangle shares
 
   ///@{
   /// The key of `edges`: weldedVertices(), and the surface's place in the snapshot.
@@ -77,30 +60,28 @@ struct SurfaceEdges
 
 /// Update a surface's edges to its vertex positions and its place in the snapshot.
 ///
-/// Sharp edges and the cones of rims depend on positions, and are always computed again. Adjacency
-/// depends only on which vertices share a place. It is reused if welding gives the same result.
+/// Sharp edges depend on positions, and are always computed again. Adjacency depends only on which
+/// vertices share a place. It is reused if welding gives the same result.
 /// @param edges of the same triangles at any earlier place; empty to compute everything
 void updateCasterEdges(const Occluders& occluders, const Surface& surface, SurfaceEdges& edges);
 
 /// The edges of the casting surfaces, cached across snapshots.
 ///
 /// Vertices at exactly the same place count as one (WeldedVertices.h). Edges with another
-/// triangle's vertex in their middle (T-junctions) are ends. Edges between different surfaces are
-/// ends, too, unless they are seams.
+/// triangle's vertex in their middle (T-junctions) are ends, and so are edges between different
+/// surfaces.
 class CasterEdges
 {
 public:
-  /// Find the edges of new surfaces, update those of others, and find seams and parts.
+  /// Find the edges of new surfaces, update those of others, and find parts.
   void update(const Occluders& occluders);
 
   /// Return the edges of a casting surface.
   /// @param surface index into the snapshot's surfaces, as of the last update
   const SurfaceEdges& of(std::size_t surface) const { return this->kept_.of(surface); }
 
-  const CasterSeams& seams() const { return this->seams_; }
-
   /// Return the part of the casters' surface that a casting triangle belongs to: all triangles
-  /// connected to it by edges and seams. Windings do not matter. Instances are separate parts.
+  /// connected to it by edges. Windings do not matter. Instances are separate parts.
   /// @param triangle number in the snapshot
   /// @return the least triangle number of the part
   std::uint32_t partOf(std::uint32_t triangle) const { return this->parts_[triangle]; }
@@ -111,7 +92,6 @@ private:
   void joinParts(const Occluders& occluders);
 
   KeptOfCasters<SurfaceEdges> kept_;
-  CasterSeams seams_;
   std::vector<std::uint32_t> parts_;
   Occluders::Versions versions_;
 };

@@ -95,7 +95,7 @@ void turnSurface(Occluders& occluders, std::size_t index, Random& random)
     [&](const glm::dvec3& point) { return glm::dvec3(turned * glm::dvec4(point, 1.0)); });
 }
 
-/// Return the edges, rims, seams and parts of a snapshot as numbers.
+/// Return the edges and parts of a snapshot as numbers.
 std::vector<double> numbersOf(const CasterEdges& edges, const Occluders& occluders)
 {
   std::vector<double> numbers;
@@ -108,7 +108,7 @@ std::vector<double> numbersOf(const CasterEdges& edges, const Occluders& occlude
       continue;
     }
     const SurfaceEdges& of = edges.of(i);
-    add(of.edges.size(), of.rims.size(), edges.seams().of(i).size());
+    add(of.edges.size());
     for (const auto& [a, b, c] : of.ofTriangle)
     {
       add(a, b, c);
@@ -116,18 +116,6 @@ std::vector<double> numbersOf(const CasterEdges& edges, const Occluders& occlude
     for (const CasterEdge& edge : of.edges)
     {
       add(edge.from, edge.to, edge.triangles[0], edge.triangles[1], edge.sameDirection, edge.sharp);
-    }
-    for (const Rim& rim : of.rims)
-    {
-      add(rim.edge);
-      for (const NormalCone& cone : rim.corners)
-      {
-        add(cone.axis.x, cone.axis.y, cone.axis.z, cone.leastCosine);
-      }
-    }
-    for (const Seam& seam : edges.seams().of(i))
-    {
-      add(seam.edge, seam.otherSurface, seam.otherTriangle, seam.sameDirection, seam.sharp);
     }
   }
   for (std::uint32_t i = 0; i < occluders.triangles.size(); ++i)
@@ -264,146 +252,6 @@ TEST(WeldedVertices, areTheFirstOnesAtTheirPlace)
       EXPECT_EQ(welded[i], first.emplace(mesh.points[i].x, i).first->second);
     }
   }
-}
-
-/// Two unit squares side by side, of two triangles each, the second at an angle to the first.
-std::vector<Mesh> squaresAtAngle(double degrees)
-{
-  const double angle = glm::radians(degrees);
-  Mesh flat;
-  flat.points = { { -1.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { -1.0, 1.0, 0.0 } };
-  flat.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  Mesh raised;
-  raised.points = { { 0.0, 0.0, 0.0 }, { std::cos(angle), 0.0, std::sin(angle) },
-    { std::cos(angle), 1.0, std::sin(angle) }, { 0.0, 1.0, 0.0 } };
-  raised.triangles = flat.triangles;
-  return { flat, raised };
-}
-
-TEST(CasterSeams, areWhereTwoSurfacesShareAnEdge)
-{
-  const std::vector<Mesh> squares = squaresAtAngle(20.0);
-  const Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] } });
-  const CasterEdges edges = casterEdgesOf(occluders);
-  for (const std::uint32_t surface : { 0u, 1u })
-  {
-    ASSERT_EQ(edges.seams().of(surface).size(), 1u);
-    const Seam& seam = edges.seams().of(surface).front();
-    const CasterEdge& edge = edges.of(surface).edges[seam.edge];
-    EXPECT_EQ(edge.triangles[1], CasterEdge::none);
-    EXPECT_EQ(occluders.positionsCentred[edge.from].x, occluders.positionsCentred[edge.to].x);
-    EXPECT_EQ(seam.otherSurface, 1u - surface);
-    EXPECT_EQ(seam.otherTriangle, surface == 0u ? 3u : 0u);
-    EXPECT_FALSE(seam.sameDirection);
-    EXPECT_FALSE(seam.sharp);
-    EXPECT_EQ(edges.seams().at(surface, seam.edge), &seam);
-    EXPECT_EQ(edges.seams().at(surface, seam.edge + 1), nullptr);
-  }
-  EXPECT_EQ(edges.partOf(3), 0u) << "it is all one part";
-
-  Mesh turned = squares[1];
-  turned.triangles = { { 0, 2, 1 }, { 0, 3, 2 } };
-  const Occluders otherwise = makeOccluders({ { squares[0] }, { turned } });
-  EXPECT_TRUE(casterEdgesOf(otherwise).seams().of(0).front().sameDirection);
-  EXPECT_FALSE(casterEdgesOf(otherwise).seams().of(0).front().sharp);
-}
-
-TEST(CasterSeams, areSharpWhereShadowRaysMayStartBehindTheOtherSide)
-{
-  for (const double degrees : { 40.0, -40.0, 43.0, 137.0, 175.0 })
-  {
-    const std::vector<Mesh> squares = squaresAtAngle(degrees);
-    const Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] } });
-    const CasterEdges edges = casterEdgesOf(occluders);
-    ASSERT_EQ(edges.seams().of(0).size(), 1u);
-    EXPECT_EQ(edges.seams().of(0).front().sharp, std::abs(degrees) > 41.0) << degrees;
-  }
-}
-
-/// An outer corner of an umbrella, by its angle around and downwards, in degrees.
-using OuterCorner = glm::dvec2;
-
-/// Return triangles around the origin, each a separate surface.
-std::vector<Prop> makeUmbrella(const std::vector<OuterCorner>& corners)
-{
-  const auto placeOf = [&](std::size_t i)
-  {
-    const glm::dvec2 angles = glm::radians(corners[i % corners.size()]);
-    return glm::dvec3(std::cos(angles.x), std::sin(angles.x), -std::tan(angles.y));
-  };
-  std::vector<Prop> props;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-  {
-    props.push_back({ { { glm::dvec3(0.0), placeOf(i), placeOf(i + 1) }, { { 0, 1, 2 } } } });
-  }
-  return props;
-}
-
-/// Return an umbrella with an outer corner for each downward angle.
-std::vector<Prop> makeUmbrella(const std::vector<double>& slopesDegrees)
-{
-  std::vector<OuterCorner> corners;
-  for (const double slope : slopesDegrees)
-  {
-    const auto count = static_cast<double>(slopesDegrees.size());
-    corners.emplace_back(360.0 / count * static_cast<double>(corners.size()), slope);
-  }
-  return makeUmbrella(corners);
-}
-
-std::size_t countSharpSeams(const std::vector<Prop>& props)
-{
-  const CasterEdges edges = casterEdgesOf(makeOccluders(props));
-  std::size_t sharp = 0;
-  for (std::size_t i = 0; i < props.size(); ++i)
-  {
-    EXPECT_EQ(edges.seams().of(i).size(), 2u);
-    for (const Seam& seam : edges.seams().of(i))
-    {
-      sharp += seam.sharp ? 1 : 0;
-    }
-  }
-  return sharp;
-}
-
-TEST(CasterSeams, areSharpWhereManyNormalsSpreadTooFar)
-{
-  for (const std::size_t count : { 8u, 9u, 100u, 1001u })
-  {
-    EXPECT_EQ(countSharpSeams(makeUmbrella(std::vector<double>(count, 16.0))), 0u) << count;
-    EXPECT_EQ(countSharpSeams(makeUmbrella(std::vector<double>(count, 23.5))), 2 * count) << count;
-  }
-  // Many equal normals do not outvote a few: the sheet is bent by less than the angle.
-  std::vector<OuterCorner> corners;
-  for (int i = 0; i <= 20; ++i)
-  {
-    corners.emplace_back(90.0 + 9.0 * i, 0.0);
-  }
-  corners.emplace_back(0.0, -35.0);
-  EXPECT_EQ(countSharpSeams(makeUmbrella(corners)), 0u);
-}
-
-TEST(CasterSeams, needExactlyTwoSurfacesOfOneKind)
-{
-  const std::vector<Mesh> squares = squaresAtAngle(20.0);
-  const std::vector<Mesh> others = squaresAtAngle(-50.0);
-  const auto seams = [](const std::vector<Prop>& props)
-  {
-    const CasterEdges edges = casterEdgesOf(makeOccluders(props));
-    EXPECT_EQ(edges.partOf(1), 0u);
-    EXPECT_EQ(edges.partOf(2), edges.seams().of(0).empty() ? 2u : 0u);
-    return edges.seams().of(0).size();
-  };
-  EXPECT_EQ(seams({ { squares[0] }, { squares[1] } }), 1u);
-  EXPECT_EQ(seams({ { squares[0] }, { squares[1] }, { others[1] } }), 0u);
-  Prop different{ squares[1] };
-  different.oneSided = true;
-  EXPECT_EQ(seams({ { squares[0] }, different }), 0u);
-  different.oneSided = false;
-  different.casts = false;
-  EXPECT_EQ(seams({ { squares[0] }, different }), 0u);
-  different = { squares[1], at({ 0.0, 1e-6, 0.0 }) };
-  EXPECT_EQ(seams({ { squares[0] }, different }), 0u);
 }
 
 } // namespace

@@ -139,7 +139,7 @@ void addQuad(Mesh& mesh, const std::array<glm::dvec3, 4>& corners)
 }
 
 /// A valley that faces the light. Near its bottom, rays from one side start behind another side.
-/// The sides are one surface, or two that meet in a seam.
+/// The sides are one surface, or two that meet in an edge.
 class Valley : public testing::TestWithParam<bool>
 {
 protected:
@@ -176,7 +176,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(ConservativeMaps, Valley, testing::Bool(),
-  [](const testing::TestParamInfo<bool>& sides) { return sides.param ? "seam" : "edge"; });
+  [](const testing::TestParamInfo<bool>& sides) { return sides.param ? "surfaces" : "one"; });
 
 TEST_P(Valley, isNeverWrongWhereManySidesMeetInACorner)
 {
