@@ -16,53 +16,31 @@
 namespace gnomon
 {
 
-/// A box and a link to its contents. The two children of a node lie side by side; the first one has
-/// the even number.
+/// A box with two children, or with the records of a leaf.
 struct BvhNode
 {
   glm::vec3 lower;
-  std::uint32_t link; ///< to its contents (BvhLink)
+  std::uint32_t first; ///< of the records; without any, of two nodes
   glm::vec3 upper;
+  std::uint32_t count; ///< of the records
 };
 
-/// A link to a node's contents: the number of the first of two nodes, or a leaf, whose `count`
-/// records begin at `first`.
-namespace BvhLink
+/// The content of a leaf.
+struct BvhRecord
 {
-constexpr std::uint32_t leafBit = 0x80000000u;
-constexpr unsigned int countShift = 28; ///< of the number of records less 1, two bits
-constexpr std::uint32_t firstMask = 0x0fffffffu;
-constexpr std::uint32_t mostRecordsOfLeaf = 4;
-
-constexpr bool isLeaf(std::uint32_t link)
-{
-  return (link & leafBit) != 0;
-}
-constexpr std::uint32_t leaf(std::uint32_t first, std::uint32_t count)
-{
-  return leafBit | (count - 1) << countShift | first;
-}
-constexpr std::uint32_t first(std::uint32_t link)
-{
-  return link & firstMask;
-}
-constexpr std::uint32_t count(std::uint32_t link)
-{
-  return ((link >> countShift) & 3u) + 1;
-}
-} // namespace BvhLink
-
-/// A leaf's record, whose numbers the tree's owner chooses.
-using BvhRecord = glm::uvec4;
+  std::uint32_t number = 0;                   ///< of a triangle, or of a box with unknown edges
+  std::uint32_t firstEdge = 0, edgeCount = 0; ///< edges owned by this triangle
+  bool opaque = false;                        ///< true for such a box
+};
 
 /// A binary tree of boxes over records.
 struct Bvh
 {
-  std::vector<BvhNode> nodes;
+  std::vector<BvhNode> nodes;     ///< the root first
   std::vector<BvhRecord> records; ///< leaf by leaf
-  std::uint32_t root = 0;         ///< link to the tree (BvhLink)
 };
 
+inline constexpr std::uint32_t mostRecordsOfLeaf = 4;
 /// The depth at which Embree's builder stops searching for the best cut and halves the rest. Forty
 /// cuts leave less than a millionth of a scene.
 inline constexpr unsigned int mostDepth = 48;
@@ -72,7 +50,7 @@ struct TreeNode
 {
   std::array<TreeNode*, 2> children{};
   std::uint32_t count = 0; ///< records of a leaf; 0 in inner nodes
-  std::array<std::uint32_t, BvhLink::mostRecordsOfLeaf> records{};
+  std::array<std::uint32_t, mostRecordsOfLeaf> records{};
 };
 
 inline void* newTreeNode(RTCThreadLocalAllocator allocator)
@@ -99,27 +77,23 @@ inline void setChildren(void* node, void** children, unsigned int, void*)
 }
 
 /// Append a node's contents to a tree.
+/// @param number of the node in the tree
 /// @param records in Embree's order
-/// @return the link to them
-inline std::uint32_t append(const TreeNode& node, const std::vector<BvhRecord>& records, Bvh& tree)
+inline void append(
+  const TreeNode& from, std::size_t number, const std::vector<BvhRecord>& records, Bvh& tree)
 {
-  if (node.count > 0)
+  const std::size_t first = from.count > 0 ? tree.records.size() : tree.nodes.size();
+  tree.nodes[number].first = static_cast<std::uint32_t>(first);
+  tree.nodes[number].count = from.count;
+  for (std::uint32_t i = 0; i < from.count; ++i)
   {
-    const auto first = static_cast<std::uint32_t>(tree.records.size());
-    for (std::uint32_t i = 0; i < node.count; ++i)
-    {
-      tree.records.push_back(records[node.records[i]]);
-    }
-    return BvhLink::leaf(first, node.count);
+    tree.records.push_back(records[from.records[i]]);
   }
-  const std::size_t pair = tree.nodes.size();
-  tree.nodes.resize(pair + 2);
-  for (std::size_t child = 0; child < 2; ++child)
+  tree.nodes.resize(tree.nodes.size() + (from.count > 0 ? 0 : 2));
+  for (std::size_t child = 0; from.count == 0 && child < 2; ++child)
   {
-    const std::uint32_t link = append(*node.children[child], records, tree);
-    tree.nodes[pair + child].link = link;
+    append(*from.children[child], first + child, records, tree);
   }
-  return static_cast<std::uint32_t>(pair);
 }
 
 /// Build a tree by Embree's builder. The caller computes the boxes from the contents of the leaves.
@@ -144,7 +118,7 @@ inline Bvh buildBvh(
   const EmbreeBvh bvh(rtcNewBVH(device.get()));
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.maxDepth = mostDepth;
-  arguments.maxLeafSize = BvhLink::mostRecordsOfLeaf;
+  arguments.maxLeafSize = mostRecordsOfLeaf;
   arguments.bvh = bvh.get();
   arguments.primitives = primitives.data();
   arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();
@@ -160,7 +134,8 @@ inline Bvh buildBvh(
       std::to_string(static_cast<int>(rtcGetDeviceError(device.get()))));
   }
   Bvh tree;
-  tree.root = append(*root, records, tree);
+  tree.nodes.resize(1);
+  append(*root, 0, records, tree);
   return tree;
 }
 

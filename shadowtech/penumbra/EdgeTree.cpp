@@ -96,20 +96,19 @@ void EdgeTree::update(const Occluders& occluders)
   }
   if (!records.empty())
   {
-    this->tree_ = buildBvh(records,
-      [this](const BvhRecord& of) { return (of.w ? this->opaqueBounds_ : this->bounds_)[of.x]; });
+    this->tree_ = buildBvh(records, [this](const BvhRecord& of) { return this->bounds(of); });
   }
   this->cones_.assign(this->tree_.nodes.size(), {});
   if (!this->empty())
   {
-    this->fitNodes(this->tree_.root, this->conesOfTriangles(), levelsInParallel);
+    this->fit(0, this->conesOfTriangles(), levelsInParallel);
   }
   this->versions_ = occluders.versions();
 }
 
 void EdgeTree::addOpaque(const Bounds& bounds, std::vector<BvhRecord>& records)
 {
-  records.emplace_back(this->opaqueBounds_.size(), 0, 0, 1);
+  records.push_back({ static_cast<std::uint32_t>(this->opaqueBounds_.size()), 0, 0, true });
   this->opaqueBounds_.push_back(bounds);
 }
 
@@ -170,7 +169,7 @@ void EdgeTree::addSurface(
     }
     else
     {
-      records.emplace_back(first + i, 0, 0, 0);
+      records.push_back({ first + i, 0, 0, false });
     }
   }
   if (of.cutout)
@@ -216,11 +215,11 @@ void EdgeTree::addSurface(
   for (std::size_t i = firstRecord; i < records.size(); ++i)
   {
     BvhRecord& record = records[i];
-    if (record.w == 0)
+    if (!record.opaque)
     {
-      const std::uint32_t triangle = record.x - first;
-      record.y = static_cast<std::uint32_t>(firstEdge) + firstOf[triangle];
-      record.z = firstOf[triangle + 1] - firstOf[triangle];
+      const std::uint32_t triangle = record.number - first;
+      record.firstEdge = static_cast<std::uint32_t>(firstEdge) + firstOf[triangle];
+      record.edgeCount = firstOf[triangle + 1] - firstOf[triangle];
     }
   }
 }
@@ -290,54 +289,40 @@ std::vector<EdgeTree::Cone> EdgeTree::conesOfTriangles() const
   return cones;
 }
 
-/// Fit the boxes and cones of all nodes below a link to the records in their leaves.
+/// Fit the box and the cone of a node and of all below it to the records in their leaves.
 /// @param parallel levels whose halves are still fitted in parallel
-void EdgeTree::fitNodes(std::uint32_t link, const std::vector<Cone>& ofTriangles, int parallel)
-{
-  if (BvhLink::isLeaf(link))
-  {
-    return;
-  }
-  const auto fit = [&](std::uint32_t node)
-  {
-    this->fitNodes(this->tree_.nodes[node].link, ofTriangles, parallel - 1);
-    this->fitNode(node, ofTriangles);
-  };
-  if (parallel > 0)
-  {
-    tbb::parallel_invoke([&] { fit(link); }, [&] { fit(link + 1); });
-  }
-  else
-  {
-    fit(link);
-    fit(link + 1);
-  }
-}
-
-/// Fit the box and the cone of a node to its children or records.
-void EdgeTree::fitNode(std::uint32_t number, const std::vector<Cone>& ofTriangles)
+void EdgeTree::fit(std::uint32_t number, const std::vector<Cone>& ofTriangles, int parallel)
 {
   BvhNode& node = this->tree_.nodes[number];
+  const bool leaf = node.count > 0;
+  const auto fitChild = [&](std::uint32_t child)
+  { this->fit(node.first + child, ofTriangles, parallel - 1); };
+  if (!leaf && parallel > 0)
+  {
+    tbb::parallel_invoke([&] { fitChild(0); }, [&] { fitChild(1); });
+  }
+  else if (!leaf)
+  {
+    fitChild(0);
+    fitChild(1);
+  }
   Bounds bounds;
-  const bool leaf = BvhLink::isLeaf(node.link);
-  const std::uint32_t count = leaf ? BvhLink::count(node.link) : 2;
-  for (std::uint32_t k = 0; k < count; ++k)
+  for (std::uint32_t i = node.first; i < node.first + (leaf ? node.count : 2); ++i)
   {
     Cone cone;
     if (leaf)
     {
-      const std::uint32_t place = BvhLink::first(node.link) + k;
-      bounds.add(this->bounds(this->record(place)));
-      const BvhRecord& record = this->tree_.records[place];
-      cone = record.w != 0 ? Cone{} : ofTriangles[record.x];
+      const BvhRecord& record = this->record(i);
+      bounds.add(this->bounds(record));
+      cone = record.opaque ? Cone{} : ofTriangles[record.number];
     }
     else
     {
-      const BvhNode& child = this->tree_.nodes[node.link + k];
+      const BvhNode& child = this->tree_.nodes[i];
       bounds.add({ glm::dvec3(child.lower), glm::dvec3(child.upper) });
-      cone = this->cones_[node.link + k];
+      cone = this->cones_[i];
     }
-    this->cones_[number] = k == 0 ? cone : joined(this->cones_[number], cone);
+    this->cones_[number] = i == node.first ? cone : joined(this->cones_[number], cone);
   }
   // The node's floats must round outwards.
   const glm::dvec3 more =
@@ -351,13 +336,13 @@ void EdgeTree::find(const Bounds& bounds, std::vector<std::uint32_t>& places) co
   places.clear();
   if (!this->empty())
   {
-    this->find(bounds, this->tree_.root, places);
+    this->find(bounds, 0, places);
   }
 }
 
-/// @param link subtree to search
+/// @param number of the subtree's node
 void EdgeTree::find(
-  const Bounds& bounds, std::uint32_t link, std::vector<std::uint32_t>& places) const
+  const Bounds& bounds, std::uint32_t number, std::vector<std::uint32_t>& places) const
 {
   const auto meets = [&](const auto& box)
   {
@@ -365,20 +350,18 @@ void EdgeTree::find(
       bounds.upper.y >= box.lower.y && bounds.lower.y <= box.upper.y &&
       bounds.upper.z >= box.lower.z && bounds.lower.z <= box.upper.z;
   };
-  if (!BvhLink::isLeaf(link))
+  const BvhNode& node = this->tree_.nodes[number];
+  if (!meets(node))
   {
-    for (std::uint32_t child = link; child < link + 2; ++child)
-    {
-      if (meets(this->tree_.nodes[child]))
-      {
-        this->find(bounds, this->tree_.nodes[child].link, places);
-      }
-    }
     return;
   }
-  for (std::uint32_t i = 0; i < BvhLink::count(link); ++i)
+  if (node.count == 0)
   {
-    const std::uint32_t place = BvhLink::first(link) + i;
+    this->find(bounds, node.first, places);
+    this->find(bounds, node.first + 1, places);
+  }
+  for (std::uint32_t place = node.first; place < node.first + node.count; ++place)
+  {
     if (meets(this->bounds(this->record(place))))
     {
       places.push_back(place);

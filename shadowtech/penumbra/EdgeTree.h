@@ -83,18 +83,7 @@ public:
   /// Update it to the snapshot.
   void update(const Occluders& occluders);
 
-  /// The content of a leaf.
-  struct Record
-  {
-    std::uint32_t number;               ///< of a triangle, or of a box with unknown edges
-    std::uint32_t firstEdge, edgeCount; ///< edges owned by this triangle
-    bool opaque;                        ///< true for such a box
-  };
-  Record record(std::uint32_t place) const
-  {
-    const BvhRecord& of = this->tree_.records[place];
-    return { of.x, of.y, of.z, of.w != 0 };
-  }
+  const BvhRecord& record(std::uint32_t place) const { return this->tree_.records[place]; }
 
   /// A cone around the normals of all triangles in a node, and of those across their edges.
   struct Cone
@@ -112,7 +101,7 @@ public:
 
   /// Return true if rays from a start may begin on a record's triangle or box, allowing for
   /// rounding.
-  bool isOn(const glm::vec3& start, const Record& record) const
+  bool isOn(const glm::vec3& start, const BvhRecord& record) const
   {
     const Bounds& box = this->bounds(record);
     const bool isIn = start.x >= box.lower.x && start.x <= box.upper.x && start.y >= box.lower.y &&
@@ -125,7 +114,6 @@ public:
 
   bool empty() const { return this->tree_.records.empty(); }
   std::size_t size() const { return this->tree_.records.size(); }
-  std::uint32_t root() const { return this->tree_.root; }
   /// Return a node. Its box also holds all starts that are too close to its content for a certain
   /// side.
   const BvhNode& node(std::uint32_t number) const { return this->tree_.nodes[number]; }
@@ -146,7 +134,7 @@ public:
     }
     return reach;
   }
-  const Bounds& bounds(const Record& record) const
+  const Bounds& bounds(const BvhRecord& record) const
   {
     return (record.opaque ? this->opaqueBounds_ : this->bounds_)[record.number];
   }
@@ -158,9 +146,8 @@ private:
   void addOpaque(const Bounds& bounds, std::vector<BvhRecord>& records);
   TreeEdge treeEdge(const std::array<std::uint32_t, 2>& triangles, const glm::vec3& from,
     const glm::vec3& to, bool sameDirection) const;
-  void fitNodes(std::uint32_t link, const std::vector<Cone>& ofTriangles, int parallel);
-  void fitNode(std::uint32_t number, const std::vector<Cone>& ofTriangles);
-  void find(const Bounds& bounds, std::uint32_t link, std::vector<std::uint32_t>& places) const;
+  void fit(std::uint32_t number, const std::vector<Cone>& ofTriangles, int parallel);
+  void find(const Bounds& bounds, std::uint32_t number, std::vector<std::uint32_t>& places) const;
   std::vector<Cone> conesOfTriangles() const;
 
   KeptOfCasters<SurfaceEdges> found_;

@@ -147,7 +147,7 @@ private:
     this->tree_.find(this->starts_.bounds(), this->under_);
     const auto isCertain = [&](std::uint32_t place)
     {
-      const EdgeTree::Record record = this->tree_.record(place);
+      const BvhRecord& record = this->tree_.record(place);
       if (record.opaque)
       {
         return false;

@@ -45,7 +45,7 @@ ShaftEdges::Found ShaftEdges::find(
   this->fewTriangles_ = tree.size() <= mostOfLeaf;
   if (!this->fewTriangles_)
   {
-    return this->visit(tree.root());
+    return this->visit(0);
   }
   Found found = Found::All;
   for (std::uint32_t place = 0; place < tree.size() && found == Found::All; ++place)
@@ -55,33 +55,22 @@ ShaftEdges::Found ShaftEdges::find(
   return found;
 }
 
-ShaftEdges::Found ShaftEdges::visit(std::uint32_t link)
+ShaftEdges::Found ShaftEdges::visit(std::uint32_t number)
 {
-  if (BvhLink::isLeaf(link))
+  const BvhNode& node = this->tree_->node(number);
+  const Bounds bounds{ glm::dvec3(node.lower), glm::dvec3(node.upper) };
+  if (!this->shaft_->mayMeet(bounds) ||
+    (this->isAlike(bounds, this->tree_->cone(number)) && !this->shaft_->mayReachEnds(bounds)))
   {
-    for (std::uint32_t i = 0; i < BvhLink::count(link); ++i)
-    {
-      const Found found = this->take(this->tree_->record(BvhLink::first(link) + i));
-      if (found != Found::All)
-      {
-        return found;
-      }
-    }
     return Found::All;
   }
-  for (std::uint32_t child = link; child < link + 2; ++child)
+  Found found = Found::All;
+  for (std::uint32_t i = node.first;
+       i < node.first + (node.count > 0 ? node.count : 2) && found == Found::All; ++i)
   {
-    const BvhNode& node = this->tree_->node(child);
-    const Bounds bounds{ glm::dvec3(node.lower), glm::dvec3(node.upper) };
-    const bool matters = this->shaft_->mayMeet(bounds) &&
-      (!this->isAlike(bounds, this->tree_->cone(child)) || this->shaft_->mayReachEnds(bounds));
-    const Found found = matters ? this->visit(node.link) : Found::All;
-    if (found != Found::All)
-    {
-      return found;
-    }
+    found = node.count > 0 ? this->take(this->tree_->record(i)) : this->visit(i);
   }
-  return Found::All;
+  return found;
 }
 
 /// Return true if all starts lie on one side of all triangles in a node, and the same for each.
@@ -109,7 +98,7 @@ bool ShaftEdges::isAlike(const Bounds& bounds, const EdgeTree::Cone& cone) const
     EdgeRounding::ofHeight * EdgeRounding::unit * farthest * farthest * cone.mostPerHeight;
 }
 
-ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
+ShaftEdges::Found ShaftEdges::take(const BvhRecord& record)
 {
   const bool boxMeets = this->shaft_->mayMeet(this->tree_->bounds(record));
   if (record.opaque)

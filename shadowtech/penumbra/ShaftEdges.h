@@ -108,9 +108,9 @@ public:
     const glm::dvec3& start, const LightShaft::Slopes& slopes, std::vector<std::uint32_t>& numbers);
 
 private:
-  Found visit(std::uint32_t link);
+  Found visit(std::uint32_t number);
   bool isAlike(const Bounds& bounds, const EdgeTree::Cone& cone) const;
-  Found take(const EdgeTree::Record& record);
+  Found take(const BvhRecord& record);
   void takeEdge(const TreeEdge& edge);
 
   /// A triangle as all starts see it.

@@ -294,7 +294,7 @@ TEST(EdgeTriangle, isLeftFromItsBoundsOn)
       { makePlane(0.1), at(glm::dvec3(-away)) } }));
     for (std::uint32_t number = 0; number < tree.size(); ++number)
     {
-      const EdgeTree::Record record = tree.record(number);
+      const BvhRecord& record = tree.record(number);
       if (record.opaque)
       {
         continue; // a needle
