@@ -125,9 +125,7 @@ public:
     MapRing ring;
     const Surface& surface = this->placements_.surfaceOf(placement);
     const SurfaceEdges& edges = this->edges_.of(placement.surface);
-    const std::vector<std::uint32_t> members = this->covering_ == Covering::Fan
-      ? this->fanOf(placement, triangle)
-      : this->edgeNeighboursOf(placement, triangle);
+    const std::vector<std::uint32_t> members = this->membersOf(placement, triangle);
     for (const std::uint32_t member : members)
     {
       ring.triangles.push_back(
@@ -194,61 +192,37 @@ private:
                                                               : CasterEdge::none;
   }
 
-  /// Return a triangle, followed by those that continue its surface around its corners.
-  std::vector<std::uint32_t> fanOf(const Placement& placement, std::uint32_t triangle) const
+  /// Return a triangle, followed by those that continue its surface across its edges, or around its
+  /// corners.
+  std::vector<std::uint32_t> membersOf(const Placement& placement, std::uint32_t triangle) const
   {
-    constexpr int mostAroundCorner = 12; // triangles to either side; most corners have fewer
+    constexpr std::size_t most = 40; // nearly all corners have fewer triangles around them
     const SurfaceEdges& edges = this->edges_.of(placement.surface);
     const std::uint32_t first = this->placements_.surfaceOf(placement).firstTriangle;
-    std::vector<std::uint32_t> fan{ triangle };
-    // Walk around the corner that two sides share, starting across the first of them.
-    const auto walk = [&](std::uint32_t side, std::uint32_t otherSide)
+    const auto& own = edges.ofTriangle[triangle - first];
+    const auto meetsCorner = [&](const CasterEdge& edge)
     {
-      const CasterEdge& start = edges.edges[side];
-      const bool atFrom = edges.edges[otherSide].meets(start.from);
-      const std::uint32_t corner = atFrom ? start.from : start.to;
-      std::uint32_t current = triangle;
-      for (int i = 0; i < mostAroundCorner; ++i)
-      {
-        current = this->across(placement, edges.edges[side], current);
-        if (current == CasterEdge::none || current == triangle)
-        {
-          return;
-        }
-        if (std::find(fan.begin(), fan.end(), current) == fan.end())
-        {
-          fan.push_back(current);
-        }
-        const auto& sides = edges.ofTriangle[current - first];
-        side = *std::find_if(sides.begin(), sides.end(),
-          [&](std::uint32_t next) { return next != side && edges.edges[next].meets(corner); });
-      }
+      return std::any_of(own.begin(), own.end(),
+        [&](std::uint32_t side)
+        { return edge.meets(edges.edges[side].from) || edge.meets(edges.edges[side].to); });
     };
-    const auto& sides = edges.ofTriangle[triangle - first];
-    for (std::size_t k = 0; k < 3; ++k)
+    std::vector<std::uint32_t> members{ triangle };
+    for (std::size_t i = 0; i < (this->covering_ == Covering::Fan ? members.size() : 1); ++i)
     {
-      walk(sides[k], sides[(k + 1) % 3]);
-      walk(sides[k], sides[(k + 2) % 3]);
-    }
-    return fan;
-  }
-
-  /// Return a triangle, followed by those that continue its surface across its edges.
-  std::vector<std::uint32_t> edgeNeighboursOf(
-    const Placement& placement, std::uint32_t triangle) const
-  {
-    const SurfaceEdges& edges = this->edges_.of(placement.surface);
-    std::vector<std::uint32_t> ring{ triangle };
-    for (const std::uint32_t side :
-      edges.ofTriangle[triangle - this->placements_.surfaceOf(placement).firstTriangle])
-    {
-      const std::uint32_t other = this->across(placement, edges.edges[side], triangle);
-      if (other != CasterEdge::none)
+      const std::uint32_t member = members[i];
+      for (const std::uint32_t side : edges.ofTriangle[member - first])
       {
-        ring.push_back(other);
+        const CasterEdge& edge = edges.edges[side];
+        const std::uint32_t other =
+          meetsCorner(edge) ? this->across(placement, edge, member) : CasterEdge::none;
+        if (other != CasterEdge::none && members.size() < most &&
+          std::find(members.begin(), members.end(), other) == members.end())
+        {
+          members.push_back(other);
+        }
       }
     }
-    return ring;
+    return members;
   }
 
   const CasterScene& scene_;
