@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <string>
 
 vtkStandardNewMacro(vtkGnomonSun);
 
@@ -111,7 +112,7 @@ void vtkGnomonSun::SetDate(int year, int month, int day)
   if (year < 1583 || year > 6000 || month < 1 || month > 12 || day < 1 ||
     day > gnomon::daysOfMonth(year, month))
   {
-    vtkErrorMacro("There is no date " << year << "-" << month << "-" << day
+    vtkErrorMacro("There is no date " << std::to_string(year) << "-" << month << "-" << day
                                       << ": dates go from 1583-01-01 to 6000-12-31.");
     return;
   }

@@ -2,8 +2,8 @@
 /// main() of all test programs. A program runs many cases. If one crashes or hangs, GoogleTest
 /// prints nothing under --gtest_brief, so this main() names the case.
 /// The variables GNOMON_TEST_TIER and GNOMON_SLOW_CASES choose cases (QuickTier.h).
-/// Each case begins under a C++ locale of commas, as programs may set one: shaders, reports and
-/// errors must not follow it.
+/// Each case begins under a C++ locale of commas, as programs may set one: shaders and reports must
+/// not follow it.
 
 #include "QuickTier.h"
 

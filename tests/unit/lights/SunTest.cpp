@@ -233,7 +233,7 @@ TEST_F(Sun, InvalidValuesAreErrorsAndChangeNothing)
   this->expectError([&] { this->sun->SetDate(2026, 13, 1); }, "no date 2026-13-1");
   this->expectError([&] { this->sun->SetTime(12, 0, nan, 0.0); }, "no time 12:0:nan");
   this->expectError([&] { this->sun->SetTime(12, 0, 0.0, 15.0); }, "15 hours east");
-  this->expectError([&] { this->sun->SetPlace(90.5, 0.0); }, "latitude 90.5");
+  this->expectError([&] { this->sun->SetPlace(91.0, 0.0); }, "latitude 91");
   this->expectError([&] { this->sun->SetAltitude(nan); }, "Altitude was to be nan");
   this->expectError([&] { this->sun->SetDeltaT(nan); }, "DeltaT was to be nan");
   this->expectError([&] { this->sun->SetAir(-1.0, 10.0); }, "no air");
