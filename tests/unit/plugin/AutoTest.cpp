@@ -94,26 +94,6 @@ TEST_F(Auto, movingPicturesHaveMapsThatAreNotDrawnAgain)
   EXPECT_LE(probes, 3);
 }
 
-// From the second change on, everything needed is cached.
-TEST_F(Auto, changesCompileAndDrawNothingAnew)
-{
-  for (int change = 0; change < 4; ++change)
-  {
-    for (int frame = 0; frame < 6; ++frame)
-    {
-      this->rest();
-      EXPECT_TRUE(change == 0 || this->report().newPrograms == 0) << change << ", " << frame;
-    }
-    for (int frame = 0; frame < 3; ++frame)
-    {
-      this->move();
-      ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
-      EXPECT_TRUE(change == 0 || this->report().newPrograms == 0) << change << ", " << frame;
-      EXPECT_TRUE(change == 0 || this->report().mapBakes == 0) << change << ", " << frame;
-    }
-  }
-}
-
 TEST_F(Auto, numbersOutOfRangeAreErrorsAndChangeNothing)
 {
   for (const double wrong : { -0.1, 1.1, std::nan("") })
@@ -156,29 +136,6 @@ TEST_F(Auto, severalSamplesAndAHeadlight)
   EXPECT_LE(differingPixels(moving, exact, 16), exact.pixels() / 100);
 }
 
-// Lights that needed no rays are expected to need none in motion.
-TEST_F(Auto, lightsThatReachNothingTakeRays)
-{
-  this->set("bake", "settled");
-  this->renderer->RemoveLight(this->sun);
-  vtkLight* const lamp = this->addSpot({ 0.0, 0.0, 4.0 }, { 0.0, 0.0, 9.0 }, 40.0);
-  vtkLight* const other = this->addSpot({ 2.0, 0.0, 4.0 }, { 2.0, 0.0, 9.0 }, 40.0);
-  this->rest();
-  ASSERT_THAT(this->report().lights[0].skipReason, HasSubstr("cone reaches nothing"));
-  for (int i = 0; i < 40; ++i)
-  {
-    this->move();
-    EXPECT_EQ(this->technique(), "silhouette") << i;
-    EXPECT_THAT(this->report().choice, HasSubstr("nearly as little time")) << i;
-  }
-  lamp->SetFocalPoint(0.0, 0.0, 0.0);
-  other->SetFocalPoint(0.0, 0.0, 0.0);
-  this->rest();
-  ASSERT_EQ(this->report().lights[0].skipReason, "");
-  this->move();
-  EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
-}
-
 // An area light without extent only uses its texture's mean.
 TEST_F(Auto, texturesWithoutAnAreaAreExact)
 {
@@ -203,17 +160,6 @@ TEST_F(Auto, settingsOfWhatItMayTakeAreNoMistakes)
   EXPECT_THAT(this->takeErrors(), HasSubstr("mc_rays"));
 }
 
-// Probes only hit casters; a floor that only receives is none.
-TEST_F(Auto, surfacesThatProbesDoNotSeeTakeRays)
-{
-  vtkActor* const shelf = this->addFloor(2.0, 4.0);
-  vtkGnomonPropKeys::SetCasts(shelf, false);
-  this->rest();
-  this->move();
-  EXPECT_EQ(this->technique(), "silhouette");
-  EXPECT_THAT(this->report().choice, HasSubstr("casts none"));
-}
-
 // Probes hit casters where the snapshot has them.
 TEST_F(Auto, surfacesThatShaderCodeMovesTakeRays)
 {
@@ -227,13 +173,6 @@ TEST_F(Auto, surfacesThatShaderCodeMovesTakeRays)
   this->move();
   EXPECT_EQ(this->technique(), "silhouette");
   EXPECT_THAT(this->report().choice, HasSubstr("shader code moves it"));
-}
-
-// The first frame may be one in motion, too.
-TEST_F(Auto, needsNoPictureAtRestBefore)
-{
-  this->move();
-  EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
 }
 
 TEST_F(Auto, theSameFramesAreChosenAlike)
@@ -293,41 +232,6 @@ TEST_F(Auto, areaLightsHaveHardShadowsInMotionWherePenumbraeAreThin)
   EXPECT_EQ(this->technique(), "penumbra");
 }
 
-// A map is proved before it is shown. Later its probes are spread over frames.
-TEST_F(Auto, laterProbesTakeOneLookAFrame)
-{
-  constexpr std::int64_t look = 4096;
-  this->pass->SetMaximumError(0.0003);                       // 13,000 right answers show it
-  this->lookFrom({ -12.0, -9.0, 7.0 }, { -12.0, 0.0, 0.0 }); // far from the shadow
-  this->rest();
-  this->move();
-  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
-  EXPECT_GT(this->report().probes, look);
-  int probed = 0;
-  for (int frame = 0; frame < 30; ++frame)
-  {
-    this->move();
-    ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
-    EXPECT_LE(this->report().probes, look);
-    probed += this->report().probes > 0 ? 1 : 0;
-  }
-  EXPECT_GT(probed, 1);
-  EXPECT_LE(probed, 14) << "eight looks every 16 frames at most";
-}
-
-// The report names the choice. Lights set to that choice show the same picture.
-TEST_F(Auto, theChoiceOfATimeBudgetCanBeNamed)
-{
-  this->pass->SetTimeBudget(1e-6);
-  this->rest();
-  const Picture chosen = this->move();
-  const gnomon::LightReport light = this->report().lights[0];
-  ASSERT_EQ(light.technique, "nsm") << this->report().choice;
-  this->set("technique", light.technique.c_str());
-  this->pass->SetMapSize(light.mapSizeTexels);
-  EXPECT_TRUE(chosen == this->rest());
-}
-
 // A light that names a technique uses it with any technique of the pass.
 TEST_F(Auto, lightsThatNameATechniqueKeepIt)
 {
@@ -341,25 +245,6 @@ TEST_F(Auto, lightsThatNameATechniqueKeepIt)
   this->move();
   EXPECT_EQ(this->report().lights[0].technique, "silhouette");
   EXPECT_THAT(this->report().choice, HasSubstr("whole screen"));
-}
-
-// A moving light bakes its map in each frame, which costs as much time as rays.
-TEST_F(Auto, lightsThatMoveTakeRaysAndGoBackToMapsLater)
-{
-  this->rest();
-  this->move();
-  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
-  this->sun->SetPosition(-1.0, 0.1, 1.0);
-  this->move();
-  EXPECT_EQ(this->technique(), "silhouette");
-  EXPECT_THAT(this->report().choice, HasSubstr("nearly as little time"));
-  for (int i = 0; i < 29; ++i)
-  {
-    this->move();
-    EXPECT_EQ(this->technique(), "silhouette") << i;
-  }
-  this->move();
-  EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
 }
 
 // A close view makes the map larger; the next motion has a small one again.
@@ -382,4 +267,46 @@ TEST_F(Auto, mapsShrinkWhereSmallerOnesWillDo)
   this->rest();
   this->move();
   EXPECT_EQ(this->report().lights[0].mapSizeTexels, 16);
+}
+
+// A moving light bakes its map in each frame, which costs as much time as rays.
+TEST_F(Auto, lightsThatMoveTakeRaysAndGoBackToMapsLater)
+{
+  this->rest();
+  this->move();
+  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
+  this->sun->SetPosition(-1.0, 0.1, 1.0);
+  this->move();
+  EXPECT_EQ(this->technique(), "silhouette");
+  EXPECT_THAT(this->report().choice, HasSubstr("nearly as little time"));
+  for (int i = 0; i < 29; ++i)
+  {
+    this->move();
+    EXPECT_EQ(this->technique(), "silhouette") << i;
+  }
+  this->move();
+  EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
+}
+
+// Lights that needed no rays are expected to need none in motion.
+TEST_F(Auto, lightsThatReachNothingTakeRays)
+{
+  this->set("bake", "settled");
+  this->renderer->RemoveLight(this->sun);
+  vtkLight* const lamp = this->addSpot({ 0.0, 0.0, 4.0 }, { 0.0, 0.0, 9.0 }, 40.0);
+  vtkLight* const other = this->addSpot({ 2.0, 0.0, 4.0 }, { 2.0, 0.0, 9.0 }, 40.0);
+  this->rest();
+  ASSERT_THAT(this->report().lights[0].skipReason, HasSubstr("cone reaches nothing"));
+  for (int i = 0; i < 40; ++i)
+  {
+    this->move();
+    EXPECT_EQ(this->technique(), "silhouette") << i;
+    EXPECT_THAT(this->report().choice, HasSubstr("nearly as little time")) << i;
+  }
+  lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  other->SetFocalPoint(0.0, 0.0, 0.0);
+  this->rest();
+  ASSERT_EQ(this->report().lights[0].skipReason, "");
+  this->move();
+  EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
 }

@@ -46,9 +46,14 @@ struct Light
   int bakes = 0;
 };
 
-TEST(BakeBackoff, bakesAfterAsManyRestingFramesAsThePatience)
+TEST(BakeBackoff, bakesAfterAsManyRestingFramesInARowAsThePatience)
 {
   Light light;
+  for (int round = 0; round < 100; ++round)
+  {
+    light.moveAndRest(least);
+  }
+  EXPECT_EQ(light.bakes, 0);
   EXPECT_FALSE(light.draw(true));
   EXPECT_THAT(light.backoff.reason(), HasSubstr("after 16 frames without a change (so far 0)"));
   for (int frame = 1; frame <= least; ++frame)
@@ -64,47 +69,26 @@ TEST(BakeBackoff, bakesAfterAsManyRestingFramesAsThePatience)
   EXPECT_EQ(light.bakes, 1);
 }
 
-TEST(BakeBackoff, countsRestingFramesInARowOnly)
+TEST(BakeBackoff, doublesThePatienceWhereMapsServeTooShortlyAndElseHalvesIt)
 {
   Light light;
-  for (int round = 0; round < 100; ++round)
-  {
-    light.moveAndRest(least);
-  }
-  EXPECT_EQ(light.bakes, 0);
-  EXPECT_EQ(light.backoff.patience(), least); // no map went stale
-}
-
-TEST(BakeBackoff, doublesThePatienceWhenAMapServedTooShortly)
-{
-  Light light;
-  for (int patience = least; patience <= 4 * most; patience *= 2)
-  {
-    const int bounded = std::min(patience, most);
-    EXPECT_EQ(light.backoff.patience(), bounded);
-    const int before = light.bakes;
-    light.moveAndRest(bounded + bounded - 1); // one frame less than a bake needs
-    EXPECT_EQ(light.bakes, before + 1);
-    light.draw(true);
-  }
-}
-
-TEST(BakeBackoff, halvesThePatienceWhenAMapServedForLongEnough)
-{
-  Light light;
-  while (light.backoff.patience() < 8 * least)
-  {
-    light.moveAndRest(light.backoff.patience() + 1);
-    light.draw(true);
-  }
-  for (int patience = 8 * least; patience > least; patience /= 2)
+  const auto serve = [&](int patience, int frames)
   {
     EXPECT_EQ(light.backoff.patience(), patience);
-    light.moveAndRest(2 * patience);
+    const int before = light.bakes;
+    light.moveAndRest(patience + frames);
+    EXPECT_EQ(light.bakes, before + 1);
     light.draw(true);
+  };
+  for (int patience = least; patience <= 4 * most; patience *= 2)
+  {
+    serve(std::min(patience, most), std::min(patience, most) - 1);
   }
-  light.moveAndRest(2 * least);
-  light.draw(true);
+  for (int patience = most; patience > least; patience /= 2)
+  {
+    serve(patience, patience);
+  }
+  serve(least, least);
   EXPECT_EQ(light.backoff.patience(), least);
 }
 
