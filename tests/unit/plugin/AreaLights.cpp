@@ -185,9 +185,7 @@ HalfPlaneScene::HalfPlaneScene(int width, int height, double halfHeight)
 {
   this->addFloor(20.0)->SetScale(1.0, 0.2, 1.0); // texels are five times as long along x
   this->addBox({ -12.0, -4.0, edgeHeight - 0.001 }, { 0.0, 4.0, edgeHeight });
-  this->lookDown(halfHeight);
-  this->renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 1.5);
-  this->renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
+  this->lookDown(halfHeight, 0.0, 0.0, 1.5);
 }
 
 double widthOf(const std::vector<double>& profile)

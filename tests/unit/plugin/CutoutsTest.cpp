@@ -9,7 +9,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkLookupTable.h>
-#include <vtkPlane.h>
 
 using namespace gnomon::test;
 
@@ -262,10 +261,7 @@ TEST_P(Cutouts, ofTranslucentSurfacesCountWhereTheseCast)
 TEST_P(Cutouts, areCutAtClippingPlanes)
 {
   vtkActor* square = this->addSquare(makeTexture(letter));
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(0.3, 0.1, 5.0);
-  plane->SetNormal(1.0, 0.6, 0.0);
-  square->GetMapper()->AddClippingPlane(plane);
+  clip(square->GetMapper(), { 0.3, 0.1, 5.0 }, { 1.0, 0.6, 0.0 });
   const gnomon::CutoutMask mask = maskOf(letter);
   for (const double y : { 0.0, 0.2 })
   {
@@ -415,7 +411,7 @@ TEST_P(Cutouts, ofCompositeBlocksGlyphsAndStrips)
   this->scene.renderer->RemoveActor(actor);
 
   data->SetPolys(nullptr);
-  data->SetStrips(meshOf({}, { { 0, 1, 3, 2 } })->GetPolys());
+  data->SetStrips(cellsOf({ { 0, 1, 3, 2 } }));
   this->scene.add(data)->SetTexture(texture);
   this->expectPattern(letter, {}, "strip");
 }

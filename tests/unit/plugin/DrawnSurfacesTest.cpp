@@ -15,7 +15,6 @@
 #include <vtkGlyph3DMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkPlane.h>
 #include <vtkPropAssembly.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -23,13 +22,6 @@ namespace gnomon::test
 {
 namespace
 {
-
-using Cells = std::vector<std::vector<vtkIdType>>;
-
-vtkSmartPointer<vtkCellArray> makeCells(const Cells& cells)
-{
-  return meshOf({}, cells)->GetPolys();
-}
 
 /// Return a bumpy grid of n x n quads over the unit square, whose diagonals vary.
 vtkSmartPointer<vtkPolyData> makeBumps(int n, unsigned int seed)
@@ -68,12 +60,12 @@ vtkSmartPointer<vtkPolyData> makeMixed()
   {
     points->InsertNextPoint(1.1 + 0.05 * (i % 2) + 0.1 * (i / 4), 0.15 * i, 0.02 * (i % 3));
   }
-  data->SetStrips(makeCells({ { first, first + 1, first + 2, first + 2, first + 3, first + 4 },
+  data->SetStrips(cellsOf({ { first, first + 1, first + 2, first + 2, first + 3, first + 4 },
     { first + 4, first + 5, first + 6, first + 7 } }));
   const vtkIdType dot = points->InsertNextPoint(0.0, 0.0, 0.0);
   points->InsertNextPoint(1e-4, 0.0, 0.0);
-  data->SetLines(makeCells({ { dot, dot + 1, dot, dot + 1 }, { dot, dot + 1 } }));
-  data->SetVerts(makeCells({ { dot }, { dot, dot + 1, dot } }));
+  data->SetLines(cellsOf({ { dot, dot + 1, dot, dot + 1 }, { dot, dot + 1 } }));
+  data->SetVerts(cellsOf({ { dot }, { dot, dot + 1, dot } }));
   return data;
 }
 
@@ -223,10 +215,7 @@ struct DrawnCase
 
 void addClippingPlane(vtkActor* actor, const glm::dvec3& normal)
 {
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(actor->GetCenter());
-  plane->SetNormal(normal.x, normal.y, normal.z);
-  actor->GetMapper()->AddClippingPlane(plane);
+  clip(actor->GetMapper(), glm::make_vec3(actor->GetCenter()), normal);
 }
 
 vtkSmartPointer<vtkMapper> dataSetMapperOf(vtkDataSet* data)
@@ -311,7 +300,7 @@ const DrawnCase drawnCases[] = {
       const auto data = meshOf({ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 },
                                  { 0.0, 1.0, 0.0 }, { 1.0, 1.0, 0.2 }, { 0.0, 2.0, 0.0 } },
         { { 0, 1, 0, 1, 0 } });
-      data->SetStrips(makeCells({ { 0, 2, 3, 4, 5 } }));
+      data->SetStrips(cellsOf({ { 0, 2, 3, 4, 5 } }));
       scene.add(data);
     } },
   { "dropped triangles", 1,
@@ -402,7 +391,7 @@ TEST_F(DrawnSurfaces, ofBlocksOfSeveralHelpersFollowTheTree)
 
   // The tree changes under the mapper. With cell colours VTK does not count skipped triangles.
   root->SetBlock(2, nullptr);
-  blocks[3]->SetPolys(makeCells({ { 0, 1, 8, 7 } }));
+  blocks[3]->SetPolys(cellsOf({ { 0, 1, 8, 7 } }));
   for (const auto& block : blocks)
   {
     addCellScalars(block);

@@ -333,7 +333,7 @@ TEST_F(EdgeSamples, lieOnSolids)
 {
   this->scene.renderer->RemoveActor(this->scene.sphere);
   const auto centres = meshOf({ { 0.0, 0.0, 1.2 }, { -0.8, -0.3, 2.4 } }, {});
-  centres->SetVerts(meshOf({}, { { 0 }, { 1 } })->GetPolys());
+  centres->SetVerts(cellsOf({ { 0 }, { 1 } }));
   vtkNew<vtkOpenGLSphereMapper> mapper;
   mapper->SetInputData(centres);
   mapper->SetRadius(0.7);

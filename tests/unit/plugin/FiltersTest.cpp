@@ -14,9 +14,7 @@ TEST_F(PassTest, momentsOfTwoPlanesShowWhatPcfCounts)
   scene.addFloor(4.0);
   scene.add(squareOf(1.1, 2.0))->RotateZ(17.0);
   scene.addSun({ 0.0, 0.0, -1.0 });
-  scene.lookDown(1.0, 1.0, 0.7);
-  scene.renderer->GetActiveCamera()->SetPosition(1.0, 0.7, 1.5); // below the plate
-  scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
+  scene.lookDown(1.0, 1.0, 0.7, 1.5); // from below the plate
   scene.choose("map_size=256 bleeding=0");
   for (const int texels : { 1, 2, 9, 32 })
   {
@@ -42,9 +40,7 @@ TEST_F(PassTest, momentsBleedAsChebyshevSays)
     scene.addFloor(4.0, 3.0 * k / (1.0 + k));
     scene.add(planeOf({ -4.0, -4.0, 3.0 }, { 0.0, -4.0, 3.0 }, { -4.0, 4.0, 3.0 }));
     scene.addSun({ 0.0, 0.0, -1.0 });
-    scene.lookDown(0.05, 0.0);
-    scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 0.3);
-    scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 1.0);
+    scene.lookDown(0.05, 0.0, 0.0, 0.3);
     scene.choose("map_size=512 kernel_size=31");
     const auto brightest = [&](const char* text)
     {

@@ -11,8 +11,6 @@
 #include <vtkTranslucentPass.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <numeric>
-
 namespace gnomon::test
 {
 namespace
@@ -443,10 +441,7 @@ TEST_P(GlassPictures, areThoseOfTheTracer)
   }
   const Picture truth = scene.trace();
   const Picture picture = scene.render("raytraced");
-  const double squares = std::inner_product(truth.rgb.begin(), truth.rgb.end(), picture.rgb.begin(),
-    0.0, std::plus<>(), [](int a, int b) { return (a - b) * (a - b); });
-  const double rms = std::sqrt(squares / static_cast<double>(truth.rgb.size()));
-  EXPECT_LT(rms, 2.0) << "in 255ths";
+  EXPECT_LT(rmsDifference(truth, picture), 2.0);
   EXPECT_LT(differingPixels(truth, picture, 8), 60u) << "at edges";
 }
 

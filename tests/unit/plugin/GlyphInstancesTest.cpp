@@ -7,7 +7,6 @@
 #include <vtkBitArray.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkMatrix4x4.h>
-#include <vtkPlane.h>
 
 using namespace gnomon::test;
 
@@ -74,7 +73,7 @@ struct GlyphInstances : PassTestOf<Way>
     const Picture kept = this->scene.render();
     EXPECT_EQ(this->scene.report().instances, instances);
     EXPECT_THAT(this->scene.report().notes, testing::Each(testing::HasSubstr("planar shadows")));
-    this->mapper->AddClippingPlane(this->farAway);
+    clip(this->mapper, { 0.0, 0.0, -1000.0 }, { 0.0, 0.0, 1.0 });
     const Picture expanded = this->scene.render();
     EXPECT_EQ(this->scene.report().instances, 0u);
     this->mapper->RemoveAllClippingPlanes();
@@ -98,12 +97,6 @@ struct GlyphInstances : PassTestOf<Way>
   vtkNew<vtkSphereSource> cup;
   vtkNew<vtkGlyph3DMapper> mapper;
   vtkNew<vtkActor> actor;
-  vtkNew<vtkPlane> farAway = []
-  {
-    vtkNew<vtkPlane> plane;
-    plane->SetOrigin(0.0, 0.0, -1000.0);
-    return plane;
-  }();
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, GlyphInstances,

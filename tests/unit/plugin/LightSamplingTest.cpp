@@ -113,15 +113,14 @@ struct LightSamplingScene : PassTest
 
   Picture pictureOf(vtkRenderPass* pass) { return this->scene.renderBy(pass); }
 
-  /// Draw a picture of a pass for each point of the light, by a VTK light placed there by hand.
-  /// @param add called with each picture
-  void forEachPoint(vtkRenderPass* pass, const std::function<void(const Picture&)>& add)
+  /// Return the mean of a pass's pictures for each point of the light, by a VTK light placed there
+  /// by hand.
+  /// @param gamma the pictures' values to this power are linear light
+  Channels meanByHand(vtkRenderPass* pass, double gamma = 1.0)
   {
     this->scene.render(); // head lights follow the camera
-    std::vector<gnomon::ShadowLight> areas =
-      gnomon::LightManager().collectAreas(this->scene.renderer, {}).lights;
-    ASSERT_EQ(areas.size(), 1u);
-    gnomon::ShadowLight& area = areas[0];
+    gnomon::ShadowLight area =
+      gnomon::LightManager().collectAreas(this->scene.renderer, {}).lights.at(0);
     area.lightSamples = this->sampling->GetSamples();
     vtkNew<vtkLight> point;
     point->DeepCopy(this->light);
@@ -132,45 +131,31 @@ struct LightSamplingScene : PassTest
     this->scene.renderer->AddLight(point);
     const std::vector<glm::dvec3> offsets = gnomon::pairedLightSamples(area);
     const std::vector<glm::dvec3> shine = shineByHand(area, offsets);
+    Channels mean;
     for (std::size_t i = 0; i < offsets.size(); ++i)
     {
-      const glm::dvec3& offset = offsets[i];
       const glm::dvec3 diffuse = glm::make_vec3(this->light->GetDiffuseColor()) * shine[i];
       const glm::dvec3 specular = glm::make_vec3(this->light->GetSpecularColor()) * shine[i];
       point->SetDiffuseColor(diffuse.x, diffuse.y, diffuse.z);
       point->SetSpecularColor(specular.x, specular.y, specular.z);
       const bool sun = area.kind == gnomon::LightKind::Directional;
-      const glm::dvec3 place = area.positionWorld + (sun ? glm::dvec3(0.0) : offset);
-      const glm::dvec3 target =
-        place + 3.0 * (sun ? area.directionWorld - offset : area.directionWorld);
-      aim(point, place, target);
-      add(this->pictureOf(pass));
+      const glm::dvec3 place = area.positionWorld + (sun ? glm::dvec3(0.0) : offsets[i]);
+      aim(point, place, place + 3.0 * (area.directionWorld - (sun ? offsets[i] : glm::dvec3(0.0))));
+      const Picture picture = this->pictureOf(pass);
+      mean.resize(picture.rgb.size(), 0.0f);
+      for (std::size_t channel = 0; channel < mean.size(); ++channel)
+      {
+        mean[channel] += static_cast<float>(
+          std::pow(picture.rgb[channel] / 255.0, gamma) / static_cast<double>(offsets.size()));
+      }
+    }
+    for (float& value : mean)
+    {
+      value = static_cast<float>(255.0 * std::pow(value, 1.0 / gamma));
     }
     this->scene.renderer->RemoveLight(point);
     this->scene.renderer->AddLight(this->light);
-  }
-
-  /// Return the pictures' mean.
-  /// @param gamma the pictures' values to this power are linear light
-  Channels meanByHand(vtkRenderPass* pass, double gamma = 1.0)
-  {
-    Channels sum;
-    int pictures = 0;
-    this->forEachPoint(pass,
-      [&](const Picture& picture)
-      {
-        sum.resize(picture.rgb.size(), 0.0f);
-        for (std::size_t i = 0; i < sum.size(); ++i)
-        {
-          sum[i] += static_cast<float>(std::pow(picture.rgb[i] / 255.0, gamma));
-        }
-        ++pictures;
-      });
-    for (float& value : sum)
-    {
-      value = static_cast<float>(255.0 * std::pow(value / pictures, 1.0 / gamma));
-    }
-    return sum;
+    return mean;
   }
 
   /// Expect a picture to be that mean except for roundings: each of the pictures and the mean are

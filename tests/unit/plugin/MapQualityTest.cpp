@@ -364,15 +364,8 @@ std::vector<float> litShareOfFloor(PassScene& scene)
 /// Return a picture's mean difference from that share.
 double meanError(const VisibilityImages& kept, const std::vector<float>& truth)
 {
-  double sum = 0.0;
-  const std::size_t count = countPixels(kept,
-    [&](std::size_t i)
-    {
-      sum += truth[i] >= 0.0f ? std::abs(kept.visibility[0][i] - truth[i]) : 0.0;
-      return truth[i] >= 0.0f;
-    });
-  EXPECT_GT(count, 1000u);
-  return sum / static_cast<double>(count);
+  return meanDifferenceWhere(
+    kept.visibility[0], truth, 1000, [&](std::size_t i) { return truth[i] >= 0.0f; });
 }
 
 } // namespace

@@ -11,7 +11,6 @@
 #include <vtkOpenGLRenderer.h>
 #include <vtkPBRLUTTexture.h>
 #include <vtkPBRPrefilterTexture.h>
-#include <vtkPlane.h>
 #include <vtkStripper.h>
 #include <vtkTextureMapToSphere.h>
 #include <vtkUnsignedCharArray.h>
@@ -211,12 +210,8 @@ const std::vector<MatrixLook>& matrixLooks()
         actor->SetBackfaceProperty(back);
       } },
     { "Clipped",
-      [](vtkActor* actor, vtkRenderer*)
-      {
-        vtkNew<vtkPlane> plane;
-        plane->SetOrigin(0.0, 0.4, 0.0);
-        plane->SetNormal(0.1, -1.0, 0.3);
-        actor->GetMapper()->AddClippingPlane(plane);
+      [](vtkActor* actor, vtkRenderer*) {
+        clip(actor->GetMapper(), { 0.0, 0.4, 0.0 }, { 0.1, -1.0, 0.3 });
       } },
     { "ImageBased",
       [](vtkActor* actor, vtkRenderer* renderer)

@@ -10,24 +10,6 @@ namespace gnomon::test
 namespace
 {
 
-/// A part of a picture.
-Picture cut(const Picture& picture, int left, int bottom, int width, int height)
-{
-  Picture part{ width, height, {} };
-  for (int y = bottom; y < bottom + height; ++y)
-  {
-    for (int x = left; x < left + width; ++x)
-    {
-      const glm::ivec3 colour = picture.at(x, y);
-      for (int channel = 0; channel < 3; ++channel)
-      {
-        part.rgb.push_back(static_cast<unsigned char>(colour[channel]));
-      }
-    }
-  }
-  return part;
-}
-
 class SeveralSamples : public MatrixWindow
 {
 public:
@@ -59,8 +41,9 @@ public:
   }
   Picture draw(int) override
   {
-    return cut(
-      this->scene_.render(), this->width_ / 2, 2 * this->height_, this->width_, this->height_);
+    this->scene_.render();
+    return readPicture(this->scene_.window, { this->width_ / 2, 2 * this->height_ },
+      { this->width_, this->height_ });
   }
 
 private:

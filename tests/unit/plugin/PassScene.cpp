@@ -113,15 +113,15 @@ vtkLight* PassScene::addSpot(
   return light;
 }
 
-void PassScene::lookDown(double halfHeight, double x, double y)
+void PassScene::lookDown(double halfHeight, double x, double y, double fromHeight)
 {
   vtkCamera* camera = this->renderer->GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetParallelScale(halfHeight);
-  camera->SetPosition(x, y, 20.0);
+  camera->SetPosition(x, y, fromHeight);
   camera->SetFocalPoint(x, y, 0.0);
   camera->SetViewUp(0.0, 1.0, 0.0);
-  camera->SetClippingRange(1.0, 30.0);
+  camera->SetClippingRange(0.05 * fromHeight, 1.5 * fromHeight);
   this->down_ = { x, y, halfHeight };
 }
 
@@ -401,12 +401,6 @@ Acne countAcne(const VisibilityImages& kept,
   }
   acne.mean /= std::max<double>(static_cast<double>(acne.facing), 1.0);
   return acne;
-}
-
-Acne countAcneOfLamp(const VisibilityImages& kept, const glm::dvec3& lightWorld, double leastCosine)
-{
-  return countAcne(
-    kept, [&](const glm::dvec3& position) { return lightWorld - position; }, leastCosine);
 }
 
 Agreement compareVisibility(const VisibilityImages& a, const VisibilityImages& b, std::size_t light)

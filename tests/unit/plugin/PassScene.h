@@ -118,7 +118,8 @@ public:
 
   /// Set a parallel camera that looks straight down with +y up and sees `halfHeight` of the floor
   /// above and below its middle (x, y).
-  void lookDown(double halfHeight, double x = 0.0, double y = 0.0);
+  /// @param fromHeight of the camera, which sees nothing above itself
+  void lookDown(double halfHeight, double x = 0.0, double y = 0.0, double fromHeight = 20.0);
   /// Return the floor point that lookDown shows at the middle of a pixel.
   glm::dvec2 floorAt(int x, int y) const;
   /// Return the red value of the pixel at which lookDown shows a floor point.
@@ -282,8 +283,6 @@ struct Acne
 /// @param toLight maps a receiver's position to a vector towards the light, of any length
 Acne countAcne(const VisibilityImages& kept,
   const std::function<glm::dvec3(const glm::dvec3&)>& toLight, double leastCosine = 0.0);
-Acne countAcneOfLamp(
-  const VisibilityImages& kept, const glm::dvec3& lightWorld, double leastCosine = 0.0);
 
 /// Comparison of two frames' visibility of one light.
 struct Agreement
@@ -308,6 +307,23 @@ double largestDifference(const std::vector<float>& a, const std::vector<float>& 
 std::size_t countDifferences(
   const std::vector<float>& a, const std::vector<float>& b, double tolerance = 0.0);
 ///@}
+/// Return the mean absolute difference over the pixels for whose number holds() is true, more than
+/// so many.
+template <typename Holds>
+double meanDifferenceWhere(const std::vector<float>& a, const std::vector<float>& b,
+  std::size_t moreThan, const Holds& holds)
+{
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    const bool counts = holds(i);
+    sum += counts ? std::abs(a[i] - b.at(i)) : 0.0;
+    count += counts ? 1 : 0;
+  }
+  EXPECT_GT(count, moreThan);
+  return sum / static_cast<double>(count);
+}
 /// Count the pixels for whose number holds() is true.
 template <typename Holds>
 std::size_t countPixels(const VisibilityImages& kept, const Holds& holds)

@@ -29,14 +29,6 @@ void soften(PassScene& scene, vtkLight* light, const char* radius)
   set(light, "light_radius", radius);
 }
 
-/// Look down at the floor from below the hanging casters.
-void lookFromBelow(PassScene& scene, double halfHeight, double x, double height)
-{
-  scene.lookDown(halfHeight, x);
-  scene.renderer->GetActiveCamera()->SetPosition(x, 0.0, height);
-  scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 3.0);
-}
-
 /// The truth by rays to 256 points.
 std::vector<float> truthOf(PassScene& scene)
 {
@@ -65,11 +57,6 @@ struct SearchedScene
   double meanOff;        ///< the largest mean error
   int leastPartlyHidden; ///< pixels
 };
-std::ostream& operator<<(std::ostream& stream, const SearchedScene& scene)
-{
-  return stream << scene.name;
-}
-
 const SearchedScene searchedScenes[] = {
   // A large lamp and a high caster. Faces of the lamp's cube that see the floor below do not see
   // the caster.
@@ -79,7 +66,7 @@ const SearchedScene searchedScenes[] = {
       scene.addFloor(1.5);
       scene.addBox({ 0.5, -3.0, 1.55 }, { 0.6, 3.0, 1.95 });
       set(scene.addSpot({ 0.0, 0.0, 2.0 }, glm::dvec3(0.0), 85.0), "light_radius", "2");
-      lookFromBelow(scene, 0.4, -0.4, 1.5);
+      scene.lookDown(0.4, -0.4, 0.0, 1.5);
     },
     1.0, 2000 },
   // A ball close to the lamp hides a part of the lamp from the contact of a box.
@@ -90,7 +77,7 @@ const SearchedScene searchedScenes[] = {
       scene.addSphere({ 0.7, 0.0, 3.3 }, 0.3);
       scene.addBox({ 1.0, -0.5, 0.0 }, { 1.4, 0.5, 1.0 });
       set(scene.addSpot({ 0.0, 0.0, 4.0 }, { 1.0, 0.0, 0.0 }, 50.0), "light_radius", "0.4");
-      lookFromBelow(scene, 0.6, 1.9, 2.0); // below the ball
+      scene.lookDown(0.6, 1.9, 0.0, 2.0); // below the ball
     },
     0.06, 2000 },
   // A ball's penumbra is that of its rim, which lies behind its middle as seen from the lamp.
@@ -100,7 +87,7 @@ const SearchedScene searchedScenes[] = {
       scene.addFloor(4.0);
       scene.addSphere({ 0.0, 0.0, 1.2 }, 0.8);
       set(scene.addSpot({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), 40.0), "light_radius", "0.4");
-      lookFromBelow(scene, 2.0, 0.0, 0.3); // below the ball
+      scene.lookDown(2.0, 0.0, 0.0, 0.3); // below the ball
     },
     0.01, 1000 },
 };
@@ -191,7 +178,7 @@ TEST_F(Pcss, searchesLeaveNoSpecks)
   scene.addBox({ 0.26, -0.05, 3.0 }, { 0.3, 0.05, 3.05 });
   soften(scene, scene.addSpot({ 0.0, 0.0, 6.0 }, glm::dvec3(0.0), 40.0), "0.5");
   scene.pass->SetMapSize(4096);
-  lookFromBelow(scene, 0.1, 0.0, 0.25); // below the low caster
+  scene.lookDown(0.1, 0.0, 0.0, 0.25); // below the low caster
   const std::vector<float> truth = truthOf(scene);
   EXPECT_GT(
     std::count_if(truth.begin(), truth.end(), [](float v) { return v > 0.1f && v < 0.9f; }), 2000);
@@ -264,7 +251,7 @@ TEST_F(Pcss, asPublishedNeedsABiasThatGrowsWithTheLight)
   {
     soften(scene, lamp, radius);
     scene.set("bias_slope", bias);
-    const Acne acne = countAcneOfLamp(drawKept(scene), place);
+    const Acne acne = countAcne(drawKept(scene), [&](const glm::dvec3& at) { return place - at; });
     EXPECT_GT(acne.facing, 1000u);
     return acne.dark;
   };

@@ -3,7 +3,10 @@
 #include <vtkNew.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <numeric>
 #include <stdexcept>
 
 namespace gnomon::test
@@ -19,16 +22,29 @@ glm::ivec3 Picture::at(int x, int y) const
 
 Picture readPicture(vtkRenderWindow* window)
 {
-  vtkNew<vtkUnsignedCharArray> values;
   const int* size = window->GetActualSize(); // the tile's size for a tiled window
-  window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 1, values);
+  return readPicture(window, { 0, 0 }, { size[0], size[1] });
+}
+
+Picture readPicture(vtkRenderWindow* window, const glm::ivec2& lower, const glm::ivec2& size)
+{
+  vtkNew<vtkUnsignedCharArray> values;
+  const glm::ivec2 last = lower + size - 1;
+  window->GetPixelData(lower.x, lower.y, last.x, last.y, 1, values);
   const unsigned char* first = values->GetPointer(0);
-  return { size[0], size[1], { first, first + values->GetNumberOfValues() } };
+  return { size.x, size.y, { first, first + values->GetNumberOfValues() } };
 }
 
 std::vector<float> channelsOf(const Picture& picture)
 {
   return { picture.rgb.begin(), picture.rgb.end() };
+}
+
+double rmsDifference(const Picture& a, const Picture& b)
+{
+  const double squares = std::transform_reduce(a.rgb.begin(), a.rgb.end(), b.rgb.begin(), 0.0,
+    std::plus<>(), [](int one, int other) { return (one - other) * (one - other); });
+  return std::sqrt(squares / static_cast<double>(a.rgb.size()));
 }
 
 std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance)

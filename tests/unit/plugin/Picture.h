@@ -26,11 +26,17 @@ struct Picture
   }
 };
 
-/// Read the whole window.
+///@{
+/// Read the whole window, or a part of it.
 Picture readPicture(vtkRenderWindow* window);
+Picture readPicture(vtkRenderWindow* window, const glm::ivec2& lower, const glm::ivec2& size);
+///@}
 
 /// Return a picture's channels, of 255.
 std::vector<float> channelsOf(const Picture& picture);
+
+/// Return the root of the mean square of the channels' differences, of 255.
+double rmsDifference(const Picture& a, const Picture& b);
 
 /// Count the pixels in which some channel differs by more than `tolerance` of 255.
 std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance = 0);

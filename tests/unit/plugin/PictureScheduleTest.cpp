@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -44,11 +43,6 @@ struct Sequence
   const char* name;
   std::vector<Step> steps;
 };
-
-std::ostream& operator<<(std::ostream& stream, const Sequence& sequence)
-{
-  return stream << sequence.name;
-}
 
 std::string textOf(const TimerOrder& order)
 {

@@ -77,24 +77,6 @@ TEST_F(Settings, techniquesAreListed)
     vtkGnomonShadowPass::GetTechniqueName(vtkGnomonShadowPass::GetNumberOfTechniques()), nullptr);
 }
 
-TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)
-{
-  this->scene.render();
-  EXPECT_TRUE(this->scene.report().stages.empty());
-  EXPECT_GT(this->scene.report().wallMilliseconds, 0.0);
-  this->scene.pass->MeasureStagesOn();
-  this->scene.render();
-  this->scene.render();
-  double sum = 0.0;
-  for (const gnomon::StageTime& stage : this->scene.report().stages)
-  {
-    EXPECT_GE(stage.milliseconds, 0.0) << stage.name;
-    sum += stage.milliseconds;
-  }
-  EXPECT_GE(sum, 0.9 * this->scene.report().wallMilliseconds);
-  EXPECT_LE(sum, this->scene.report().wallMilliseconds);
-}
-
 TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyedAndBringsNoneOfVtks)
 {
   EXPECT_FALSE(this->scene.pass->GetObeyUseShadows());

@@ -1,8 +1,8 @@
 #include "Shapes.h"
 
 #include <vtkCallbackCommand.h>
-#include <vtkCellArray.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkPoints.h>
 
 namespace gnomon::test
@@ -55,8 +55,18 @@ vtkSmartPointer<vtkPolyData> copyOf(vtkAlgorithm* source)
   return copy;
 }
 
-vtkSmartPointer<vtkPolyData> meshOf(const std::vector<glm::dvec3>& points,
-  const std::vector<std::vector<vtkIdType>>& polygons, int dataType)
+vtkSmartPointer<vtkCellArray> cellsOf(const Cells& cells)
+{
+  const auto array = vtkSmartPointer<vtkCellArray>::New();
+  for (const std::vector<vtkIdType>& cell : cells)
+  {
+    array->InsertNextCell(static_cast<vtkIdType>(cell.size()), cell.data());
+  }
+  return array;
+}
+
+vtkSmartPointer<vtkPolyData> meshOf(
+  const std::vector<glm::dvec3>& points, const Cells& polygons, int dataType)
 {
   vtkNew<vtkPoints> corners;
   corners->SetDataType(dataType);
@@ -64,14 +74,9 @@ vtkSmartPointer<vtkPolyData> meshOf(const std::vector<glm::dvec3>& points,
   {
     corners->InsertNextPoint(point.x, point.y, point.z);
   }
-  vtkNew<vtkCellArray> cells;
-  for (const std::vector<vtkIdType>& polygon : polygons)
-  {
-    cells->InsertNextCell(static_cast<vtkIdType>(polygon.size()), polygon.data());
-  }
   const auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(corners);
-  mesh->SetPolys(cells);
+  mesh->SetPolys(cellsOf(polygons));
   return mesh;
 }
 
@@ -110,6 +115,14 @@ vtkSmartPointer<vtkPolyDataMapper> mapperOf(vtkPolyData* data)
   const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
   mapper->SetInputData(data);
   return mapper;
+}
+
+void clip(vtkAbstractMapper* mapper, const glm::dvec3& origin, const glm::dvec3& normal)
+{
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(origin.x, origin.y, origin.z);
+  plane->SetNormal(normal.x, normal.y, normal.z);
+  mapper->AddClippingPlane(plane);
 }
 
 vtkSmartPointer<vtkImageData> makeImage(

@@ -2,6 +2,7 @@
 
 #include <vtkActor.h>
 #include <vtkAlgorithm.h>
+#include <vtkCellArray.h>
 #include <vtkCubeSource.h>
 #include <vtkImageData.h>
 #include <vtkMapper.h>
@@ -39,9 +40,12 @@ vtkSmartPointer<vtkPlaneSource> squareOf(double extent, double z = 0.0, int cell
 vtkSmartPointer<vtkPolyData> outputOf(vtkAlgorithm* source);
 /// Return a copy of a source's data, which a test may change.
 vtkSmartPointer<vtkPolyData> copyOf(vtkAlgorithm* source);
-/// Return a mesh; polygons name their corners by number.
-vtkSmartPointer<vtkPolyData> meshOf(const std::vector<glm::dvec3>& points,
-  const std::vector<std::vector<vtkIdType>>& polygons, int dataType = VTK_FLOAT);
+/// Cells name their corners by number.
+using Cells = std::vector<std::vector<vtkIdType>>;
+vtkSmartPointer<vtkCellArray> cellsOf(const Cells& cells);
+/// Return a mesh of polygons.
+vtkSmartPointer<vtkPolyData> meshOf(
+  const std::vector<glm::dvec3>& points, const Cells& polygons, int dataType = VTK_FLOAT);
 /// Return composite data of these blocks.
 vtkSmartPointer<vtkMultiBlockDataSet> blocksOf(const std::vector<vtkDataObject*>& blocks);
 /// Replace each point of a mesh, and tell of it.
@@ -56,6 +60,9 @@ vtkSmartPointer<Actor> actorOf(vtkMapper* mapper)
   actor->SetMapper(mapper);
   return actor;
 }
+
+/// Cut off what lies behind a plane.
+void clip(vtkAbstractMapper* mapper, const glm::dvec3& origin, const glm::dvec3& normal);
 
 /// Make an image of three channels, texel by texel.
 vtkSmartPointer<vtkImageData> makeImage(

@@ -271,21 +271,19 @@ SoftError errorOf(
   const std::vector<float>& visibility, const VisibilityImages& truth, vtkLight* light)
 {
   SoftError error;
-  const std::size_t count = countPixels(truth,
+  error.meanAbsolute = meanDifferenceWhere(visibility, truth.visibility[0], 0,
     [&](std::size_t i)
     {
       if (truth.coverage[i] < 0.5f || cosineTowards(truth, i, light) <= leastCosine)
       {
         return false;
       }
-      error.meanAbsolute += std::abs(visibility[i] - truth.visibility[0][i]);
       error.spots += (visibility[i] < 0.95f && isAmong(truth, i, 1.0f)) ||
           (visibility[i] > 0.05f && isAmong(truth, i, 0.0f))
         ? 1
         : 0;
       return true;
     });
-  error.meanAbsolute /= static_cast<double>(count);
   return error;
 }
 

@@ -192,10 +192,6 @@ const Estimate estimates[] = { { "raytraced", "light_samples", 256, 0.01, true }
   { "montecarlo", "mc_filter", 5, 0.02, true, false } };
 
 using Penumbras = testing::TestWithParam<PastEdge>;
-std::ostream& operator<<(std::ostream& stream, const PastEdge& light)
-{
-  return stream << light.name;
-}
 INSTANTIATE_TEST_SUITE_P(All, Penumbras, testing::ValuesIn(pastEdges), byName);
 
 } // namespace

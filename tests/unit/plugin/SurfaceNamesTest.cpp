@@ -22,25 +22,16 @@ namespace
 /// and five corners, and a strip of four triangles, side by side.
 vtkSmartPointer<vtkPolyData> mixedCells()
 {
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
+  std::vector<glm::dvec3> points;
   for (int i = 0; i < 8; ++i)
   {
-    points->InsertNextPoint(i / 2 - 1.5, i % 2 * 2.0 - 1.0, 0.0);
+    points.emplace_back(i / 2 - 1.5, i % 2 * 2.0 - 1.0, 0.0);
   }
-  const vtkIdType tip = points->InsertNextPoint(-0.5, 1.8, 0.0);
-  data->SetPoints(points);
-  vtkNew<vtkCellArray> vertices, lines, polygons, strips;
-  vertices->InsertNextCell({ 0 });
-  lines->InsertNextCell({ 0, 1 });
-  polygons->InsertNextCell({ 0, 0, 1 });
-  polygons->InsertNextCell({ 0, 2, 3, 1 });
-  polygons->InsertNextCell({ 1, 3, tip });
-  strips->InsertNextCell({ 3, 2, 5, 4, 7, 6 });
-  data->SetVerts(vertices);
-  data->SetLines(lines);
-  data->SetPolys(polygons);
-  data->SetStrips(strips);
+  points.emplace_back(-0.5, 1.8, 0.0);
+  const auto data = meshOf(points, { { 0, 0, 1 }, { 0, 2, 3, 1 }, { 1, 3, 8 } });
+  data->SetVerts(cellsOf({ { 0 } }));
+  data->SetLines(cellsOf({ { 0, 1 } }));
+  data->SetStrips(cellsOf({ { 3, 2, 5, 4, 7, 6 } }));
   return data;
 }
 
@@ -79,10 +70,8 @@ struct SurfaceNames : PassTest
     actor->SetPosition(0.4, 0.3, 2.0);
     this->scene.renderer->AddActor(actor);
 
-    const auto partMapper = mapperOf(plane);
-    const auto part = actorOf(partMapper);
     vtkNew<vtkAssembly> assembly;
-    assembly->AddPart(part);
+    assembly->AddPart(actorOf(mapperOf(plane)));
     assembly->SetPosition(2.0, 0.0, 1.0);
     this->scene.renderer->AddViewProp(assembly);
 

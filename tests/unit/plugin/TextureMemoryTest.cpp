@@ -41,11 +41,6 @@ struct MapsOf
   /// The rest of the error; anything where that depends on which of several images has no room.
   const char* asks = "";
 };
-std::ostream& operator<<(std::ostream& stream, const MapsOf& maps)
-{
-  return stream << maps.name;
-}
-
 using MapsWithoutRoom = PassTestOf<MapsOf, TextureMemory>;
 
 constexpr const char* sixDepths =

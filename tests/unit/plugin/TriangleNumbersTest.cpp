@@ -44,16 +44,21 @@ vtkSmartPointer<vtkPolyData> makeSquares()
   return meshOf(corners, { { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 }, { 4, 6, 7 } });
 }
 
+/// Return a mapper of the squares with such numbers of a driver.
+vtkSmartPointer<GarblingMapper> garbledSquares(const char* number)
+{
+  const auto mapper = vtk::TakeSmartPointer(GarblingMapper::New());
+  mapper->number = number;
+  mapper->SetInputDataObject(makeSquares());
+  mapper->ScalarVisibilityOff();
+  return mapper;
+}
+
 struct Garbling
 {
   const char* name;
   const char* number;
 };
-
-void PrintTo(const Garbling& garbling, std::ostream* out)
-{
-  *out << garbling.name;
-}
 
 /// The squares over a floor, from straight above.
 struct TriangleNumbers : PassTestOf<Garbling>
@@ -66,11 +71,7 @@ struct TriangleNumbers : PassTestOf<Garbling>
       vtkActor* const actor = scene->add(makeSquares());
       if (scene == &this->garbled)
       {
-        vtkNew<GarblingMapper> mapper;
-        mapper->number = GetParam().number;
-        mapper->SetInputDataObject(makeSquares());
-        mapper->ScalarVisibilityOff();
-        actor->SetMapper(mapper);
+        actor->SetMapper(garbledSquares(GetParam().number));
       }
       scene->addSun({ 1.0, 0.2, -1.0 });
       scene->lookDown(3.0);
@@ -135,9 +136,7 @@ struct LateNumbers : PassTest
 {
   LateNumbers()
   {
-    this->mapper->number = "(gl_PrimitiveID + 2) % 4";
-    this->mapper->SetInputDataObject(makeSquares());
-    this->squares->SetMapper(this->mapper);
+    this->squares->SetMapper(garbledSquares("(gl_PrimitiveID + 2) % 4"));
     this->scene.addFloor(3.0);
     this->scene.addSun({ 1.0, 0.2, -1.0 });
     this->scene.lookDown(3.0);
@@ -145,7 +144,6 @@ struct LateNumbers : PassTest
   }
 
   PassScene scene{ 120, 90 };
-  vtkNew<GarblingMapper> mapper;
   vtkNew<vtkActor> squares;
 };
 
@@ -253,16 +251,13 @@ TEST_P(NumberedKinds, areSeenTheSameByGeometryShaders)
   const MatrixLook& look = matrixLooks()[GetParam() % imageBasedLook()];
   MatrixScene right(kind, look);
   MatrixScene garbled(kind, look);
-  vtkNew<GarblingMapper> mapper;
-  mapper->number = "gl_PrimitiveID ^ 1";
   for (MatrixScene* scene : { &right, &garbled })
   {
     vtkActor* const squares = scene->add(makeSquares());
     squares->SetPosition(2.0, -2.0, 0.0);
     if (scene == &garbled)
     {
-      mapper->SetInputDataObject(makeSquares());
-      squares->SetMapper(mapper);
+      squares->SetMapper(garbledSquares("gl_PrimitiveID ^ 1"));
     }
     matrixLights().front().add(*scene);
     scene->choose({ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });

@@ -3,43 +3,24 @@
 #include <cctype>
 #include <iterator>
 #include <numeric>
-#include <sstream>
 
 namespace gnomon::test
 {
 namespace
 {
 
-using VariantSettings = std::vector<std::pair<std::string, std::string>>;
-
-VariantSettings settingsOf(const Variant& variant)
-{
-  VariantSettings settings;
-  std::istringstream words(variant.text);
-  std::string word;
-  words >> word; // the technique
-  while (words >> word)
-  {
-    const std::size_t equals = word.find('=');
-    settings.emplace_back(word.substr(0, equals), word.substr(equals + 1));
-  }
-  return settings;
-}
-
+/// Return the value of a setting; empty if the variant leaves it as it is.
 std::string valueOf(const Variant& variant, const std::string& setting)
 {
-  for (const auto& [name, value] : settingsOf(variant))
-  {
-    if (name == setting)
-    {
-      return value;
-    }
-  }
-  return "";
+  const std::size_t place = variant.text.find(" " + setting + "=");
+  const std::size_t begin = place + setting.size() + 2;
+  return place == std::string::npos
+    ? ""
+    : variant.text.substr(begin, variant.text.find(' ', begin) - begin);
 }
 
-/// Depths, compared point by point or filtered, and soft shadows.
-const char* const depthVariants[] = {
+const char* const otherVariants[] = {
+  // depths, compared point by point or filtered, and soft shadows
   // maps
   "nsm fit=frame",
   "nsm fit=frame snap=off",
@@ -86,9 +67,7 @@ const char* const depthVariants[] = {
   "penumbra light_radius=0.5",
   "raytraced light_radius=0.5 light_samples=16",
   "planar light_radius=0.5 light_samples=4",
-};
-
-const char* const momentVariants[] = {
+  // moments
   "esm projection=pssm",
   "vsm fit=frame",
   "vsm projection=lispsm",
@@ -141,11 +120,6 @@ const TechniqueInfo& Variant::info() const
                            : findEstimator(estimator)->info;
 }
 
-void Variant::choose(vtkGnomonShadowPass* pass) const
-{
-  test::choose(pass, this->text.c_str());
-}
-
 void Variant::set(vtkGnomonShadowPass* pass, const char* name, const std::string& value) const
 {
   if (has(this->info(), name))
@@ -191,11 +165,7 @@ const std::vector<Variant>& variants()
     {
       result.push_back({ technique.name });
     }
-    for (const char* text : depthVariants)
-    {
-      result.push_back({ text });
-    }
-    for (const char* text : momentVariants)
+    for (const char* text : otherVariants)
     {
       result.push_back({ text });
     }

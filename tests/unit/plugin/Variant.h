@@ -13,11 +13,8 @@ struct Variant
   std::string technique() const;
   /// Return the info of the estimator that the settings choose.
   const TechniqueInfo& info() const;
-  ///@{
-  /// Set the technique and settings on the pass.
-  void choose(vtkGnomonShadowPass* pass) const;
-  void choose(PassScene& scene) const { this->choose(scene.pass); }
-  ///@}
+  /// Set the technique and settings on the scene's pass.
+  void choose(PassScene& scene) const { scene.choose(this->text.c_str()); }
   /// Set one more setting on the pass, if the technique has it.
   void set(vtkGnomonShadowPass* pass, const char* name, const std::string& value) const;
   /// Return the sizes of a map to test; only one without a map.
