@@ -87,10 +87,7 @@ ChangingProp finished(ChangingProp prop)
   }
   if (prop.mapper)
   {
-    vtkNew<vtkPlane> plane;
-    plane->SetOrigin(1.5, 0.0, 0.0);
-    plane->SetNormal(-1.0, 0.0, 0.0);
-    prop.mapper->AddClippingPlane(plane);
+    clip(prop.mapper, { 1.5, 0.0, 0.0 }, { -1.0, 0.0, 0.0 });
   }
   if (!prop.prop)
   {
@@ -164,8 +161,8 @@ ChangingProp makeBlocks(vtkRenderer*)
 
 ChangingProp makeGlyphs(vtkRenderer*)
 {
-  const auto source = squareOf(0.3 * half, 0.0, 3);
-  const vtkSmartPointer<vtkPolyData> data = grid(0.7 * half, 2);
+  const auto source = squareOf(half / 3.0, 0.0, 3);
+  const vtkSmartPointer<vtkPolyData> data = grid(2.0 / 3.0 * half, 2);
   vtkNew<vtkGlyph3DMapper> mapper;
   mapper->SetInputData(data);
   mapper->SetSourceConnection(source->GetOutputPort());
@@ -386,19 +383,26 @@ vtkLookupTable* tableOf(const ChangingProp& prop)
 
 const std::vector<PropKind>& changingProps()
 {
-  static const std::vector<PropKind> kinds = { { "wireframe", makeShown<VTK_WIREFRAME> },
-    { "culled glyphs", makeCulledGlyphs, false }, { "prop assembly", makePropAssembly },
-    { "slice", makeSlice<vtkImageSliceMapper> }, { "levels", makeLevels },
-    { "prop follower", makePropFollower }, { "blocks", makeBlocks<SharedBlocksMapper> },
-    { "pipeline", makePipeline }, { "fence", makeFence }, { "nested assembly", makeNest },
-    { "axes", makeAxes }, { "restless", makeActor<RestlessActor> }, { "lines", makeLines },
-    { "points", makeShown<VTK_POINTS> }, { "data set", makeDataSet },
-    { "parts", makeBlocks<vtkCompositePolyDataMapper> }, { "glyphs", makeGlyphs },
-    { "splats", makeSplats }, { "surface", makeShown<VTK_SURFACE> },
-    { "resliced", makeSlice<vtkImageResliceMapper>, false }, { "stack", makeStack },
-    { "follower", makeFollower }, { "level actor", makeActor<vtkLODActor>, false },
-    { "quadric actor", makeQuadricActor, false }, { "assembly", makeAssembly },
-    { "slice assembly", makeSliceAssembly }, { "follower assembly", makeFollowerAssembly, false },
+  constexpr bool isSurface = true;
+  constexpr bool isRepeatable = true;
+  static const std::vector<PropKind> kinds = { { "wireframe", makeShown<VTK_WIREFRAME>, isSurface },
+    { "culled glyphs", makeCulledGlyphs, !isSurface, !isRepeatable },
+    { "prop assembly", makePropAssembly, isSurface }, { "slice", makeSlice<vtkImageSliceMapper> },
+    { "levels", makeLevels }, { "prop follower", makePropFollower, isSurface },
+    { "blocks", makeBlocks<SharedBlocksMapper>, isSurface },
+    { "pipeline", makePipeline, isSurface }, { "fence", makeFence, isSurface },
+    { "nested assembly", makeNest, isSurface }, { "axes", makeAxes },
+    { "restless", makeActor<RestlessActor> }, { "lines", makeLines },
+    { "points", makeShown<VTK_POINTS>, isSurface }, { "data set", makeDataSet, isSurface },
+    { "parts", makeBlocks<vtkCompositePolyDataMapper>, isSurface },
+    { "glyphs", makeGlyphs, isSurface }, { "splats", makeSplats },
+    { "surface", makeShown<VTK_SURFACE>, isSurface },
+    { "resliced", makeSlice<vtkImageResliceMapper>, !isSurface, !isRepeatable },
+    { "stack", makeStack }, { "follower", makeFollower, isSurface },
+    { "level actor", makeActor<vtkLODActor>, isSurface, !isRepeatable },
+    { "quadric actor", makeQuadricActor, isSurface, !isRepeatable },
+    { "assembly", makeAssembly, isSurface }, { "slice assembly", makeSliceAssembly },
+    { "follower assembly", makeFollowerAssembly, !isSurface, !isRepeatable },
     { "text", makeText } };
   return kinds;
 }
@@ -435,12 +439,8 @@ const std::vector<PropChange>& propChanges()
         prop.actor->GetProperty()->SetPointSize(2.0);
       } },
     { "second plane", &ChangingProp::mapper,
-      [](const ChangingProp& prop)
-      {
-        vtkNew<vtkPlane> plane;
-        plane->SetOrigin(0.0, 0.5, 0.0);
-        plane->SetNormal(0.0, -1.0, 0.0);
-        prop.mapper->AddClippingPlane(plane);
+      [](const ChangingProp& prop) {
+        clip(prop.mapper, { 0.0, 0.5, 0.0 }, { 0.0, -1.0, 0.0 });
       } },
     { "table", tableOf,
       [](const ChangingProp& prop)

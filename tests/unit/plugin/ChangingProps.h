@@ -37,6 +37,9 @@ struct PropKind
   const char* name;
   /// @param renderer is in a window
   ChangingProp (*make)(vtkRenderer* renderer);
+  /// True if a surface in place of lines shows a square of half side 2 at height 1, as far as the
+  /// clipping plane x = 1.5.
+  bool isSurface = false;
   /// False if VTK chooses what it draws by the time that drawing takes, or reports errors with
   /// several renderers or without a light, or places a prop by how often it drew it.
   bool isRepeatable = true;

@@ -1,5 +1,6 @@
 // Which props cast and receive, and where their triangles are.
 
+#include "ChangingProps.h"
 #include "PassScene.h"
 
 #include "plugin/vtk_versions/SharedBlocksMapper.h"
@@ -7,10 +8,7 @@
 
 #include <vtkAssembly.h>
 #include <vtkCompositeDataDisplayAttributes.h>
-#include <vtkCompositePolyDataMapper.h>
-#include <vtkDataSetMapper.h>
 #include <vtkFollower.h>
-#include <vtkGlyph3DMapper.h>
 #include <vtkImageActor.h>
 #include <vtkImageProperty.h>
 #include <vtkLODActor.h>
@@ -20,12 +18,9 @@
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
-#include <vtkProp3DFollower.h>
 #include <vtkPropAssembly.h>
 #include <vtkQuadricLODActor.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkStripper.h>
-#include <vtkTriangleFilter.h>
 #include <vtkUnsignedCharArray.h>
 
 namespace gnomon::test
@@ -107,20 +102,6 @@ public:
 };
 vtkStandardNewMacro(QuietInteractor);
 
-/// A prop that looks like a box, or like a square if it is flat. All stand at the same place.
-struct Kind
-{
-  const char* name;
-  std::function<vtkSmartPointer<vtkProp3D>(vtkRenderer* renderer)> make;
-  bool isFlat = false;
-};
-const Box hungBox{ { -1.0, -1.0, 1.5 }, { 1.0, 1.0, 2.5 } };
-const Box flatPlace{ { -1.0, -1.0, 2.0 }, { 1.0, 1.0, 2.0 } };
-
-vtkSmartPointer<vtkPolyDataMapper> boxMapper(const glm::dvec3& off = glm::dvec3(0.0))
-{
-  return mapperOf(boxOf(hungBox.lower - off, hungBox.upper - off));
-}
 vtkSmartPointer<vtkAssembly> held(vtkProp3D* part)
 {
   const auto assembly = vtkSmartPointer<vtkAssembly>::New();
@@ -128,145 +109,69 @@ vtkSmartPointer<vtkAssembly> held(vtkProp3D* part)
   return assembly;
 }
 
-/// The box, turned by a quarter around an axis beside it, and back by its assembly.
-vtkSmartPointer<vtkAssembly> turnedTwice()
+ChangingProp raised(vtkSmartPointer<vtkProp3D> leaf, vtkSmartPointer<vtkProp> prop)
 {
-  const auto box = actorOf(boxMapper({ 0.0, 0.0, 1.0 }));
-  box->SetPosition(0.0, 2.0, 1.0);
-  const auto inner = held(box);
-  inner->RotateZ(90.0); // the box at (-2, 0)
-  const auto outer = held(inner);
-  outer->SetPosition(2.0, 0.0, 0.0);
-  return outer;
+  leaf->SetPosition(0.0, 0.0, 1.0);
+  ChangingProp changing;
+  changing.leaf = leaf;
+  changing.prop = prop;
+  return changing;
 }
 
-/// The box, and another one that is hidden.
-vtkSmartPointer<vtkActor> blocksActor()
-{
-  vtkNew<SharedBlocksMapper> mapper;
-  mapper->SetInputDataObject(blocksOf({ copyOf(boxOf(hungBox.lower, hungBox.upper)),
-    copyOf(boxOf({ 3.0, 3.0, 1.0 }, { 4.0, 4.0, 2.0 })) }));
-  vtkNew<vtkCompositeDataDisplayAttributes> attributes;
-  mapper->SetCompositeDataDisplayAttributes(attributes);
-  mapper->SetBlockVisibility(2, false); // by flat index: the tree is 0, its children 1 and 2
-  return actorOf(mapper);
-}
+/// The square that most kinds of changing props show.
+const Box shownSquare{ { -2.0, -2.0, 1.0 }, { 1.5, 2.0, 1.0 } };
 
-vtkSmartPointer<vtkActor> gridActor()
+ChangingProp makeCastingImage(vtkRenderer*)
 {
-  vtkNew<vtkImageData> grid;
-  grid->SetDimensions(2, 2, 2);
-  grid->SetSpacing(2.0, 2.0, 1.0);
-  grid->SetOrigin(-1.0, -1.0, 1.5);
-  vtkNew<vtkDataSetMapper> mapper;
-  mapper->SetInputData(grid);
-  return actorOf(mapper);
-}
-
-vtkSmartPointer<vtkActor> partsActor()
-{
-  vtkNew<vtkCompositePolyDataMapper> mapper;
-  mapper->SetInputConnection(boxOf(hungBox.lower, hungBox.upper)->GetOutputPort());
-  return actorOf(mapper);
-}
-
-vtkSmartPointer<vtkActor> stripsActor()
-{
-  vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputConnection(boxOf(hungBox.lower, hungBox.upper)->GetOutputPort());
-  vtkNew<vtkStripper> strips;
-  strips->SetInputConnection(triangles->GetOutputPort());
-  return actorOf(mapperOf(strips));
-}
-
-/// Two half boxes.
-vtkSmartPointer<vtkActor> glyphsActor()
-{
-  vtkNew<vtkGlyph3DMapper> mapper;
-  mapper->SetInputData(meshOf({ { 0.0, -0.5, 2.0 }, { 0.0, 0.5, 2.0 } }, {}));
-  mapper->SetSourceConnection(boxOf({ -1.0, -0.5, -0.5 }, { 1.0, 0.5, 0.5 })->GetOutputPort());
-  return actorOf(mapper);
-}
-
-/// A sign that faces the camera, and so lies flat under a camera that looks straight down.
-vtkSmartPointer<vtkFollower> signThatFaces(vtkRenderer* renderer)
-{
-  const auto follower = actorOf<vtkFollower>(mapperOf(squareOf(1.0)));
-  follower->SetPosition(0.0, 0.0, 2.0);
-  follower->SetCamera(renderer->GetActiveCamera());
-  return follower;
-}
-
-vtkSmartPointer<vtkProp3DFollower> propThatFaces(vtkRenderer* renderer)
-{
-  const auto follower = vtkSmartPointer<vtkProp3DFollower>::New();
-  follower->SetProp3D(actorOf(mapperOf(squareOf(1.0))));
-  follower->SetPosition(0.0, 0.0, 2.0);
-  follower->SetCamera(renderer->GetActiveCamera());
-  return follower;
-}
-
-vtkSmartPointer<vtkImageActor> imageThatCasts()
-{
-  const auto image = makeImage(5, 5, [](int, int) { return glm::dvec3(1.0); });
+  const auto image = makeImage(8, 9, [](int, int) { return glm::dvec3(1.0); });
+  image->SetOrigin(-2.0, -2.0, 0.0);
   image->SetSpacing(0.5, 0.5, 1.0);
-  image->SetOrigin(-1.0, -1.0, 2.0);
-  const auto slice = vtkSmartPointer<vtkImageActor>::New();
+  vtkNew<vtkImageActor> slice;
   slice->SetInputData(image);
   slice->GetProperty()->SetAmbient(0.0);
   slice->GetProperty()->SetDiffuse(1.0);
   vtkGnomonPropKeys::SetCasts(slice, true);
-  return slice;
+  return raised(slice.Get(), slice.Get());
+}
+template <bool isHeld>
+ChangingProp makeFollowerWithoutACamera(vtkRenderer*)
+{
+  const auto follower = actorOf<vtkFollower>(
+    mapperOf(planeOf({ -2.0, -2.0, 0.0 }, { 1.5, -2.0, 0.0 }, { -2.0, 2.0, 0.0 })));
+  return raised(follower, isHeld ? vtkSmartPointer<vtkProp>(held(held(follower))) : follower.Get());
 }
 
-constexpr bool isFlat = true;
-const Kind kinds[] = {
-  { "actor", [](vtkRenderer*) { return actorOf(boxMapper()); } },
-  { "mirrored",
-    [](vtkRenderer*)
-    {
-      const auto actor = actorOf(boxMapper({ 1.0, 0.0, 0.0 }));
-      actor->SetScale(-1.0, 1.0, 1.0);
-      actor->SetPosition(-1.0, 0.0, 0.0);
-      return actor;
-    } },
-  { "assembly", [](vtkRenderer*) { return turnedTwice(); } },
-  { "blocks", [](vtkRenderer*) { return blocksActor(); } },
-  { "dataSet", [](vtkRenderer*) { return gridActor(); } },
-  { "parts", [](vtkRenderer*) { return partsActor(); } },
-  { "strips", [](vtkRenderer*) { return stripsActor(); } },
-  { "glyphs", [](vtkRenderer*) { return glyphsActor(); } },
-  { "levels",
-    [](vtkRenderer*)
-    {
-      const auto prop = vtkSmartPointer<vtkLODProp3D>::New();
-      prop->AddLOD(boxMapper(), 0.0);
-      return prop;
-    } },
-  { "levelActor", [](vtkRenderer*) { return actorOf<vtkLODActor>(boxMapper()); } },
-  { "followerWithoutACamera", [](vtkRenderer*) { return actorOf<vtkFollower>(boxMapper()); } },
-  { "followerWithoutACameraInAssemblies",
-    [](vtkRenderer*) { return held(held(actorOf<vtkFollower>(boxMapper()))); } },
-  { "follower", signThatFaces, isFlat },
-  { "propFollower", propThatFaces, isFlat },
-  { "image", [](vtkRenderer*) { return imageThatCasts(); }, isFlat },
-};
+/// The kinds of props whose surfaces cast.
+std::vector<PropKind> castingKinds()
+{
+  std::vector<PropKind> kinds{ { "image", makeCastingImage },
+    { "follower without a camera", makeFollowerWithoutACamera<false> },
+    { "follower without a camera in assemblies", makeFollowerWithoutACamera<true> } };
+  std::copy_if(changingProps().begin(), changingProps().end(), std::back_inserter(kinds),
+    [](const PropKind& kind) { return kind.isSurface; });
+  return kinds;
+}
 
 } // namespace
 
-/// Each kind of prop casts the shadow of its box, shows it where it moves to, and receives.
+/// Each kind of prop casts the shadow of its square, shows it where it moves to, and receives.
 TEST_P(Props, ofAllKindsCastAndReceive)
 {
   const double band = 0.15; // pixels are 0.1 wide, texels less
-  for (const Kind& kind : kinds)
+  for (const PropKind& kind : castingKinds())
   {
     SCOPED_TRACE(kind.name);
-    const vtkSmartPointer<vtkProp3D> prop = kind.make(this->scene.renderer);
-    this->scene.renderer->AddViewProp(prop);
+    const ChangingProp prop = kind.make(this->scene.renderer);
+    if (prop.actor)
+    {
+      prop.actor->GetProperty()->SetRepresentationToSurface();
+      prop.actor->GetMapper()->ScalarVisibilityOff();
+    }
+    this->scene.renderer->AddViewProp(prop.prop);
     for (const double y : { 0.0, 2.0 })
     {
-      prop->AddPosition(0.0, y, 0.0);
-      Box box = kind.isFlat ? flatPlace : hungBox;
+      prop.leaf->AddPosition(0.0, y, 0.0);
+      Box box = shownSquare;
       box.lower.y += y;
       box.upper.y += y;
       const int lit = this->scene.redAt(this->scene.renderPlain(), 0.5, y);
@@ -280,11 +185,11 @@ TEST_P(Props, ofAllKindsCastAndReceive)
       const vtkSmartPointer<vtkActor> above =
         this->scene.addBox({ -4.0, y - 0.8, 5.0 }, { -2.4, y + 0.8, 5.1 });
       const Picture shaded = this->scene.render();
-      EXPECT_EQ(this->scene.redAt(shaded, -0.5, y), 0) << "its shaded top";
-      EXPECT_EQ(this->scene.redAt(shaded, 0.7, y), lit) << "its lit top";
+      EXPECT_EQ(this->scene.redAt(shaded, 0.5, y), 0) << "its shaded top";
+      EXPECT_EQ(this->scene.redAt(shaded, -1.0, y), lit) << "its lit top";
       this->scene.renderer->RemoveActor(above);
     }
-    this->scene.renderer->RemoveViewProp(prop);
+    this->scene.renderer->RemoveViewProp(prop.prop);
   }
 }
 
@@ -519,7 +424,10 @@ TEST_P(Props, castersOutsideTheViewCast)
 
 TEST_P(Props, followersTurnWithTheCamera)
 {
-  this->scene.renderer->AddViewProp(signThatFaces(this->scene.renderer));
+  const auto sign = actorOf<vtkFollower>(mapperOf(squareOf(1.0)));
+  sign->SetPosition(0.0, 0.0, 2.0);
+  sign->SetCamera(this->scene.renderer->GetActiveCamera());
+  this->scene.renderer->AddActor(sign);
   this->scene.renderer->GetActiveCamera()->Roll(45.0); // the sign's corners lie on the axes
   const Picture rolled = this->scene.render();
   this->scene.renderer->GetActiveCamera()->Roll(-45.0);
