@@ -3,16 +3,6 @@
 #include "PassScene.h"
 #include "Scene.h"
 
-#include "plugin/vtkGnomonOffScreenWindow.h"
-#include "plugin/vtkGnomonShadowPass.h"
-
-#include <vtkNew.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
-
-#include <algorithm>
-#include <string>
-
 namespace gnomon::test
 {
 
@@ -25,7 +15,7 @@ struct BuiltinPass
   vtkNew<vtkGnomonShadowPass> pass;
 
   BuiltinPass(const tool::Scene& scene, int width, int height = 0)
-    : renderer(tool::makeRenderer(scene, 1.0))
+    : renderer(tool::makeRenderer(scene, height > 0 ? static_cast<double>(width) / height : 1.0))
   {
     this->window->SetMultiSamples(0);
     this->window->SetSize(width, height > 0 ? height : width);

@@ -3,38 +3,14 @@
 
 #include "SplitScene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
 #include "shadowtech/base/Gl.h"
 
-#include <vtkActor.h>
-#include <vtkActorCollection.h>
 #include <vtkAssembly.h>
-#include <vtkCamera.h>
 #include <vtkCollectionRange.h>
 #include <vtkGlyph3DMapper.h>
-#include <vtkLight.h>
-#include <vtkLightCollection.h>
-#include <vtkObjectFactory.h>
 #include <vtkOpenGLActor.h>
-#include <vtkPlaneSource.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkSphereSource.h>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <random>
 #include <stdexcept>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 namespace gnomon::test
 {
@@ -46,69 +22,53 @@ void addSpheres(RankView& view, vtkPoints* points, double radius)
 {
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetRadius(radius);
-  sphere->SetThetaResolution(10);
-  sphere->SetPhiResolution(7);
   vtkNew<vtkGlyph3DMapper> mapper;
   mapper->SetInputData(data);
-  mapper->SetSourceConnection(sphere->GetOutputPort());
+  mapper->SetSourceConnection(ballOf(glm::dvec3(0.0), radius, 10, 7)->GetOutputPort());
   mapper->ScalingOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  view.renderer->AddActor(actor);
+  view.renderer->AddActor(actorOf(mapper));
 }
 
-/// Expects no errors but those that a test takes.
-struct SharedTest : testing::Test
+/// Give the first light an area.
+std::function<void(vtkRenderer*)> softened(const char* radius, const char* samples)
 {
-  void TearDown() override { EXPECT_EQ(this->messages_.errors().size(), this->errorsTaken_); }
-  /// Expect an error since the last call, and return it.
-  std::string takeError()
+  return [=](vtkRenderer* renderer)
   {
-    EXPECT_EQ(this->messages_.errors().size(), ++this->errorsTaken_);
-    return this->messages_.errors().empty() ? "" : this->messages_.errors().back();
-  }
-
-private:
-  tool::VtkMessages messages_;
-  std::size_t errorsTaken_ = 0;
-};
-template <typename Parameter>
-class SharedTestOf
-  : public SharedTest
-  , public testing::WithParamInterface<Parameter>
-{
-};
-
-vtkLight* firstLight(vtkRenderer* renderer)
-{
-  return vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+    set(lightOf(renderer), "light_radius", radius);
+    set(lightOf(renderer), "light_samples", samples);
+  };
 }
+
+std::string nameOf(const Distribution& distribution)
+{
+  return distribution.name;
+}
+std::string nameOf(const std::tuple<std::string, Distribution>& split)
+{
+  return std::get<0>(split) + "_" + std::get<1>(split).name;
+}
+constexpr auto byItsName = [](const auto& info) { return nameOf(info.param); };
 
 using Split = std::tuple<std::string, Distribution>;
 
-using SharedPicture = SharedTestOf<Split>;
+using SharedPicture = PassTestOf<Split>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SharedPicture,
   testing::Combine(testing::Values("bunny", "atrium", "terrain", "posts"),
-    testing::Values(blocks(), roundRobin(), random(), blocksWithGhosts())),
-  [](const testing::TestParamInfo<Split>& split)
-  { return std::get<0>(split.param) + "_" + std::get<1>(split.param).name; });
+    testing::Values(blocks, roundRobin, byChance, blocksWithGhosts)),
+  byItsName);
 
 TEST_P(SharedPicture, EqualsThatOfOneProcess)
 {
   SplitScene scene(tool::loadScene(std::get<0>(GetParam())), std::get<1>(GetParam()));
   EXPECT_GT(scene.expectSame(), 0u);
-  scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(20.0); });
+  scene.turnCamera(20.0);
   EXPECT_GT(scene.expectSame(), 0u);
   scene.change(
     [](vtkRenderer* renderer)
     {
-      vtkLight* const light = firstLight(renderer);
-      double position[3];
-      light->GetPosition(position);
-      light->SetPosition(position[0] + 0.5, position[1], position[2] + 0.7);
+      const glm::dvec3 position = glm::make_vec3(lightOf(renderer)->GetPosition());
+      lightOf(renderer)->SetPosition(position.x + 0.5, position.y, position.z + 0.7);
     });
   EXPECT_GT(scene.expectSame(), 0u);
   scene.change(
@@ -130,10 +90,10 @@ tool::Scene boxScene(const std::function<void(tool::SceneLight&)>& shape)
   return scene;
 }
 
-using SharedLights = SharedTestOf<const char*>;
+using SharedLights = PassTestOf<const char*>;
 
-INSTANTIATE_TEST_SUITE_P(Kinds, SharedLights, testing::Values("sun", "spot", "point", "area"),
-  [](const testing::TestParamInfo<const char*>& kind) { return std::string(kind.param); });
+INSTANTIATE_TEST_SUITE_P(
+  Kinds, SharedLights, testing::Values("sun", "spot", "point", "area"), byText);
 
 TEST_P(SharedLights, EqualThoseOfOneProcess)
 {
@@ -151,7 +111,7 @@ TEST_P(SharedLights, EqualThoseOfOneProcess)
                          light.settings["light_samples"] = "16";
                        }
                      }),
-    roundRobin());
+    roundRobin);
   EXPECT_GT(scene.expectSame(), 0u);
   EXPECT_EQ(scene.shared().report().lights.front().lightSamples, kind == "area" ? 16 : 1);
 }
@@ -165,7 +125,7 @@ TEST(SharedBudget, leavesMotionFewerSamples)
                        light.settings["light_radius"] = "2";
                        light.settings["light_samples"] = "16";
                      }),
-    roundRobin());
+    roundRobin);
   vtkGnomonShadowPass& pass = *scene.shared().pass;
   for (const char* const technique : { "raytraced", "auto" })
   {
@@ -175,7 +135,7 @@ TEST(SharedBudget, leavesMotionFewerSamples)
     pass.SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
     for (int frame = 0; frame < 4; ++frame)
     {
-      scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(3.0); });
+      scene.turnCamera(3.0);
       scene.shared().draw();
     }
     EXPECT_EQ(pass.GetProgress(), 1.0 / 16.0);
@@ -185,13 +145,12 @@ TEST(SharedBudget, leavesMotionFewerSamples)
   }
 }
 
-using SharedEdges = SharedTestOf<Split>;
+using SharedEdges = PassTestOf<Split>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SharedEdges,
   testing::Combine(
-    testing::Values("bunny", "posts", "props"), testing::Values(random(), blocksWithGhosts())),
-  [](const testing::TestParamInfo<Split>& split)
-  { return std::get<0>(split.param) + "_" + std::get<1>(split.param).name; });
+    testing::Values("bunny", "posts", "props"), testing::Values(byChance, blocksWithGhosts)),
+  byItsName);
 
 TEST_P(SharedEdges, EqualThoseOfOneProcess)
 {
@@ -205,7 +164,7 @@ TEST_P(SharedEdges, EqualThoseOfOneProcess)
   EXPECT_GT(scene.expectSame(), 0u);
   EXPECT_EQ(scene.mixedPixels(), 0u);
   smooth("16"); // the receivers stay
-  scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(10.0); });
+  scene.turnCamera(10.0);
   smooth("4");
   smooth("64");
 }
@@ -214,31 +173,19 @@ TEST_P(SharedEdges, EqualThoseOfOneProcess)
 tool::Scene coarseScene()
 {
   tool::Scene scene;
-  const auto add = [&](const auto& source)
+  for (const vtkSmartPointer<vtkPolyData>& surface : { outputOf(vtkNew<vtkSphereSource>()),
+         outputOf(squareOf(2.0, -0.6)), outputOf(ballOf({ 0.45, -0.35, 0.25 }, 0.12, 4, 4)) })
   {
-    source->Update();
     tool::SceneModel& model = scene.models.emplace_back();
-    model.surface = source->GetOutput();
+    model.surface = surface;
     model.property = vtkSmartPointer<vtkProperty>::New();
-  };
-  add(vtkNew<vtkSphereSource>());
-  vtkNew<vtkPlaneSource> floor;
-  floor->SetOrigin(-2.0, -2.0, -0.6);
-  floor->SetPoint1(2.0, -2.0, -0.6);
-  floor->SetPoint2(-2.0, 2.0, -0.6);
-  add(floor);
-  vtkNew<vtkSphereSource> stone;
-  stone->SetRadius(0.12);
-  stone->SetCenter(0.45, -0.35, 0.25);
-  stone->SetThetaResolution(4);
-  stone->SetPhiResolution(4);
-  add(stone);
+  }
   scene.camera = { { 1.0, -2.4, 1.4 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, 35.0, {} };
   scene.lights.emplace_back().position = { 3.0, -0.5, 1.5 };
   return scene;
 }
 
-struct SharedTerminators : SharedTestOf<Distribution>
+struct SharedTerminators : PassTestOf<Distribution>
 {
   /// Expect the same pictures without and with smooth terminators, and that these differ in more
   /// than `least` pixels.
@@ -250,24 +197,18 @@ struct SharedTerminators : SharedTestOf<Distribution>
     scene.smoothTerminators(true);
     scene.expectSame();
     const std::vector<float>& smooth = scene.shared().pass->GetVisibility().visibility.front();
-    std::size_t different = 0;
-    for (std::size_t pixel = 0; pixel < smooth.size(); ++pixel)
-    {
-      different += smooth[pixel] != facets[pixel] ? 1 : 0;
-    }
-    EXPECT_GT(different, least);
+    EXPECT_GT(countDifferences(smooth, facets), least);
   }
 };
 
 INSTANTIATE_TEST_SUITE_P(Splits, SharedTerminators,
-  testing::Values(wholes(), blocks(), roundRobin(), random(), blocksWithGhosts()),
-  [](const testing::TestParamInfo<Distribution>& split) { return std::string(split.param.name); });
+  testing::Values(wholes, blocks, roundRobin, byChance, blocksWithGhosts), byItsName);
 
 TEST_P(SharedTerminators, EqualThoseOfOneProcess)
 {
   SplitScene scene(coarseScene(), GetParam());
   this->expectSmooth(scene, 50);
-  scene.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(20.0); });
+  scene.turnCamera(20.0);
   this->expectSmooth(scene, 50);
   scene.change(
     [](vtkRenderer* renderer)
@@ -280,13 +221,7 @@ TEST_P(SharedTerminators, EqualThoseOfOneProcess)
   scene.smooth("16");
   this->expectSmooth(scene, 50);
   scene.smooth("1");
-  scene.change(
-    [](vtkRenderer* renderer)
-    {
-      vtkLight* const light = firstLight(renderer);
-      vtkGnomonLightKeys::SetSetting(light, "light_radius", "4");
-      vtkGnomonLightKeys::SetSetting(light, "light_samples", "64");
-    });
+  scene.change(softened("4", "64"));
   this->expectSmooth(scene, 50);
 }
 
@@ -345,13 +280,20 @@ private:
 };
 vtkStandardNewMacro(FailingActor);
 
-struct SharedFrames : SharedTest
+struct SharedFrames : PassTest
 {
-  SplitScene scene_{ tool::loadScene("posts"), blocks() };
+  SplitScene scene_{ tool::loadScene("posts"), blocks };
   const int own_ = controller()->GetLocalProcessId();
   const int last_ = controller()->GetNumberOfProcesses() - 1;
   vtkNew<FailingActor> failing_;
 
+  /// Expect an error since the last call, and return it.
+  std::string takeError()
+  {
+    const std::string errors = this->takeErrors();
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+    return errors;
+  }
   /// Make the next frame fail in the last process.
   void failNext()
   {
@@ -379,10 +321,7 @@ struct SharedFrames : SharedTest
 
   void showOwn(bool show)
   {
-    vtkActorCollection* const actors = this->scene_.shared().renderer->GetActors();
-    vtkCollectionSimpleIterator cookie;
-    actors->InitTraversal(cookie);
-    while (vtkActor* actor = actors->GetNextActor(cookie))
+    for (vtkActor* actor : vtk::Range(this->scene_.shared().renderer->GetActors()))
     {
       actor->SetVisibility(show);
     }
@@ -476,17 +415,10 @@ TEST_F(SharedFrames, SmoothEdgesBetweenPartsOfAnAssembly)
     vtkNew<vtkAssembly> assembly;
     for (int part = 0; part < parts; ++part)
     {
-      vtkNew<vtkPlaneSource> plane;
-      plane->SetOrigin(-1.0 + 0.3 * part, -1.0, 1.0 + 0.2 * part);
-      plane->SetPoint1(0.1 + 0.3 * part, -0.9, 1.0 + 0.2 * part);
-      plane->SetPoint2(-1.1 + 0.3 * part, 0.8, 1.0 + 0.2 * part);
-      plane->Update();
+      const double x = 0.3 * part, z = 1.0 + 0.2 * part;
+      const auto plane = planeOf({ x - 1.0, -1.0, z }, { x + 0.1, -0.9, z }, { x - 1.1, 0.8, z });
       vtkNew<vtkPolyData> empty;
-      vtkNew<vtkPolyDataMapper> mapper;
-      mapper->SetInputData(has(part) ? plane->GetOutput() : empty.Get());
-      vtkNew<vtkActor> actor;
-      actor->SetMapper(mapper);
-      assembly->AddPart(actor);
+      assembly->AddPart(actorOf(mapperOf(has(part) ? outputOf(plane).Get() : empty.Get())));
     }
     view.renderer->AddViewProp(assembly);
   };
@@ -517,7 +449,7 @@ TEST_F(SharedFrames, TellAllWhyOneFailed)
 
 TEST_F(SharedFrames, RefuseDifferentLights)
 {
-  firstLight(this->scene_.shared().renderer)->SetPosition(1.0, 2.0, 10.0 + this->own_);
+  lightOf(this->scene_.shared().renderer)->SetPosition(1.0, 2.0, 10.0 + this->own_);
   this->scene_.shared().draw();
   EXPECT_EQ(this->scene_.shared().report().route, "none");
   EXPECT_THAT(this->takeError(), testing::HasSubstr("the processes have different lights"));
@@ -546,14 +478,8 @@ TEST_F(SharedFrames, TraceInPlaceOfRefusedTechniques)
 
 TEST_F(SharedFrames, HaveAllSamplesAtOnce)
 {
-  this->scene_.change(
-    [](vtkRenderer* renderer)
-    {
-      vtkLight* const light = firstLight(renderer);
-      vtkGnomonLightKeys::SetSetting(light, "light_radius", "2");
-      vtkGnomonLightKeys::SetSetting(light, "light_samples", "64");
-      vtkGnomonLightKeys::SetSetting(light, "moving_samples", "4");
-    });
+  this->scene_.change(softened("2", "64"));
+  this->scene_.change([](vtkRenderer* renderer) { set(lightOf(renderer), "moving_samples", "4"); });
   this->scene_.shared().draw();
   this->showOwn(
     this->own_ != this->last_); // one process's visibility is stale, the others' are not
@@ -569,7 +495,7 @@ TEST_F(SharedFrames, KeepVisibilityIfOneAsks)
   this->scene_.shared().pass->SetKeepVisibility(this->own_ == 0);
   this->scene_.shared().draw();
   EXPECT_FALSE(this->scene_.shared().pass->GetVisibility().visibility.empty());
-  this->scene_.change([](vtkRenderer* renderer) { firstLight(renderer)->SwitchOff(); });
+  this->scene_.change([](vtkRenderer* renderer) { lightOf(renderer)->SwitchOff(); });
   this->scene_.shared().draw();
   EXPECT_FALSE(this->scene_.shared().pass->GetVisibility().coverage.empty());
 }
@@ -582,7 +508,7 @@ TEST_F(SharedFrames, CountSurfacesOfOthers)
   // Here nothing composites: each process shows its own part, as the pass drew it.
   EXPECT_LE(this->scene_.shared().report().otherSurfaces, 2);
   this->failNext();
-  this->scene_.change([](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(5.0); });
+  this->scene_.turnCamera(5.0);
   this->scene_.shared().draw();
   this->takeError();
   this->scene_.expectSame();
@@ -619,7 +545,7 @@ TEST_F(SharedFrames, SurviveChangesByChance)
     this->scene_.change(
       [&](vtkRenderer* renderer)
       {
-        vtkLight* const light = firstLight(renderer);
+        vtkLight* const light = lightOf(renderer);
         switch (change)
         {
           case 0:
@@ -645,7 +571,7 @@ TEST_F(SharedFrames, SurviveChangesByChance)
     ASSERT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   }
   this->showOwn(true);
-  this->scene_.change([](vtkRenderer* renderer) { firstLight(renderer)->SetIntensity(1.0); });
+  this->scene_.change([](vtkRenderer* renderer) { lightOf(renderer)->SetIntensity(1.0); });
   this->scene_.expectSame();
 }
 

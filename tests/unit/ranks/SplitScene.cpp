@@ -1,24 +1,12 @@
 #include "SplitScene.h"
 
-#include <vtkActor.h>
-#include <vtkActorCollection.h>
 #include <vtkAppendPolyData.h>
-#include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkDataArray.h>
-#include <vtkFloatArray.h>
+#include <vtkCollectionRange.h>
 #include <vtkIdList.h>
-#include <vtkIdTypeArray.h>
 #include <vtkMPIController.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLVertexBufferObject.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkTriangleFilter.h>
-
-#include <algorithm>
-#include <utility>
-#include <vector>
 
 namespace gnomon::test
 {
@@ -75,51 +63,7 @@ tool::Scene withSurfaces(
   return scene;
 }
 
-} // namespace
-
-std::ostream& operator<<(std::ostream& stream, const Distribution& distribution)
-{
-  return stream << distribution.name;
-}
-
-const Distribution& blocks()
-{
-  static const Distribution value{ "blocks", blockOf };
-  return value;
-}
-
-const Distribution& roundRobin()
-{
-  static const Distribution value{ "round_robin",
-    [](vtkIdType triangle, vtkIdType, int ranks) { return static_cast<int>(triangle % ranks); } };
-  return value;
-}
-
-const Distribution& random()
-{
-  static const Distribution value{ "random",
-    [](vtkIdType triangle, vtkIdType, int ranks)
-    {
-      const auto mixed = static_cast<std::uint64_t>(triangle + 1) * 0x9e3779b97f4a7c15ull;
-      return static_cast<int>((mixed >> 33) % static_cast<std::uint64_t>(ranks));
-    } };
-  return value;
-}
-
-const Distribution& blocksWithGhosts()
-{
-  static const Distribution value{ "ghosts", blockOf, true };
-  return value;
-}
-
-const Distribution& wholes()
-{
-  static const Distribution value{ "wholes", [](vtkIdType, vtkIdType triangles, int ranks) {
-                                    return static_cast<int>(triangles / 2 % ranks);
-                                  } };
-  return value;
-}
-
+/// Return the triangles of a surface that one process has.
 vtkSmartPointer<vtkPolyData> partOf(
   vtkPolyData* surface, const Distribution& distribution, int rank, int ranks)
 {
@@ -164,34 +108,35 @@ vtkSmartPointer<vtkPolyData> partOf(
   return part;
 }
 
+} // namespace
+
+const Distribution blocks{ "blocks", blockOf };
+const Distribution roundRobin{ "round_robin",
+  [](vtkIdType triangle, vtkIdType, int ranks) { return static_cast<int>(triangle % ranks); } };
+const Distribution byChance{ "random",
+  [](vtkIdType triangle, vtkIdType, int ranks)
+  {
+    const auto mixed = static_cast<std::uint64_t>(triangle + 1) * 0x9e3779b97f4a7c15ull;
+    return static_cast<int>((mixed >> 33) % static_cast<std::uint64_t>(ranks));
+  } };
+const Distribution blocksWithGhosts{ "ghosts", blockOf, true };
+const Distribution wholes{ "wholes", [](vtkIdType, vtkIdType triangles, int ranks) {
+                            return static_cast<int>(triangles / 2 % ranks);
+                          } };
+
 RankView::RankView(const tool::Scene& scene, int width, int height)
-  : renderer(tool::makeRenderer(scene, static_cast<double>(width) / height))
+  : BuiltinPass(scene, width, height)
 {
   // VTK shifts vertices of parts that are small and far from the origin, and so rounds depths
   // otherwise than those of the whole.
-  vtkActorCollection* const actors = this->renderer->GetActors();
-  vtkCollectionSimpleIterator cookie;
-  actors->InitTraversal(cookie);
-  while (vtkActor* actor = actors->GetNextActor(cookie))
+  for (vtkActor* actor : vtk::Range(this->renderer->GetActors()))
   {
     if (auto* mapper = vtkOpenGLPolyDataMapper::SafeDownCast(actor->GetMapper()))
     {
       mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
     }
   }
-  this->window->SetMultiSamples(0);
-  this->window->SetSize(width, height);
-  this->window->AddRenderer(this->renderer);
   this->pass->SetTechnique("raytraced");
-  this->pass->KeepVisibilityOn();
-  this->pass->SmoothTerminatorsOff();
-  this->renderer->SetPass(this->pass);
-}
-
-const VisibilityImages& RankView::draw()
-{
-  this->window->Render();
-  return this->pass->GetVisibility();
 }
 
 SplitScene::SplitScene(tool::Scene scene, const Distribution& distribution, int width, int height)
@@ -223,6 +168,11 @@ void SplitScene::change(const std::function<void(vtkRenderer*)>& of)
   of(this->alone_->renderer);
 }
 
+void SplitScene::turnCamera(double degrees)
+{
+  this->change([=](vtkRenderer* renderer) { renderer->GetActiveCamera()->Azimuth(degrees); });
+}
+
 void SplitScene::smooth(const char* edgeSamples)
 {
   this->shared_->pass->SetSetting("edge_samples", edgeSamples);
@@ -240,8 +190,7 @@ std::size_t SplitScene::mixedPixels() const
   std::size_t mixed = 0;
   for (const std::vector<float>& visibility : this->shared_->pass->GetVisibility().visibility)
   {
-    mixed += static_cast<std::size_t>(std::count_if(
-      visibility.begin(), visibility.end(), [](float v) { return v > 0.0f && v < 1.0f; }));
+    mixed += countBetween(visibility);
   }
   return mixed;
 }
@@ -256,12 +205,8 @@ std::size_t SplitScene::expectSame()
   const auto isSameReceiver = [&](std::size_t pixel)
   {
     return shared.coverage[pixel] == alone.coverage[pixel] &&
-      shared.positionX[pixel] == alone.positionX[pixel] &&
-      shared.positionY[pixel] == alone.positionY[pixel] &&
-      shared.positionZ[pixel] == alone.positionZ[pixel] &&
-      shared.normalX[pixel] == alone.normalX[pixel] &&
-      shared.normalY[pixel] == alone.normalY[pixel] &&
-      shared.normalZ[pixel] == alone.normalZ[pixel];
+      (shared.coverage[pixel] == 0.0f || positionOf(shared, pixel) == positionOf(alone, pixel)) &&
+      normalOf(shared, pixel) == normalOf(alone, pixel);
   };
   std::int64_t otherReceivers = 0;
   std::size_t wrong = 0;

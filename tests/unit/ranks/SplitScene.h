@@ -1,26 +1,8 @@
 #pragma once
 
-#include "Scene.h"
-#include "VtkMessages.h"
-
-#include "plugin/vtkGnomonOffScreenWindow.h"
-#include "plugin/vtkGnomonShadowPass.h"
-#include "plugin/vtkGnomonVisibilityImages.h"
-#include "shadowtech/base/vtkGnomonFrameReport.h"
+#include "BuiltinPass.h"
 
 #include <vtkMultiProcessController.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
-
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <functional>
-#include <memory>
-#include <ostream>
-#include <string>
 
 namespace gnomon::test
 {
@@ -32,29 +14,16 @@ struct Distribution
   std::function<int(vtkIdType triangle, vtkIdType triangles, int ranks)> rankOf;
   bool hasGhosts = false; ///< each process also has the first triangles of the next one's
 };
-std::ostream& operator<<(std::ostream& stream, const Distribution& distribution);
+///@{
 /// Blocks, in turns, and by chance.
-const Distribution& blocks();
-const Distribution& roundRobin();
-const Distribution& random();
-const Distribution& blocksWithGhosts();
+extern const Distribution blocks, roundRobin, byChance, blocksWithGhosts;
+///@}
 /// Whole surfaces, by the number of their triangles.
-const Distribution& wholes();
+extern const Distribution wholes;
 
-/// Return the triangles of a surface that one process has.
-vtkSmartPointer<vtkPolyData> partOf(
-  vtkPolyData* surface, const Distribution& distribution, int rank, int ranks);
-
-/// A view with a pass that keeps visibility.
-struct RankView
+struct RankView : BuiltinPass
 {
-  vtkSmartPointer<vtkRenderer> renderer;
-  vtkSmartPointer<vtkOpenGLRenderWindow> window = makeOffScreenWindow();
-  vtkNew<vtkGnomonShadowPass> pass;
-
   RankView(const tool::Scene& scene, int width, int height);
-  const VisibilityImages& draw();
-  const FrameReport& report() const { return this->pass->GetReport(); }
 };
 
 /// A scene in two views: one shows this process's part under a pass that shares the picture with
@@ -67,6 +36,7 @@ public:
 
   /// Call a function for both views.
   void change(const std::function<void(vtkRenderer*)>& of);
+  void turnCamera(double degrees);
 
   /// Set the samples of edge pixels in both views.
   void smooth(const char* edgeSamples);
