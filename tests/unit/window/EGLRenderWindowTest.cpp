@@ -33,6 +33,7 @@
 
 using gnomon::test::drawn;
 using gnomon::test::makeSphereScene;
+using gnomon::test::Picture;
 using gnomon::test::readPicture;
 using testing::HasSubstr;
 
@@ -73,7 +74,7 @@ struct EGLRenderWindow : testing::Test
   vtkNew<CapturedOutput> output;
 };
 
-vtkSmartPointer<vtkGnomonEGLRenderWindow> makeWindow(int width, int height)
+vtkSmartPointer<vtkGnomonEGLRenderWindow> makeWindow(int width = 64, int height = 48)
 {
   auto window = vtkSmartPointer<vtkGnomonEGLRenderWindow>::New();
   window->SetSize(width, height);
@@ -81,21 +82,30 @@ vtkSmartPointer<vtkGnomonEGLRenderWindow> makeWindow(int width, int height)
   return window;
 }
 
-std::size_t countColours(const std::vector<unsigned char>& picture)
+/// Return the version of OpenGL, 45 for 4.5.
+int versionOf(vtkGnomonEGLRenderWindow* window)
 {
-  std::set<std::array<unsigned char, 3>> colours;
-  for (std::size_t i = 0; i + 2 < picture.size(); i += 3)
-  {
-    colours.insert({ picture[i], picture[i + 1], picture[i + 2] });
-  }
-  return colours.size();
+  int major = 0;
+  int minor = 0;
+  window->GetOpenGLVersion(major, minor);
+  return 10 * major + minor;
 }
 
-std::array<int, 3> pixelAt(const std::vector<unsigned char>& picture, int width, int x, int y)
+std::string printed(vtkObject* object)
 {
-  const std::size_t first = 3 *
-    (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
-  return { picture[first], picture[first + 1], picture[first + 2] };
+  std::ostringstream text;
+  object->Print(text);
+  return text.str();
+}
+
+std::size_t countColours(const Picture& picture)
+{
+  std::set<std::array<unsigned char, 3>> colours;
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+  {
+    colours.insert({ picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2] });
+  }
+  return colours.size();
 }
 
 std::ptrdiff_t countErrors(const std::string& text)
@@ -109,7 +119,7 @@ std::ptrdiff_t countErrors(const std::string& text)
   return count;
 }
 
-const std::array<int, 3> background{ 51, 102, 153 };
+const glm::ivec3 background(51, 102, 153);
 
 } // namespace
 
@@ -118,9 +128,9 @@ TEST_F(EGLRenderWindow, drawsWithoutADisplayAndWithoutAWord)
   ASSERT_EQ(std::getenv("DISPLAY"), nullptr);
   const auto window = makeWindow(160, 120);
   const auto picture = drawn(window);
-  ASSERT_EQ(picture.size(), 3u * 160 * 120);
-  EXPECT_EQ(pixelAt(picture, 160, 2, 117), background);
-  const auto sphere = pixelAt(picture, 160, 80, 60);
+  ASSERT_EQ(picture.rgb.size(), 3u * 160 * 120);
+  EXPECT_EQ(picture.at(2, 117), background);
+  const auto sphere = picture.at(80, 60);
   EXPECT_GT(sphere[0], sphere[1] + 40);   // the sphere is red
   EXPECT_GT(countColours(picture), 100u); // and shaded
 }
@@ -130,7 +140,7 @@ TEST_F(EGLRenderWindow, isAsLargeAsVtksWindowsByDefault)
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->AddRenderer(makeSphereScene());
   const auto picture = drawn(window);
-  ASSERT_EQ(picture.size(), 3u * 300 * 300);
+  ASSERT_EQ(picture.rgb.size(), 3u * 300 * 300);
   EXPECT_GT(countColours(picture), 50u);
 }
 
@@ -140,10 +150,7 @@ TEST_F(EGLRenderWindow, asksForOpenGL45AndTellsWhatItGot)
   EXPECT_EQ(window->GetContextVersion()[0], 4);
   EXPECT_EQ(window->GetContextVersion()[1], 5);
   window->Initialize();
-  int major = 0;
-  int minor = 0;
-  window->GetOpenGLVersion(major, minor);
-  EXPECT_GE(10 * major + minor, 45);
+  EXPECT_GE(versionOf(window), 45);
   EXPECT_THAT(window->ReportCapabilities(), HasSubstr("OpenGL version string:"));
   EXPECT_GT(window->GetMaximumHardwareLineWidth(), 0.0f);
   EXPECT_EQ(window->SupportsOpenGL(), 1);
@@ -160,7 +167,7 @@ TEST_F(EGLRenderWindow, clippingPlanesArePlacedBetweenFramesAsBeforeTheFirst)
     const double* range = renderer->GetActiveCamera()->GetClippingRange();
     return std::array<double, 2>{ { range[0], range[1] } };
   };
-  const auto window = makeWindow(64, 48);
+  const auto window = makeWindow();
   vtkNew<vtkRenderer> before;
   before->SetActiveCamera(window->GetRenderers()->GetFirstRenderer()->GetActiveCamera());
   window->AddRenderer(before);
@@ -180,15 +187,12 @@ TEST_F(EGLRenderWindow, clippingPlanesArePlacedBetweenFramesAsBeforeTheFirst)
 
 TEST_F(EGLRenderWindow, twoWindowsAlternate)
 {
-  const auto first = makeWindow(64, 48);
+  const auto first = makeWindow();
   const auto second = makeWindow(80, 60);
   const auto firstPicture = drawn(first);
   second->Render();
   EXPECT_FALSE(second->IsCurrent()) << "pictures leave no context behind";
-  int major = 0;
-  int minor = 0;
-  second->GetOpenGLVersion(major, minor);
-  EXPECT_GE(major, 3);
+  EXPECT_GE(versionOf(second), 30);
   second->WaitForCompletion();
   EXPECT_FALSE(first->IsCurrent());
   first->MakeCurrent();
@@ -208,10 +212,10 @@ TEST_F(EGLRenderWindow, twoWindowsAlternate)
 
 TEST_F(EGLRenderWindow, oneWindowGoesAndTheOtherDrawsOn)
 {
-  const auto staying = makeWindow(64, 48);
+  const auto staying = makeWindow();
   const auto picture = drawn(staying);
   {
-    const auto going = makeWindow(64, 48);
+    const auto going = makeWindow();
     going->Render();
     staying->MakeCurrent();
   }
@@ -225,13 +229,11 @@ TEST_F(EGLRenderWindow, followsItsSize)
   window->Render();
   window->SetSize(200, 50);
   const auto wide = drawn(window);
-  ASSERT_EQ(wide.size(), 3u * 200 * 50);
+  ASSERT_EQ(wide.rgb.size(), 3u * 200 * 50);
   window->SetSize(100, 100);
   window->Render();
 
-  const auto fresh = makeWindow(200, 50);
-  fresh->Render();
-  EXPECT_EQ(wide, readPicture(fresh));
+  EXPECT_EQ(wide, drawn(makeWindow(200, 50)));
 }
 
 TEST_F(EGLRenderWindow, multisamplingIsOffUntilAskedFor)
@@ -241,13 +243,13 @@ TEST_F(EGLRenderWindow, multisamplingIsOffUntilAskedFor)
   const auto aliased = drawn(window);
   window->SetMultiSamples(4);
   const auto smooth = drawn(window);
-  EXPECT_NE(smooth, aliased);
+  EXPECT_FALSE(smooth == aliased);
   EXPECT_GT(countColours(smooth), countColours(aliased)); // edges mix colours
 }
 
 TEST_F(EGLRenderWindow, startsAgainAfterFinalize)
 {
-  const auto window = makeWindow(64, 48);
+  const auto window = makeWindow();
   window->Finalize(); // before there is anything
   const auto picture = drawn(window);
   window->Finalize();
@@ -260,7 +262,7 @@ TEST_F(EGLRenderWindow, startsAgainAfterFinalize)
 TEST_F(EGLRenderWindow, aRendererOutlivesItsWindow)
 {
   const auto renderer = makeSphereScene();
-  std::vector<unsigned char> picture;
+  Picture picture;
   for (int i = 0; i < 2; ++i)
   {
     vtkNew<vtkGnomonEGLRenderWindow> window;
@@ -278,23 +280,22 @@ TEST_F(EGLRenderWindow, aRendererOutlivesItsWindow)
 
 TEST_F(EGLRenderWindow, everyListedDeviceCanBeAskedFor)
 {
-  const auto reference = makeWindow(64, 48);
-  reference->Render();
+  const std::size_t bytes = drawn(makeWindow()).rgb.size();
   vtkNew<vtkGnomonEGLRenderWindow> window;
   EXPECT_EQ(window->GetDeviceIndex(), -1);
   ASSERT_GE(window->GetNumberOfDevices(), 1);
   for (int i = 0; i < window->GetNumberOfDevices(); ++i)
   {
-    const auto onDevice = makeWindow(64, 48);
+    const auto onDevice = makeWindow();
     onDevice->SetDeviceIndex(i);
-    EXPECT_EQ(drawn(onDevice).size(), readPicture(reference).size());
+    EXPECT_EQ(drawn(onDevice).rgb.size(), bytes);
     EXPECT_GT(countColours(readPicture(onDevice)), 50u);
   }
 }
 
 TEST_F(EGLRenderWindow, aDeviceThatIsNotThereIsAnErrorAndNoCrash)
 {
-  const auto window = makeWindow(64, 48);
+  const auto window = makeWindow();
   window->SetDeviceIndex(99);
   window->Render();
   EXPECT_THAT(this->takeErrors(), HasSubstr("EGL device 99 was asked for, but EGL lists"));
@@ -333,7 +334,7 @@ TEST_F(EGLRenderWindow, interactorsDrawAndOnlyXsIsAnError)
     for (const char* kind : { "vtkXRenderWindowInteractor", "vtkGenericRenderWindowInteractor" })
     {
       SCOPED_TRACE(std::string(kind) + (isDrawn ? ", drawn before" : ""));
-      const auto window = makeWindow(64, 48);
+      const auto window = makeWindow();
       if (isDrawn)
       {
         window->Render();
@@ -359,7 +360,7 @@ TEST_F(EGLRenderWindow, interactorsDrawAndOnlyXsIsAnError)
 
 TEST_F(EGLRenderWindow, callsOnASecondThreadAreOneErrorUntilTheFirstReleasesTheContext)
 {
-  const auto window = makeWindow(64, 48);
+  const auto window = makeWindow();
   const auto picture = drawn(window);
   vtkNew<vtkFloatArray> depths;
   int bits[4];
@@ -394,7 +395,7 @@ TEST_F(EGLRenderWindow, callsOnASecondThreadAreOneErrorUntilTheFirstReleasesTheC
 
 TEST_F(EGLRenderWindow, saysOneErrorInAForkedProcess)
 {
-  const auto window = makeWindow(64, 48);
+  const auto window = makeWindow();
   const auto picture = drawn(window);
   for (const bool isNew : { false, true })
   {
@@ -402,7 +403,7 @@ TEST_F(EGLRenderWindow, saysOneErrorInAForkedProcess)
     if (child == 0)
     {
       this->takeErrors();
-      const auto drawn = isNew ? makeWindow(64, 48) : window;
+      const auto drawn = isNew ? makeWindow() : window;
       drawn->Render();
       drawn->Render();
       const std::string errors = this->takeErrors();
@@ -447,11 +448,9 @@ TEST_F(EGLRenderWindow, printsWhatItStandsOn)
 {
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->Initialize();
-  std::ostringstream text;
-  window->Print(text);
-  EXPECT_THAT(text.str(), HasSubstr("ContextVersion: 4.5"));
-  EXPECT_THAT(text.str(), HasSubstr("DeviceIndex: -1"));
-  EXPECT_THAT(text.str(), HasSubstr("Context: EGL "));
+  EXPECT_THAT(printed(window),
+    testing::AllOf(
+      HasSubstr("ContextVersion: 4.5"), HasSubstr("DeviceIndex: -1"), HasSubstr("Context: EGL ")));
 }
 
 // The tests below need an environment of their own, which their registration with CTest sets.
@@ -459,7 +458,7 @@ TEST_F(EGLRenderWindow, printsWhatItStandsOn)
 using EGLRenderWindowWithoutEgl = EGLRenderWindow;
 TEST_F(EGLRenderWindowWithoutEgl, saysWhatWasTriedAndDrawsNothing)
 {
-  const auto window = makeWindow(64, 48);
+  const auto window = makeWindow();
   window->Render();
   const std::string errors = this->takeErrors();
   EXPECT_THAT(errors, HasSubstr("No OpenGL context without a display could be made"));
@@ -470,14 +469,10 @@ TEST_F(EGLRenderWindowWithoutEgl, saysWhatWasTriedAndDrawsNothing)
 using EGLRenderWindowOnOldOpenGL = EGLRenderWindow;
 TEST_F(EGLRenderWindowOnOldOpenGL, fallsBackToTheVersionThatIsThere)
 {
-  const auto window = makeWindow(64, 48);
+  const auto window = makeWindow();
   window->GetRenderers()->GetFirstRenderer()->SetPass(nullptr); // shadows need 4.3, the window 3.2
   window->Render();
-  int major = 0;
-  int minor = 0;
-  window->GetOpenGLVersion(major, minor);
-  EXPECT_EQ(major, 3);
-  EXPECT_EQ(minor, 3);
+  EXPECT_EQ(versionOf(window), 33);
   EXPECT_GT(countColours(readPicture(window)), 50u);
 }
 
@@ -487,9 +482,7 @@ TEST_F(EGLRenderWindowDeviceVariable, picksTheDevice)
   vtkNew<vtkGnomonEGLRenderWindow> window;
   EXPECT_EQ(window->GetDeviceIndex(), 0);
   window->Initialize();
-  std::ostringstream text;
-  window->Print(text);
-  EXPECT_THAT(text.str(), HasSubstr("Context: EGL device 0"));
+  EXPECT_THAT(printed(window), HasSubstr("Context: EGL device 0"));
 }
 
 using EGLRenderWindowBadDeviceVariable = EGLRenderWindow;

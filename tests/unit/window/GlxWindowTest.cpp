@@ -26,7 +26,7 @@ using gnomon::test::readPicture;
 namespace
 {
 
-std::vector<unsigned char> draw(vtkRenderWindow* window)
+gnomon::test::Picture draw(vtkRenderWindow* window)
 {
   window->SetMultiSamples(0);
   window->SetSize(320, 240);
@@ -95,7 +95,7 @@ TEST(GlxWindow, itsInteractorIsHarmlessAtTheWindowWithoutADisplay)
   interactor->SetRenderWindow(window);
   interactor->Initialize();
   interactor->Start();
-  EXPECT_FALSE(draw(window).empty());
+  EXPECT_FALSE(draw(window).rgb.empty());
 }
 
 // On the screen, and then through the window that QVTKOpenGLNativeWidget and other toolkits'

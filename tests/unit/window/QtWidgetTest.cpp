@@ -26,6 +26,7 @@
 
 using gnomon::test::drawn;
 using gnomon::test::makeSphereScene;
+using gnomon::test::Picture;
 
 namespace
 {
@@ -43,24 +44,23 @@ void processEvents()
   }
 }
 
-/// Read the picture of a widget, three bytes per pixel, bottom row first.
-std::vector<unsigned char> readPicture(QVTKOpenGLNativeWidget& widget)
+Picture readPicture(QVTKOpenGLNativeWidget& widget)
 {
   const QImage image = widget.grabFramebuffer().convertToFormat(QImage::Format_RGB888);
-  std::vector<unsigned char> picture;
+  Picture picture{ image.width(), image.height(), {} };
   for (int y = image.height() - 1; y >= 0; --y) // Qt's first row is the top one
   {
-    picture.insert(picture.end(), image.scanLine(y), image.scanLine(y) + 3 * image.width());
+    picture.rgb.insert(picture.rgb.end(), image.scanLine(y), image.scanLine(y) + 3 * image.width());
   }
   return picture;
 }
 
-std::size_t countColours(const std::vector<unsigned char>& picture)
+std::size_t countColours(const Picture& picture)
 {
-  return std::set<unsigned char>(picture.begin(), picture.end()).size();
+  return std::set<unsigned char>(picture.rgb.begin(), picture.rgb.end()).size();
 }
 
-std::vector<unsigned char> drawWithoutDisplay()
+Picture drawWithoutDisplay()
 {
   const auto window = gnomon::makeOffScreenWindow();
   window->SetSize(width, height);
@@ -95,13 +95,13 @@ TEST(QtWidget, showsTheSameBytesAsTheWindowWithoutADisplay)
   const auto shadowed = readPicture(widget);
   auto* pass = vtkGnomonShadowPass::SafeDownCast(renderer->GetPass());
   EXPECT_EQ(pass->GetReport().route, "deferred") << pass->GetReport().routeReason;
-  EXPECT_EQ(shadowed.size(), expected.size());
+  EXPECT_EQ(shadowed.rgb.size(), expected.rgb.size());
   EXPECT_TRUE(shadowed == expected);
 
   // Resized, and without the pass: Qt makes another framebuffer.
   widget.resize(width / 2, height);
   processEvents();
-  EXPECT_EQ(readPicture(widget).size(), expected.size() / 2);
+  EXPECT_EQ(readPicture(widget).rgb.size(), expected.rgb.size() / 2);
   widget.resize(width, height);
   processEvents();
   EXPECT_TRUE(readPicture(widget) == expected);

@@ -1,21 +1,16 @@
 #pragma once
 
+#include "plugin/Picture.h"
+#include "plugin/Shapes.h"
+
 #include "vtkGnomonShadowPass.h"
 
-#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
-#include <vtkSphereSource.h>
-#include <vtkUnsignedCharArray.h>
-
-#include <vector>
 
 namespace gnomon::test
 {
@@ -26,22 +21,12 @@ inline vtkSmartPointer<vtkRenderer> makeSphereScene()
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
   const auto add = [&](vtkAlgorithm* source, double red, double green, double blue)
   {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(source->GetOutputPort());
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
+    const auto actor = actorOf(mapperOf(source));
     actor->GetProperty()->SetColor(red, green, blue);
     renderer->AddActor(actor);
   };
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetThetaResolution(48);
-  sphere->SetPhiResolution(24);
-  add(sphere, 0.9, 0.4, 0.2);
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-2, -2, -0.6);
-  plane->SetPoint1(2, -2, -0.6);
-  plane->SetPoint2(-2, 2, -0.6);
-  add(plane, 0.8, 0.8, 0.8);
+  add(ballOf(glm::dvec3(0.0), 0.5, 48, 24), 0.9, 0.4, 0.2);
+  add(squareOf(2.0, -0.6), 0.8, 0.8, 0.8);
 
   vtkNew<vtkLight> light;
   light->SetPosition(1, -1, 3);
@@ -57,18 +42,8 @@ inline vtkSmartPointer<vtkRenderer> makeSphereScene()
   return renderer;
 }
 
-/// The window's picture, three bytes per pixel, bottom row first.
-inline std::vector<unsigned char> readPicture(vtkRenderWindow* window)
-{
-  vtkNew<vtkUnsignedCharArray> pixels;
-  const int* size = window->GetSize();
-  window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 1, pixels);
-  const unsigned char* first = pixels->GetPointer(0);
-  return { first, first + pixels->GetNumberOfValues() };
-}
-
 /// Draw a frame and return its picture.
-inline std::vector<unsigned char> drawn(vtkRenderWindow* window)
+inline Picture drawn(vtkRenderWindow* window)
 {
   window->Render();
   return readPicture(window);
