@@ -11,11 +11,6 @@ namespace
 /// From a receiver towards the light; zero where the light does not shine.
 using ToLight = std::function<glm::dvec3(const glm::dvec3&)>;
 
-ToLight towardsSun(const glm::dvec3& toLight)
-{
-  return [=](const glm::dvec3&) { return toLight; };
-}
-
 ToLight towardsLamp(const glm::dvec3& light)
 {
   return [=](const glm::dvec3& point) { return light - point; };
@@ -39,21 +34,40 @@ struct LitScenes : PassTestOf<Variant>
     GetParam().set(scene.pass, "variance_floor", "1e-9");
   }
 
+  /// Do something with maps of each of the sizes that the technique takes for these.
+  template <typename Action>
+  static void withMaps(PassScene& scene, const std::vector<int>& sizes, const Action& action)
+  {
+    for (const int mapSize : GetParam().mapSizes(sizes))
+    {
+      SCOPED_TRACE("map " + std::to_string(mapSize));
+      GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
+      action(mapSize);
+    }
+  }
+
   static void expectLit(PassScene& scene, const ToLight& toLight, std::size_t facing,
-    const OfMoments& ofMoments, const std::string& where, double leastCosine = 0.0,
-    float least = 1.0f)
+    const OfMoments& ofMoments, double leastCosine = 0.0, float least = 1.0f)
   {
     const Acne acne = countAcne(drawKept(scene), toLight, leastCosine);
-    EXPECT_GT(acne.facing, facing) << where;
+    EXPECT_GT(acne.facing, facing);
     if (GetParam().isMoments())
     {
-      EXPECT_GE(acne.mean, ofMoments.mean) << where << ", least " << acne.least;
-      EXPECT_GE(acne.least, ofMoments.least) << where << ", mean " << acne.mean;
+      EXPECT_GE(acne.mean, ofMoments.mean) << "least " << acne.least;
+      EXPECT_GE(acne.least, ofMoments.least) << "mean " << acne.mean;
     }
     else
     {
-      EXPECT_GE(acne.least, least) << where << ", " << acne.dark << " are dark";
+      EXPECT_GE(acne.least, least) << acne.dark << " are dark";
     }
+  }
+  static void expectLitBySun(PassScene& scene, const glm::dvec3& toLight, std::size_t facing,
+    const OfMoments& ofMoments, double leastCosine = 0.0)
+  {
+    SCOPED_TRACE(testing::PrintToString(std::vector{ toLight.x, toLight.y, toLight.z }));
+    aim(lightOf(scene.renderer), toLight);
+    expectLit(
+      scene, [=](const glm::dvec3&) { return toLight; }, facing, ofMoments, leastCosine);
   }
 };
 
@@ -92,36 +106,24 @@ glm::dvec3 slantingBy(double degrees, double turnDegrees)
   return { std::cos(turn) * std::sin(angle), std::sin(turn) * std::sin(angle), std::cos(angle) };
 }
 
-std::string textOf(const glm::dvec3& vector)
-{
-  return std::to_string(vector.x) + " " + std::to_string(vector.y) + " " + std::to_string(vector.z);
-}
-
-void placeSun(vtkLight* sun, const glm::dvec3& toLight)
-{
-  sun->SetPosition(toLight.x, toLight.y, toLight.z);
-}
-
 } // namespace
 
 TEST_BY_VARIANTS(LitScenes, PlaneUnderTheSun, isForAll)
 {
   PassScene scene(200, 200);
   scene.addFloor(4.0);
-  vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
+  scene.addSun({ 0.0, 0.0, -1.0 });
   this->chooseWithoutFloor(scene);
   scene.lookFrom({ 1.0, -7.0, 6.0 });
-  for (const int mapSize : GetParam().mapSizes({ 64, 1024 }))
-  {
-    GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
-    for (const double degrees : { 0.0, 0.01, 5.0, 60.0, 85.0, 88.0, 89.0 })
+  this->withMaps(scene, { 64, 1024 },
+    [&](int)
     {
-      const glm::dvec3 toLight = slantingBy(degrees, 36.87); // texels are not aligned with edges
-      placeSun(sun, toLight);
-      this->expectLit(scene, towardsSun(toLight), 10000, { 0.999, 0.9 },
-        std::to_string(degrees) + " degrees, map " + std::to_string(mapSize));
-    }
-  }
+      for (const double degrees : { 0.0, 0.01, 5.0, 60.0, 85.0, 88.0, 89.0 })
+      {
+        // Texels are not aligned with edges.
+        this->expectLitBySun(scene, slantingBy(degrees, 36.87), 10000, { 0.999, 0.9 });
+      }
+    });
 }
 
 /// A plane seen along itself from its near end, where views are strongly warped.
@@ -129,7 +131,7 @@ TEST_BY_VARIANTS(LitScenes, LongPlane, isForAll)
 {
   PassScene scene(150, 150);
   scene.addFloor(100.0);
-  vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
+  scene.addSun({ 0.0, 0.0, -1.0 });
   this->chooseWithoutFloor(scene);
   scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 0.0 });
   // A warp makes the plane's depths a hyperbola, whose mean may lie before the receiver. For a
@@ -138,20 +140,16 @@ TEST_BY_VARIANTS(LitScenes, LongPlane, isForAll)
   const double mean = GetParam().hasSetting("kernel_size=16") ? 0.985
     : GetParam().hasSetting("blur=sat")                       ? 0.998
                                                               : 0.999;
-  for (const int mapSize : GetParam().mapSizes({ 64, 256 }))
-  {
-    GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
-    for (const auto& [degrees, turn] :
-      { std::pair(5.0, 10.0), { 5.0, 190.0 }, { 60.0, 80.0 }, { 60.0, 260.0 }, { 85.0, 10.0 },
-        { 85.0, 80.0 }, { 85.0, 190.0 }, { 85.0, 260.0 }, { 89.0, 10.0 }, { 89.0, 260.0 } })
+  this->withMaps(scene, { 64, 256 },
+    [&](int)
     {
-      const glm::dvec3 toLight = slantingBy(degrees, turn);
-      placeSun(sun, toLight);
-      this->expectLit(scene, towardsSun(toLight), 5000, { mean, 0.0 },
-        std::to_string(degrees) + " degrees, turned by " + std::to_string(turn) + ", map " +
-          std::to_string(mapSize));
-    }
-  }
+      for (const auto& [degrees, turn] :
+        { std::pair(5.0, 10.0), { 5.0, 190.0 }, { 60.0, 80.0 }, { 60.0, 260.0 }, { 85.0, 10.0 },
+          { 85.0, 80.0 }, { 85.0, 190.0 }, { 85.0, 260.0 }, { 89.0, 10.0 }, { 89.0, 260.0 } })
+      {
+        this->expectLitBySun(scene, slantingBy(degrees, turn), 5000, { mean, 0.0 });
+      }
+    });
 }
 
 /// Receivers are rounded by parts of a texel, and the map's levels are coarse.
@@ -159,7 +157,7 @@ TEST_BY_VARIANTS(LitScenes, PlaneFromFarAway, isForAll)
 {
   PassScene scene(150, 150);
   scene.addFloor(4.0);
-  vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
+  scene.addSun({ 0.0, 0.0, -1.0 });
   this->chooseWithoutFloor(scene);
   for (const double times : { 4.0, 16.0, 100.0 })
   {
@@ -168,15 +166,13 @@ TEST_BY_VARIANTS(LitScenes, PlaneFromFarAway, isForAll)
     {
       continue; // coarse levels of the map
     }
+    SCOPED_TRACE(times);
     scene.lookFrom(times * glm::dvec3(1.0, -7.0, 6.0));
     scene.renderer->GetActiveCamera()->SetViewAngle(isNarrow ? 60.0 / times : 30.0);
     scene.renderer->ResetCameraClippingRange();
     for (const double degrees : { 0.0, 30.0, 85.0 })
     {
-      const glm::dvec3 toLight = slantingBy(degrees, 36.87);
-      placeSun(sun, toLight);
-      this->expectLit(scene, towardsSun(toLight), isNarrow ? 5000 : 10, { 0.999, 0.0 },
-        std::to_string(times) + " times as far, " + std::to_string(degrees) + " degrees");
+      this->expectLitBySun(scene, slantingBy(degrees, 36.87), isNarrow ? 5000 : 10, { 0.999, 0.0 });
     }
   }
 }
@@ -191,30 +187,29 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderASpotLight, hasPlainKernel)
   for (const double cone : { 50.0, GetParam().takesCubes() ? 80.0 : 60.0 })
   {
     spot->SetConeAngle(cone);
-    for (const int mapSize : GetParam().mapSizes({ 64, 1024 }))
-    {
-      GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
-      for (const double height : { cone == 50.0 ? 3.0 : 1.0, cone == 50.0 ? 0.3 : 0.1 })
+    this->withMaps(scene, { 64, 1024 },
+      [&](int mapSize)
       {
-        // The visible rest of a lamp that the floor cuts loses a hundredth in single pixels.
-        const bool isCut = GetParam().technique() == "montecarlo" &&
-          GetParam().hasSetting("light_radius=0.5") && height < 0.5;
-        const glm::dvec3 light(-3.0, -2.0, height);
-        spot->SetPosition(light.x, light.y, light.z);
-        // Half a degree inside the cone, so rounding does not decide.
-        const double inside = std::cos(glm::radians(cone - 0.5));
-        const ToLight toLight = [=](const glm::dvec3& point)
+        for (const double height : { cone == 50.0 ? 3.0 : 1.0, cone == 50.0 ? 0.3 : 0.1 })
         {
-          const bool isInCone =
-            glm::dot(glm::normalize(point - light), glm::normalize(-light)) > inside;
-          return isInCone ? light - point : glm::dvec3(0.0);
-        };
-        this->expectLit(scene, toLight, 5000, { 0.99, mapSize == 64 ? 0.6 : 0.7 },
-          "cone " + std::to_string(cone) + ", height " + std::to_string(height) + ", map " +
-            std::to_string(mapSize),
-          0.0, isCut ? 0.99f : 1.0f);
-      }
-    }
+          SCOPED_TRACE(testing::Message() << "cone " << cone << ", height " << height);
+          // The visible rest of a lamp that the floor cuts loses a hundredth in single pixels.
+          const bool isCut = GetParam().technique() == "montecarlo" &&
+            GetParam().hasSetting("light_radius=0.5") && height < 0.5;
+          const glm::dvec3 light(-3.0, -2.0, height);
+          aim(spot, light);
+          // Half a degree inside the cone, so rounding does not decide.
+          const double inside = std::cos(glm::radians(cone - 0.5));
+          const ToLight toLight = [=](const glm::dvec3& point)
+          {
+            const bool isInCone =
+              glm::dot(glm::normalize(point - light), glm::normalize(-light)) > inside;
+            return isInCone ? light - point : glm::dvec3(0.0);
+          };
+          this->expectLit(
+            scene, toLight, 5000, { 0.99, mapSize == 64 ? 0.6 : 0.7 }, 0.0, isCut ? 0.99f : 1.0f);
+        }
+      });
   }
 }
 
@@ -233,19 +228,18 @@ TEST_BY_VARIANTS(LitScenes, PlaneUnderAPointLight, isForLamps)
     vtkNew<vtkTransform> turn;
     turn->RotateWXYZ(tilt, 1.0, 0.6, 0.2);
     floor->SetUserTransform(turn);
-    for (const int mapSize : GetParam().mapSizes({ 64, 1024 }))
-    {
-      GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
-      for (const double height : { tilt == 0.0 ? 8.0 : 1.0, 0.3, 0.07 })
+    this->withMaps(scene, { 64, 1024 },
+      [&](int)
       {
-        const double along[3] = { 0.1, 0.2, height };
-        const double* const point = turn->TransformDoublePoint(along);
-        lamp->SetPosition(point);
-        this->expectLit(scene, towardsLamp({ point[0], point[1], point[2] }), 5000, { 0.98, 0.6 },
-          "height " + std::to_string(height) + ", map " + std::to_string(mapSize) + ", tilted by " +
-            std::to_string(tilt));
-      }
-    }
+        for (const double height : { tilt == 0.0 ? 8.0 : 1.0, 0.3, 0.07 })
+        {
+          SCOPED_TRACE(testing::Message() << "height " << height << ", tilted by " << tilt);
+          const double along[3] = { 0.1, 0.2, height };
+          const glm::dvec3 place = glm::make_vec3(turn->TransformDoublePoint(along));
+          aim(lamp, place);
+          this->expectLit(scene, towardsLamp(place), 5000, { 0.98, 0.6 });
+        }
+      });
   }
 }
 
@@ -255,15 +249,13 @@ TEST_BY_VARIANTS(LitScenes, ConvexSphere, hasPlainKernel)
 {
   PassScene scene(300, 300);
   scene.addSphere(glm::dvec3(0.0), 1.0);
-  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.addSun({ 0.0, 0.0, -1.0 });
   this->choose(scene);
   scene.lookFrom({ -2.0, -2.0, 3.0 });
-  for (const int mapSize : GetParam().mapSizes({ 64, 256, 1024 }))
-  {
-    GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
-    this->expectLit(scene, towardsSun({ -1.0, -0.4, 1.5 }), 20000, { 0.999, 0.9 },
-      "map " + std::to_string(mapSize), 4.0 / mapSize + 0.05);
-  }
+  this->withMaps(scene, { 64, 256, 1024 },
+    [&](int mapSize) {
+      this->expectLitBySun(scene, { -1.0, -0.4, 1.5 }, 20000, { 0.999, 0.9 }, 4.0 / mapSize + 0.05);
+    });
 }
 
 /// From the box's middle, the borders of the cube's faces run along the box's edges.
@@ -275,17 +267,17 @@ TEST_BY_VARIANTS(LitScenes, InsideOfABox, isForRooms)
   this->choose(scene);
   for (const glm::dvec3& light : { glm::dvec3(0.0), { 0.7, -0.4, 0.9 }, { -1.9, 1.9, -1.9 } })
   {
+    SCOPED_TRACE(light.x);
     lamp->SetPosition(light.x, light.y, light.z);
-    for (const int mapSize : GetParam().mapSizes({ 32, 256 }))
-    {
-      GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
-      const double corner = mapSize == 32 ? 1.9 : -1.9;
-      scene.lookFrom({ corner, 0.95 * corner, corner });
-      scene.renderer->GetActiveCamera()->SetViewAngle(100.0);
-      scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 10.0);
-      this->expectLit(scene, towardsLamp(light), 39999, { 0.85, 0.0 },
-        textOf(light) + ", map " + std::to_string(mapSize));
-    }
+    this->withMaps(scene, { 32, 256 },
+      [&](int mapSize)
+      {
+        const double corner = mapSize == 32 ? 1.9 : -1.9;
+        scene.lookFrom({ corner, 0.95 * corner, corner });
+        scene.renderer->GetActiveCamera()->SetViewAngle(100.0);
+        scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 10.0);
+        this->expectLit(scene, towardsLamp(light), 39999, { 0.85, 0.0 });
+      });
   }
 }
 
@@ -303,7 +295,7 @@ TEST_BY_VARIANTS(LitScenes, Trough, isForCorners)
     stand->RotateWXYZ(90.0, side.y, -side.x, 0.0);
     scene.addFloor(2.0)->SetUserTransform(stand);
   }
-  vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
+  scene.addSun({ 0.0, 0.0, -1.0 });
   this->choose(scene);
   vtkCamera* const camera = scene.renderer->GetActiveCamera();
   for (const double distance : { 14.0, 1000.0, 10000.0 })
@@ -311,19 +303,16 @@ TEST_BY_VARIANTS(LitScenes, Trough, isForCorners)
     scene.lookFrom(distance * glm::normalize(glm::dvec3(8.0, 9.0, 7.0)));
     camera->SetViewAngle(distance > 14.0 ? 2.0 * glm::degrees(std::atan(4.0 / distance)) : 30.0);
     camera->SetClippingRange(std::max(distance - 20.0, 0.1), distance + 20.0);
-    for (const int mapSize :
-      GetParam().mapSizes({ distance == 10000.0 ? 1024 : 256, distance == 14.0 ? 64 : 1024 }))
-    {
-      GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
-      for (const glm::dvec3& toLight :
-        { glm::dvec3(1.0, 0.8, 1.0), { 0.3, 1.0, 0.1 }, { 0.1, 0.1, 1.0 } })
+    SCOPED_TRACE(distance);
+    this->withMaps(scene, { distance == 10000.0 ? 1024 : 256, distance == 14.0 ? 64 : 1024 },
+      [&](int)
       {
-        placeSun(sun, toLight);
-        this->expectLit(scene, towardsSun(toLight), 5000, {},
-          textOf(toLight) + ", map " + std::to_string(mapSize) + ", from " +
-            std::to_string(distance));
-      }
-    }
+        for (const glm::dvec3& toLight :
+          { glm::dvec3(1.0, 0.8, 1.0), { 0.3, 1.0, 0.1 }, { 0.1, 0.1, 1.0 } })
+        {
+          this->expectLitBySun(scene, toLight, 5000, {});
+        }
+      });
   }
 }
 
@@ -341,19 +330,17 @@ TEST_BY_VARIANTS(LitScenes, ValleyAcrossTheView, isForCorners)
     PassScene scene(150, 150);
     this->choose(scene);
     scene.add(land.Get());
-    vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
+    scene.addSun({ 0.0, 0.0, -1.0 });
     scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 10.0 });
-    for (const int mapSize : GetParam().mapSizes({ 64, 256 }))
-    {
-      GetParam().set(scene.pass, "map_size", std::to_string(mapSize));
-      for (const glm::dvec3& toLight :
-        { glm::dvec3(0.0, -0.3, 1.0), { 0.0, 1.0, 1.0 }, { -1.0, -0.3, 0.5 }, { 1.0, 0.2, 0.6 } })
+    SCOPED_TRACE(valley);
+    this->withMaps(scene, { 64, 256 },
+      [&](int)
       {
-        placeSun(sun, toLight);
-        this->expectLit(scene, towardsSun(toLight), 5000, {},
-          "valley at " + std::to_string(valley) + ", map " + std::to_string(mapSize) + ", " +
-            textOf(toLight));
-      }
-    }
+        for (const glm::dvec3& toLight :
+          { glm::dvec3(0.0, -0.3, 1.0), { 0.0, 1.0, 1.0 }, { -1.0, -0.3, 0.5 }, { 1.0, 0.2, 0.6 } })
+        {
+          this->expectLitBySun(scene, toLight, 5000, {});
+        }
+      });
   }
 }

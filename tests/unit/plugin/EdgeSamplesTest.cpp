@@ -69,20 +69,16 @@ public:
         2.0 * depth * std::tan(glm::radians(0.5 * camera->GetViewAngle())) / side;
       double sum = 0.0;
       int count = 0;
-      for (int y = 0; y < perSide; ++y)
+      for (std::size_t of = 0; of < perSide * perSide; ++of)
       {
-        for (int x = 0; x < perSide; ++x)
-        {
-          const std::size_t sample =
-            (i / side * perSide + static_cast<std::size_t>(y)) * side * perSide +
-            i % side * perSide + static_cast<std::size_t>(x);
-          const bool isSame = fine.coverage[sample] == 1.0f &&
-            glm::dot(normalOf(fine, sample), normal) > 0.7071 &&
-            std::abs(glm::dot(positionOf(fine, sample) - position, normal)) <= pixelSide &&
-            cosineTowards(fine, sample, light) > 0.0;
-          sum += isSame ? static_cast<double>(fine.visibility[0][sample]) : 0.0;
-          count += isSame ? 1 : 0;
-        }
+        const std::size_t sample =
+          (i / side * perSide + of / perSide) * side * perSide + i % side * perSide + of % perSide;
+        const bool isSame = fine.coverage[sample] == 1.0f &&
+          glm::dot(normalOf(fine, sample), normal) > 0.7071 &&
+          std::abs(glm::dot(positionOf(fine, sample) - position, normal)) <= pixelSide &&
+          cosineTowards(fine, sample, light) > 0.0;
+        sum += isSame ? static_cast<double>(fine.visibility[0][sample]) : 0.0;
+        count += isSame ? 1 : 0;
       }
       means.push_back(count > 0 ? sum / count : -1.0);
     }

@@ -17,20 +17,21 @@ struct ExactInMotion : PassTestOf<Variant>
   ExactInMotion()
   {
     this->scene.addFloor(4.0);
-    this->ball = this->addCopy(ballOf(glm::dvec3(0.0), 0.7, 32, 20), this->ballShape);
+    this->ball = this->scene.add(this->ballShape.Get());
     const auto open = ballOf(glm::dvec3(0.0), 0.5, 24, 12);
     open->SetEndPhi(100.0);
     vtkNew<vtkShrinkPolyData> torn; // each triangle has corners of its own
     torn->SetInputConnection(open->GetOutputPort());
     torn->SetShrinkFactor(1.0);
-    this->cup = this->addCopy(torn, this->cupShape);
+    this->cupShape = copyOf(torn);
+    this->cup = this->scene.add(this->cupShape.Get());
     // Two surfaces that meet in an edge.
     for (std::size_t side = 0; side < 2; ++side)
     {
       const double from = side == 0 ? -1.0 : 0.0;
-      const auto sheet =
-        planeOf({ from, -0.8, 1.6 }, { from + 1.0, -0.8, 1.6 }, { from, 0.8, 1.6 }, 6);
-      this->sheets[side] = this->addCopy(sheet, this->sheetShapes[side]);
+      this->sheetShapes[side] =
+        copyOf(planeOf({ from, -0.8, 1.6 }, { from + 1.0, -0.8, 1.6 }, { from, 0.8, 1.6 }, 6));
+      this->sheets[side] = this->scene.add(this->sheetShapes[side].Get());
     }
     this->sun = this->scene.addSun({ -1.0, -0.4, -2.0 });
     this->lamp = this->scene.addSpot({ -1.5, -1.0, 3.0 }, { 0.0, 0.0, 0.0 }, 80.0);
@@ -47,20 +48,16 @@ struct ExactInMotion : PassTestOf<Variant>
   /// Return a random number from -1 to 1.
   double some() { return std::uniform_real_distribution<double>(-1.0, 1.0)(this->random); }
 
-  using Corners = std::vector<glm::dvec3>;
-  static Corners cornersOf(vtkPolyData* shape)
+  static void putBack(vtkPolyData* shape, vtkPoints* corners)
   {
-    Corners corners(static_cast<std::size_t>(shape->GetNumberOfPoints()));
-    for (std::size_t i = 0; i < corners.size(); ++i)
-    {
-      shape->GetPoint(static_cast<vtkIdType>(i), &corners[i].x);
-    }
-    return corners;
+    shape->GetPoints()->DeepCopy(corners);
+    shape->GetPoints()->Modified();
   }
-  static void putBack(vtkPolyData* shape, const Corners& corners)
+  static vtkSmartPointer<vtkPoints> cornersOf(vtkPolyData* shape)
   {
-    std::size_t next = 0;
-    movePoints(shape, [&](const glm::dvec3&) { return corners[next++]; });
+    const auto corners = vtkSmartPointer<vtkPoints>::New();
+    corners->DeepCopy(shape->GetPoints());
+    return corners;
   }
 
   /// Remove the first of a shape's cells and reverse the order of the others.
@@ -98,8 +95,9 @@ struct ExactInMotion : PassTestOf<Variant>
 
   PassScene scene{ 160, 128 };
   vtkNew<vtkGnomonShadowPass> truth;
-  vtkNew<vtkPolyData> ballShape, cupShape;
-  std::array<vtkNew<vtkPolyData>, 2> sheetShapes;
+  vtkSmartPointer<vtkPolyData> ballShape = copyOf(ballOf(glm::dvec3(0.0), 0.7, 32, 20));
+  vtkSmartPointer<vtkPolyData> cupShape;
+  std::array<vtkSmartPointer<vtkPolyData>, 2> sheetShapes;
   vtkActor* ball;
   vtkActor* cup;
   std::array<vtkSmartPointer<vtkActor>, 2> sheets; // owned here, since the renderer may drop them
@@ -108,13 +106,6 @@ struct ExactInMotion : PassTestOf<Variant>
   std::mt19937 random;
   std::size_t rays = 0;
   std::size_t raysOfTruth = 0;
-
-private:
-  vtkActor* addCopy(vtkAlgorithm* source, vtkPolyData* copy)
-  {
-    copy->DeepCopy(outputOf(source));
-    return this->scene.add(copy);
-  }
 };
 
 TEST_P(ExactInMotion, showsWhatIsTraced)
@@ -122,7 +113,7 @@ TEST_P(ExactInMotion, showsWhatIsTraced)
   for (int round = 0; round < 3; ++round)
   {
     this->expectTruth("at rest");
-    const std::array<Corners, 2> whole{ { cornersOf(this->ballShape), cornersOf(this->cupShape) } };
+    const auto ballCorners = cornersOf(this->ballShape), cupCorners = cornersOf(this->cupShape);
     const auto jitter = [this](const glm::dvec3& point)
     { return point + 0.02 * glm::dvec3(this->some(), this->some(), this->some()); };
     movePoints(this->ballShape, jitter);
@@ -132,8 +123,8 @@ TEST_P(ExactInMotion, showsWhatIsTraced)
     movePoints(this->ballShape, merge);
     movePoints(this->cupShape, merge);
     this->expectTruth("points merged");
-    putBack(this->ballShape, whole[0]);
-    putBack(this->cupShape, whole[1]);
+    putBack(this->ballShape, ballCorners);
+    putBack(this->cupShape, cupCorners);
     this->expectTruth("points put back");
 
     this->ball->SetPosition(this->some(), this->some(), 0.8 + 0.5 * this->some());

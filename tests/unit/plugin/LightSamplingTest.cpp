@@ -243,12 +243,6 @@ struct LightSampling : LightSamplingScene
   {
     this->light = addRectangle(this->scene, { -2.0, -2.5, 4.0 }, glm::dvec3(0.0), 2.0, 50.0);
   }
-
-  void leaveFloorAlone()
-  {
-    this->box->VisibilityOff();
-    this->sphere->VisibilityOff();
-  }
 };
 
 /// The centre's picture comes first, then each point's, once.

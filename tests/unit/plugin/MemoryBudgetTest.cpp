@@ -26,10 +26,13 @@ LightNeed lamp(double mostLight)
   return need;
 }
 
-std::vector<int> sidesOf(const MemoryShares& shares)
+/// Share a budget among lights of a picture of a megapixel, whose image of numbers takes 4 MiB.
+/// Return each light's map's side; 0 for rays, -1 for no shadow.
+std::vector<int> sidesOf(const std::vector<LightNeed>& lights, double mebibytes, bool isInline)
 {
   std::vector<int> sides;
-  for (const LightShare& share : shares.lights)
+  for (const LightShare& share :
+    shareMemory(lights, mebibytes * mebibyte, 1024 * 1024, isInline).lights)
   {
     sides.push_back(share.way == LightWay::Map ? share.mapSizeTexels
         : share.way == LightWay::Rays          ? 0
@@ -38,33 +41,25 @@ std::vector<int> sidesOf(const MemoryShares& shares)
   return sides;
 }
 
-constexpr std::size_t megapixel = 1024 * 1024; // an image of numbers takes 4 MiB
+const std::vector<LightNeed> lamps = { lamp(1.0), lamp(3.0), lamp(2.0) };
+using Sides = std::vector<int>;
 
 } // namespace
 
 TEST(MemoryBudget, brightLightsKeepTheirMaps)
 {
-  const std::vector<LightNeed> lights = { lamp(1.0), lamp(3.0), lamp(2.0) };
-  EXPECT_EQ(sidesOf(shareMemory(lights, 12.0 * mebibyte, megapixel, true)),
-    (std::vector{ 1024, 1024, 1024 }));
-  EXPECT_EQ(sidesOf(shareMemory(lights, 9.5 * mebibyte, megapixel, true)),
-    (std::vector{ 512, 1024, 1024 }));
-  EXPECT_EQ(sidesOf(shareMemory(lights, 5.25 * mebibyte, megapixel, true)),
-    (std::vector{ 256, 1024, 512 }));
+  EXPECT_EQ(sidesOf(lamps, 12.0, true), (Sides{ 1024, 1024, 1024 }));
+  EXPECT_EQ(sidesOf(lamps, 9.5, true), (Sides{ 512, 1024, 1024 }));
+  EXPECT_EQ(sidesOf(lamps, 5.25, true), (Sides{ 256, 1024, 512 }));
 }
 
 // Images come first, since they also show the shadows of rays. Maps share the rest.
 TEST(MemoryBudget, thenTheyTakeRaysAndThenNone)
 {
-  const std::vector<LightNeed> lights = { lamp(1.0), lamp(3.0), lamp(2.0) };
-  EXPECT_EQ(sidesOf(shareMemory(lights, 24.5 * mebibyte, megapixel, false)),
-    (std::vector{ 256, 1024, 256 }));
-  EXPECT_EQ(
-    sidesOf(shareMemory(lights, 24.0 * mebibyte, megapixel, false)), (std::vector{ 0, 1024, 0 }));
-  EXPECT_EQ(
-    sidesOf(shareMemory(lights, 19.9 * mebibyte, megapixel, false)), (std::vector{ -1, 512, 512 }));
-  EXPECT_EQ(
-    sidesOf(shareMemory(lights, 7.0 * mebibyte, megapixel, false)), (std::vector{ -1, -1, -1 }));
+  EXPECT_EQ(sidesOf(lamps, 24.5, false), (Sides{ 256, 1024, 256 }));
+  EXPECT_EQ(sidesOf(lamps, 24.0, false), (Sides{ 0, 1024, 0 }));
+  EXPECT_EQ(sidesOf(lamps, 19.9, false), (Sides{ -1, 512, 512 }));
+  EXPECT_EQ(sidesOf(lamps, 7.0, false), (Sides{ -1, -1, -1 }));
 }
 
 TEST(MemoryBudget, mapsWhoseSizeNobodyKnowsGiveWayToRays)
@@ -73,34 +68,29 @@ TEST(MemoryBudget, mapsWhoseSizeNobodyKnowsGiveWayToRays)
   unknown.isPointwise = false;
   unknown.isHard = true;
   unknown.bytesPerTexel = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(sidesOf(shareMemory({ unknown }, 1e12, megapixel, true)), (std::vector{ 0 }));
+  EXPECT_EQ(sidesOf({ unknown }, 1e6, true), Sides{ 0 });
   unknown.bytesPerTexel = 0.0; // it has no map
-  EXPECT_EQ(
-    sidesOf(shareMemory({ unknown }, 8.0 * mebibyte, megapixel, true)), (std::vector{ 1024 }));
+  EXPECT_EQ(sidesOf({ unknown }, 8.0, true), Sides{ 1024 });
 }
 
 // 64 hard lights share an image of bits. Other lights, and techniques with their own images, take
 // one each.
 TEST(MemoryBudget, imagesAreCountedWhereThereAreAny)
 {
-  LightNeed rays;
-  rays.isHard = true;
-  const auto noneAmong = [](const MemoryShares& shares)
+  const auto noneAmong = [](std::size_t lights, const LightNeed& need, double mebibytes)
   {
-    const std::vector<int> sides = sidesOf(shares);
+    const Sides sides = sidesOf(std::vector(lights, need), mebibytes, true);
     return std::count(sides.begin(), sides.end(), -1);
   };
-  EXPECT_EQ(
-    noneAmong(shareMemory(std::vector<LightNeed>(64, rays), 8.0 * mebibyte, megapixel, true)), 0);
-  EXPECT_EQ(
-    noneAmong(shareMemory(std::vector<LightNeed>(70, rays), 16.0 * mebibyte, megapixel, true)), 4);
+  LightNeed rays;
+  rays.isHard = true;
+  EXPECT_EQ(noneAmong(64, rays, 8.0), 0);
+  EXPECT_EQ(noneAmong(70, rays, 16.0), 4);
   LightNeed soft;
   soft.channels = 3;
   soft.bytesPerPixel = 8.0;
-  EXPECT_EQ(
-    noneAmong(shareMemory(std::vector<LightNeed>(2, soft), 48.0 * mebibyte, megapixel, true)), 0);
-  EXPECT_EQ(
-    noneAmong(shareMemory(std::vector<LightNeed>(2, soft), 47.0 * mebibyte, megapixel, true)), 1);
+  EXPECT_EQ(noneAmong(2, soft, 48.0), 0);
+  EXPECT_EQ(noneAmong(2, soft, 47.0), 1);
 }
 
 TEST(MemoryBudget, lampsGiveMostAtTheNearestPoint)
@@ -142,6 +132,11 @@ struct MemoryBudgetOfPass
     vtkLight* const light = this->addSpot({ x, 0.0, 6.0 }, { x, 0.0, 0.0 }, allDirections);
     light->SetIntensity(intensity);
     return light;
+  }
+  void turn()
+  {
+    this->renderer->GetActiveCamera()->Azimuth(1.0);
+    this->render();
   }
   std::string budgetReason(std::size_t light) const
   {
@@ -241,8 +236,7 @@ TEST_F(MemoryBudgetOfPass, automaticLightsTakeWhatOthersLeave)
   this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
   for (int i = 0; i < 3; ++i)
   {
-    this->renderer->GetActiveCamera()->Azimuth(1.0);
-    this->render();
+    this->turn();
     EXPECT_LE(this->report().bytesMaps, 26 * 1024 * 1024u);
   }
 }
@@ -258,13 +252,11 @@ TEST_F(MemoryBudgetOfPass, automaticLightsKeepToIt)
   EXPECT_EQ(this->report().lights[0].technique, "raytraced");
   EXPECT_EQ(budgetReason(0), "");
   this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
-  this->renderer->GetActiveCamera()->Azimuth(1.0);
-  this->render();
+  this->turn();
   EXPECT_EQ(this->report().lights[0].technique, "nsm") << this->report().choice;
   EXPECT_LE(this->report().bytesMaps, 6 * 1024 * 1024u);
   this->pass->SetMemoryBudget(3.0);
-  this->renderer->GetActiveCamera()->Azimuth(1.0);
-  this->render();
+  this->turn();
   EXPECT_EQ(this->report().bytesMaps, 0u);
   EXPECT_EQ(this->report().lights[0].technique, "raytraced");
   EXPECT_THAT(this->report().choice, HasSubstr("memory budget"));

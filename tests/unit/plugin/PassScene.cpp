@@ -26,7 +26,7 @@ std::ostream& operator<<(std::ostream& stream, const Way& way)
 
 void choose(vtkGnomonShadowPass* pass, const Way& way)
 {
-  pass->SetTechnique(way.technique);
+  choose(pass, way.technique);
   pass->SetRoute(way.route);
 }
 

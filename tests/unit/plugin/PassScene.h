@@ -71,7 +71,7 @@ namespace gnomon::test
 /// A technique and a route to the shader that it can take.
 struct Way
 {
-  const char* technique;
+  const char* technique; ///< with settings or without
   int route;
 };
 std::string nameOf(const testing::TestParamInfo<Way>& way);

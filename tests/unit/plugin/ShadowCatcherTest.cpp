@@ -19,13 +19,7 @@ struct ShadowCatcherTest : PassTestOf<Way>
     this->box = this->scene.addBox({ -1.0, -1.0, 1.0 }, { 1.0, 1.0, 3.0 });
     this->sun = this->scene.addSun(slantingSun);
     this->scene.lookDown(6.0);
-  }
-
-  vtkActor* floor() { return this->floor_; }
-  void choose()
-  {
-    this->scene.choose(this->GetParam().technique);
-    this->scene.pass->SetRoute(this->GetParam().route);
+    this->scene.choose(GetParam());
   }
 
   /// Compare the catcher over a white page with the share of the floor's light that arrives.
@@ -35,9 +29,9 @@ struct ShadowCatcherTest : PassTestOf<Way>
     vtkGnomonPropKeys::SetCasts(this->box, false);
     const Picture lit = this->scene.render();
     vtkGnomonPropKeys::SetCasts(this->box, true);
-    vtkGnomonPropKeys::SetShadowCatcher(this->floor(), true);
+    vtkGnomonPropKeys::SetShadowCatcher(this->floor, true);
     const Picture caught = this->scene.render();
-    vtkGnomonPropKeys::SetShadowCatcher(this->floor(), false);
+    vtkGnomonPropKeys::SetShadowCatcher(this->floor, false);
     std::size_t dark = 0;
     for (int y = 0; y < shadowed.height; ++y)
     {
@@ -55,15 +49,14 @@ struct ShadowCatcherTest : PassTestOf<Way>
   }
 
   PassScene scene{ 64, 64 };
-  vtkActor* floor_ = this->scene.addFloor(20.0);
+  vtkActor* floor = this->scene.addFloor(20.0);
   vtkActor* box = nullptr;
   vtkLight* sun = nullptr;
 };
 
 TEST_P(ShadowCatcherTest, TheirOpacityIsTheShareOfHiddenLight)
 {
-  this->choose();
-  vtkProperty* const material = this->floor()->GetProperty();
+  vtkProperty* const material = this->floor->GetProperty();
   for (const double sky : { 0.0, 0.4 })
   {
     SCOPED_TRACE("sky " + std::to_string(sky));
@@ -83,9 +76,8 @@ TEST_P(ShadowCatcherTest, TheirOpacityIsTheShareOfHiddenLight)
 
 TEST_P(ShadowCatcherTest, SeveralLightsShareTheOpacity)
 {
-  this->choose();
   this->scene.addSun({ -1.0, 0.5, -1.0 })->SetIntensity(0.3);
-  this->floor()->GetProperty()->SetDiffuse(0.7);
+  this->floor->GetProperty()->SetDiffuse(0.7);
   this->expectShareOfLight();
   this->sun->SetShadowAttenuation(0.5);
   this->expectShareOfLight();

@@ -147,20 +147,11 @@ void addTo(PassScene& view, const CasterScene& scene, bool averaged)
 {
   vtkNew<vtkAppendPolyData> ground;
   ground->AddInputData(withNormals(scene.ground, averaged));
+  view.add(ground); // the first prop
   for (const Mesh& caster : scene.casters)
   {
-    if (scene.isAppended)
-    {
-      ground->AddInputData(withNormals(caster, false));
-    }
-  }
-  view.add(outputOf(ground));
-  for (const Mesh& caster : scene.casters)
-  {
-    if (!scene.isAppended)
-    {
-      view.add(caster.Get());
-    }
+    scene.isAppended ? ground->AddInputData(withNormals(caster, false))
+                     : void(view.add(caster.Get()));
   }
   view.lookFrom(scene.eye, scene.target);
   view.addSun(-scene.towardsSun);

@@ -63,26 +63,18 @@ struct Smoke
   void setScalars(int components, const ScalarAt& scalarAt, int type = VTK_FLOAT)
   {
     this->image->AllocateScalars(type, components);
-    const int* const size = this->image->GetDimensions();
-    const glm::dvec3 last = glm::dvec3(size[0], size[1], size[2]) - 1.0;
-    for (int z = 0; z < size[2]; ++z)
+    const glm::ivec3 size = glm::make_vec3(this->image->GetDimensions());
+    for (int i = 0; i < components * size.x * size.y * size.z; ++i)
     {
-      for (int y = 0; y < size[1]; ++y)
-      {
-        for (int x = 0; x < size[0]; ++x)
-        {
-          for (int c = 0; c < components; ++c)
-          {
-            this->image->SetScalarComponentFromDouble(
-              x, y, z, c, scalarAt(c, 2.0 * glm::dvec3(x, y, z) / last - 1.0));
-          }
-        }
-      }
+      const int point = i / components;
+      const glm::ivec3 at(point % size.x, point / size.x % size.y, point / size.x / size.y);
+      this->image->SetScalarComponentFromDouble(at.x, at.y, at.z, i % components,
+        scalarAt(i % components, 2.0 * glm::dvec3(at) / glm::dvec3(size - 1) - 1.0));
     }
     for (int c = 0; c < components; ++c)
     {
       this->image->SetScalarComponentFromDouble(0, 0, 0, c, 0.0);
-      this->image->SetScalarComponentFromDouble(size[0] - 1, size[1] - 1, size[2] - 1, c, 200.0);
+      this->image->SetScalarComponentFromDouble(size.x - 1, size.y - 1, size.z - 1, c, 200.0);
     }
   }
   /// Scalars that vary in all directions.
