@@ -79,10 +79,8 @@ TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
   const Picture without = this->scene.render();
   const bool filters =
     gnomon::findTechnique(GetParam().technique)->estimator->info.has(gnomon::kernelSettings());
-  std::size_t shadowed = 0;
-  for (int y = 0; y < picture.height; ++y)
-  {
-    for (int x = 0; x < picture.width; ++x)
+  const std::size_t shadowed = countPixels(picture,
+    [&](int x, int y)
     {
       const glm::dvec3 dark(without.at(x, y));
       const glm::dvec3 way = glm::dvec3(all.at(x, y)) - dark;
@@ -92,9 +90,8 @@ TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
       lit = filters ? lit : std::round(lit);
       const glm::dvec3 off = glm::abs(shown - lit * way);
       EXPECT_LE(std::max({ off.r, off.g, off.b }), filters ? 1.5 : 1.0) << x << ", " << y;
-      shadowed += lit == 0.0 && length2 > 3.0 ? 1 : 0;
-    }
-  }
+      return lit == 0.0 && length2 > 3.0;
+    });
   EXPECT_GT(shadowed, 1000u);
   EXPECT_LT(shadowed, 12000u);
 }

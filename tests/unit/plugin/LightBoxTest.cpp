@@ -53,8 +53,7 @@ struct LightBox : PassTestOf<Way>
       const bool inBox =
         along <= depth && std::abs(across) <= 0.5 * width && std::abs(floor.y) <= 0.5 * height;
       const bool shadow = std::any_of(this->casters.begin(), this->casters.end(),
-        [&](const Box& caster)
-        { return hitsBox(floor, -this->travel, caster.lower, caster.upper, along); });
+        [&](const Box& caster) { return hitsBox(floor, -this->travel, caster, along); });
       return inBox && !shadow ? 180.0 : 0.0; // 255 times the cosine of 45 degrees
     };
   }

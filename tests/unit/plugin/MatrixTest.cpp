@@ -127,15 +127,13 @@ struct Matrix : PassTestOf<std::tuple<std::size_t, std::size_t>>
       const View view = this->draw(window, i, light, way);
       visibility.insert(visibility.end(), view.visibility.begin(), view.visibility.end());
       EXPECT_EQ(view.visibility.size(), view.shadowed.pixels());
-      for (int y = 0; y < view.shadowed.height; ++y)
-      {
-        for (int x = 0; x < view.shadowed.width; ++x)
+      compared += countPixels(view.shadowed,
+        [&](int x, int y)
         {
           if (window.hasSeveralSamples() && !isUniform(view, x, y))
           {
-            continue;
+            return false;
           }
-          ++compared;
           const double v = view.visibility.at(static_cast<std::size_t>(y * view.lit.width + x));
           wrong += this->shows(v, view, x, y) ? 0 : 1;
           // The floor is green and the beam is blue.
@@ -144,8 +142,8 @@ struct Matrix : PassTestOf<std::tuple<std::size_t, std::size_t>>
             onBallLit += v == 1.0 ? 1 : 0;
             onBallDark += v == 0.0 ? 1 : 0;
           }
-        }
-      }
+          return true;
+        });
     }
     // The routes may differ by rounding. A pixel may also have a sample of a surface that no
     // pixel's centre shows.

@@ -235,7 +235,7 @@ ExactFloor floorUnderSun(const Box& box, double extent)
     {
       return -1.0;
     }
-    return hitsBox(floor, -slantingSun, box.lower, box.upper) ? 0.0 : slantingSunValue;
+    return hitsBox(floor, -slantingSun, box) ? 0.0 : slantingSunValue;
   };
 }
 
@@ -255,11 +255,6 @@ FloorCheck BoxScene::check(const Picture& picture, double band) const
   return checkFloor(*this, picture, floorUnderSun(this->box, this->extent), band);
 }
 
-SphereUnderSun::SphereUnderSun(int width, int height)
-  : PassScene(width, height)
-{
-}
-
 SunAndSpotScene::SunAndSpotScene(int width, int height)
   : SphereUnderSun(width, height)
 {
@@ -271,9 +266,8 @@ FloorCheck checkFloor(
 {
   FloorCheck check;
   constexpr double tolerance = 64.0;
-  for (int y = 0; y < picture.height; ++y)
-  {
-    for (int x = 0; x < picture.width; ++x)
+  check.counted = countPixels(picture,
+    [&](int x, int y)
     {
       const glm::dvec2 floor = scene.floorAt(x, y);
       const double value = exact(floor);
@@ -282,15 +276,10 @@ FloorCheck checkFloor(
       {
         nearEdge = exact(floor + 0.25 * band * glm::dvec2(i % 9 - 4, i / 9 - 4)) != value;
       }
-      if (nearEdge)
-      {
-        continue;
-      }
-      ++check.counted;
-      check.falseLight += picture.red(x, y) > value + tolerance ? 1 : 0;
-      check.falseShadow += picture.red(x, y) < value - tolerance ? 1 : 0;
-    }
-  }
+      check.falseLight += !nearEdge && picture.red(x, y) > value + tolerance ? 1 : 0;
+      check.falseShadow += !nearEdge && picture.red(x, y) < value - tolerance ? 1 : 0;
+      return !nearEdge;
+    });
   return check;
 }
 
@@ -313,10 +302,9 @@ std::pair<double, double> spanIn(
     std::min({ end, leave.x, leave.y, leave.z }) };
 }
 
-bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
-  const glm::dvec3& upper, double end)
+bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const Box& box, double end)
 {
-  const auto [first, last] = spanIn({ lower, upper }, glm::dvec3(floor, 0.0), toLight, end);
+  const auto [first, last] = spanIn(box, glm::dvec3(floor, 0.0), toLight, end);
   return first <= last;
 }
 

@@ -224,7 +224,7 @@ struct BoxScene : PassScene
 /// A sphere over a floor, under a sun.
 struct SphereUnderSun : PassScene
 {
-  SphereUnderSun(int width, int height);
+  using PassScene::PassScene;
 
   vtkActor* sphere = this->addSphereOverFloor();
   vtkLight* sun = this->addSun({ 1.0, 0.3, -1.5 });
@@ -247,8 +247,8 @@ std::pair<double, double> spanIn(
   const Box& box, const glm::dvec3& start, const glm::dvec3& ray, double end = 1e300);
 /// True if the ray from a floor point towards the light, p + t * toLight for t from 0 to `end`,
 /// meets the box.
-bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
-  const glm::dvec3& upper, double end = 1e300);
+bool hitsBox(
+  const glm::dvec2& floor, const glm::dvec3& toLight, const Box& box, double end = 1e300);
 
 /// True if OpenGL draws on a GPU, whose memory may have room for huge maps.
 bool isOnGpu();

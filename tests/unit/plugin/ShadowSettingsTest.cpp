@@ -16,14 +16,11 @@ namespace
 
 struct ShadowSettingsTest
   : PassTest
-  , PassScene
+  , BoxScene
 {
   ShadowSettingsTest()
-    : PassScene(64, 48)
+    : BoxScene(64, 48)
   {
-    this->addFloor(10.0);
-    this->addBox(hangingBox.lower, hangingBox.upper);
-    this->lookFrom({ 4.0, -9.0, 7.0 });
   }
 
   vtkNew<vtkGnomonShadowSettings> settings;
@@ -99,7 +96,6 @@ TEST_F(ShadowSettingsTest, theListHasAllOfThem)
 
 TEST_F(ShadowSettingsTest, passesShareThem)
 {
-  this->addSun(slantingSun);
   vtkNew<vtkGnomonShadowPass> other;
   this->settings->SetTechnique("pcf");
   this->pass->SetSettings(this->settings);
@@ -121,21 +117,20 @@ TEST_F(ShadowSettingsTest, passesShareThem)
 // leaves unset are the pass's.
 TEST_F(ShadowSettingsTest, lightsHaveTheirOwn)
 {
-  vtkLight* const sun = this->addSun(slantingSun);
   this->pass->SetTechnique("nsm");
   this->pass->SetMapSize(256);
   this->settings->SetTechnique("pcf");
   this->settings->SetKernelSize(7);
-  vtkGnomonLightKeys::SetSettings(sun, this->settings);
-  EXPECT_EQ(vtkGnomonLightKeys::GetSettings(sun), this->settings.GetPointer());
+  vtkGnomonLightKeys::SetSettings(this->sun, this->settings);
+  EXPECT_EQ(vtkGnomonLightKeys::GetSettings(this->sun), this->settings.GetPointer());
   this->render();
   EXPECT_EQ(this->report().lights[0].technique, "pcf");
   EXPECT_EQ(this->report().lights[0].mapSizeTexels, 256);
   EXPECT_EQ(this->report().lights[0].kernelTexels, 7);
-  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "3");
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", "3");
   this->render();
   EXPECT_EQ(this->report().lights[0].kernelTexels, 3);
-  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", nullptr);
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", nullptr);
   this->settings->UnsetSetting("kernel_size");
   EXPECT_FALSE(this->settings->IsSettingSet("kernel_size"));
   EXPECT_TRUE(this->settings->IsSettingSet("technique"));
@@ -143,7 +138,7 @@ TEST_F(ShadowSettingsTest, lightsHaveTheirOwn)
   this->render();
   EXPECT_EQ(this->report().lights[0].kernelTexels, 9);
   this->pass->GetSettings()->UnsetSetting("kernel_size");
-  vtkGnomonLightKeys::SetSettings(sun, nullptr);
+  vtkGnomonLightKeys::SetSettings(this->sun, nullptr);
   this->render();
   EXPECT_EQ(this->report().lights[0].technique, "nsm");
 }
