@@ -2,8 +2,6 @@
 /// main() of all test programs. A program runs many cases. If one crashes or hangs, GoogleTest
 /// prints nothing under --gtest_brief, so this main() names the case.
 /// The variables GNOMON_TEST_TIER and GNOMON_SLOW_CASES choose cases (QuickTier.h).
-/// Each case begins under a C++ locale of commas, as programs may set one: shaders and reports must
-/// not follow it.
 
 #include "QuickTier.h"
 
@@ -13,7 +11,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <locale>
 #include <string>
 
 #include <unistd.h>
@@ -40,26 +37,15 @@ extern "C" void nameTheCase(int signal)
   std::raise(signal);
 }
 
-/// Decimal points are commas, and thousands are grouped by points.
-struct Commas : std::numpunct<char>
-{
-  char do_decimal_point() const override { return ','; }
-  char do_thousands_sep() const override { return '.'; }
-  std::string do_grouping() const override { return "\3"; }
-};
-
 class Watch : public testing::EmptyTestEventListener
 {
   void OnTestStart(const testing::TestInfo& test) override
   {
     const std::string name = std::string(test.test_suite_name()) + "." + test.name();
     std::strncpy(running.data(), name.c_str(), running.size() - 1);
-    std::locale::global(this->commas_);
     alarm(secondsPerCase);
   }
   void OnTestEnd(const testing::TestInfo& /*test*/) override { alarm(0); }
-
-  const std::locale commas_{ std::locale::classic(), new Commas };
 };
 
 /// Return a variable of the environment; empty if it is not set.

@@ -10,6 +10,18 @@
 
 namespace gnomon::test
 {
+namespace
+{
+
+/// Decimal points are commas, and thousands are grouped by points.
+struct Commas : std::numpunct<char>
+{
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+} // namespace
 
 std::string nameOf(const testing::TestParamInfo<Way>& way)
 {
@@ -457,6 +469,11 @@ void aim(vtkLight* light, const glm::dvec3& position, const glm::dvec3& target)
 vtkLight* lightOf(vtkRenderer* renderer, int index)
 {
   return vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(index));
+}
+
+PassTest::PassTest()
+  : localeBefore_(std::locale::global(std::locale(std::locale::classic(), new Commas)))
+{
 }
 
 void PassTest::TearDown()

@@ -52,6 +52,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <locale>
 #include <map>
 #include <memory>
 #include <ostream>
@@ -376,14 +377,18 @@ void aim(vtkLight* light, const glm::dvec3& position, const glm::dvec3& target =
 /// Return the light with this place among the renderer's.
 vtkLight* lightOf(vtkRenderer* renderer, int index = 0);
 
-/// After each test, VTK must have reported no error except those that the test takes.
+/// After each test, VTK must have reported no error except those that the test takes. Tests run
+/// under a C++ locale of commas, as programs may set one: shaders and reports must not follow it.
 class PassTest : public testing::Test
 {
 protected:
+  PassTest();
+  ~PassTest() override { std::locale::global(this->localeBefore_); }
   void TearDown() override;
   /// Return the errors since the last call as one text; the test then ignores them.
   std::string takeErrors();
 
+  std::locale localeBefore_;
   tool::VtkMessages messages_;
   std::size_t errorsTaken_ = 0;
 };
