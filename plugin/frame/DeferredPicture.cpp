@@ -69,7 +69,7 @@ void DeferredPicture::attach(bool withFragments, const std::optional<glm::vec4>&
   this->origin_ = { viewport[0], viewport[1] };
   this->size_ = { viewport[2], viewport[3] };
   this->allocate(this->origin_ + this->size_, isEightBit());
-  // Fragments may blend with the picture so far. A copy waits for software OpenGL.
+  // Fragments may blend with the picture so far. To copy it waits until software OpenGL has drawn.
   const bool clears = cleared && this->eightBit_;
   if (!clears)
   {

@@ -5,7 +5,6 @@
 #include "plugin/scene/ShownView.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/window/PictureTarget.h"
-#include "plugin/window/RendererScopes.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/GlState.h"
 
@@ -15,6 +14,8 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -58,6 +59,20 @@ bool drawsInSoftware()
 {
   const GLubyte* const name = glGetString(GL_RENDERER);
   return isSoftwareRenderer(name ? reinterpret_cast<const char*>(name) : "");
+}
+
+/// Return the colour to which a renderer clears its picture; none if it leaves or draws more there
+/// before its props.
+std::optional<glm::vec4> clearedColour(vtkRenderer* renderer)
+{
+  const bool isCleared = std::strcmp(renderer->GetClassName(), "vtkOpenGLRenderer") == 0 &&
+    renderer->GetErase() && renderer->GetRenderWindow()->GetErase() && !renderer->Transparent();
+  if (!isCleared || renderer->GetGradientBackground() || renderer->GetTexturedBackground())
+  {
+    return std::nullopt;
+  }
+  const double* const colour = renderer->GetBackground();
+  return glm::vec4(colour[0], colour[1], colour[2], renderer->GetBackgroundAlpha());
 }
 
 } // namespace

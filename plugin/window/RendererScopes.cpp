@@ -4,7 +4,6 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace gnomon
 {
@@ -22,18 +21,6 @@ struct ShadowsAccess : vtkRenderer
 };
 
 } // namespace
-
-std::optional<glm::vec4> clearedColour(vtkRenderer* renderer)
-{
-  const bool isCleared = std::strcmp(renderer->GetClassName(), "vtkOpenGLRenderer") == 0 &&
-    renderer->GetErase() && renderer->GetRenderWindow()->GetErase() && !renderer->Transparent();
-  if (!isCleared || renderer->GetGradientBackground() || renderer->GetTexturedBackground())
-  {
-    return std::nullopt;
-  }
-  const double* const colour = renderer->GetBackground();
-  return glm::vec4(colour[0], colour[1], colour[2], renderer->GetBackgroundAlpha());
-}
 
 ReducedPicture::ReducedPicture(vtkRenderer* renderer, int factor)
   : renderer_(renderer)

@@ -4,20 +4,12 @@
 
 #include <vtkType.h>
 
-#include <glm/glm.hpp>
-
-#include <optional>
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderer;
 VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {
-
-/// Return the colour to which a renderer clears its picture; none if it leaves or draws more there
-/// before its props.
-std::optional<glm::vec4> clearedColour(vtkRenderer* renderer);
 
 /// Has a renderer draw into the lower left part of its viewport, for as long as this lives.
 class ReducedPicture
